@@ -1,0 +1,109 @@
+#include "base/arena.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct block {
+    struct block *prev;
+    size_t used, size;
+    _Alignas(64) unsigned char data[];
+};
+
+enum { BLOCK_MAX = 16 << 20 }; // blocks double up to this size
+
+struct arena {
+    struct block *head;
+};
+
+static struct block *block_new(struct block *prev, size_t size)
+{
+    size = (size + 63) & ~(size_t)63;
+    struct block *b = aligned_alloc(64, sizeof *b + size);
+    if (!b) {
+        fputs("lambert: out of memory\n", stderr);
+        abort();
+    }
+    b->prev = prev;
+    b->used = 0;
+    b->size = size;
+    return b;
+}
+
+struct arena *arena_new(size_t first_block)
+{
+    struct arena *a = malloc(sizeof *a);
+    if (!a)
+        abort();
+    a->head = block_new(NULL, first_block);
+    return a;
+}
+
+void arena_free(struct arena *a)
+{
+    if (!a)
+        return;
+    for (struct block *b = a->head, *prev; b; b = prev) {
+        prev = b->prev;
+        free(b);
+    }
+    free(a);
+}
+
+void arena_reset(struct arena *a)
+{
+    while (a->head->prev) {
+        struct block *b = a->head;
+        a->head = b->prev;
+        free(b);
+    }
+    a->head->used = 0;
+}
+
+static void *alloc(struct arena *a, size_t size, size_t align)
+{
+    if (size > SIZE_MAX / 4)
+        abort();
+    struct block *b = a->head;
+    size_t at = (b->used + align - 1) & ~(align - 1);
+    if (at > b->size || b->size - at < size) {
+        size_t next = b->size < BLOCK_MAX ? 2 * b->size : b->size;
+        b = a->head = block_new(b, size > next ? size : next);
+        at = 0;
+    }
+    b->used = at + size;
+    return memset(b->data + at, 0, size);
+}
+
+void *arena_alloc(struct arena *a, size_t size)
+{
+    return alloc(a, size, _Alignof(max_align_t));
+}
+
+void *arena_alloc_aligned(struct arena *a, size_t size, size_t align)
+{
+    return alloc(a, size, align);
+}
+
+char *arena_strndup(struct arena *a, const char *s, size_t len)
+{
+    char *p = arena_alloc(a, len + 1);
+    memcpy(p, s, len);
+    return p;
+}
+
+char *arena_printf(struct arena *a, const char *fmt, ...)
+{
+    va_list ap, ap2;
+    va_start(ap, fmt);
+    va_copy(ap2, ap);
+    char probe[1];
+    int n = vsnprintf(probe, sizeof probe, fmt, ap);
+    va_end(ap);
+    char *s = arena_alloc(a, (size_t)n + 1);
+    vsnprintf(s, (size_t)n + 1, fmt, ap2);
+    va_end(ap2);
+    return s;
+}

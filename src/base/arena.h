@@ -1,0 +1,25 @@
+#ifndef BASE_ARENA_H
+#define BASE_ARENA_H
+
+#include <stddef.h>
+
+// A region of memory freed all at once. Everything a stage builds for the next
+// one (tokens, AST, scene) lives in an arena; nothing in it is freed alone.
+struct arena;
+
+struct arena *arena_new(size_t first_block);
+void arena_free(struct arena *a);
+void arena_reset(struct arena *a); // forgets everything, keeps the first block
+
+// Zeroed memory, aligned for any type (or to `align`, a power of two up to 64).
+// Aborts the process when out of memory.
+void *arena_alloc(struct arena *a, size_t size);
+void *arena_alloc_aligned(struct arena *a, size_t size, size_t align);
+char *arena_strndup(struct arena *a, const char *s, size_t len);
+char *arena_printf(struct arena *a, const char *fmt, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#define arena_new_struct(a, type) ((type *)arena_alloc((a), sizeof(type)))
+#define arena_new_array(a, type, n) ((type *)arena_alloc((a), (n) * sizeof(type)))
+
+#endif

@@ -1,0 +1,68 @@
+#include "base/source.h"
+
+#include <string.h>
+
+#include "base/arena.h"
+
+enum { EXPANSIONS_MAX = 1 << 20 };
+
+void source_map_init(struct source_map *m, struct arena *arena)
+{
+    *m = (struct source_map){.arena = arena, .expansion_count = 1};
+}
+
+// Doubles an arena-held array; the old copy stays in the arena.
+static void *grow(struct arena *a, void *old, uint32_t count, uint32_t *capacity,
+                  size_t size)
+{
+    if (count < *capacity)
+        return old;
+    *capacity = *capacity ? 2 * *capacity : 16;
+    void *p = arena_alloc(a, *capacity * size);
+    if (old)
+        memcpy(p, old, count * size);
+    return p;
+}
+
+uint32_t source_add(struct source_map *m, const char *name, const char *text, size_t len,
+                    struct span included_at)
+{
+    struct source_file *f = arena_new_struct(m->arena, struct source_file);
+    f->name = name;
+    f->text = text;
+    f->len = (uint32_t)len;
+    f->included_at = included_at;
+    f->line_count = 1;
+    for (size_t i = 0; i < len; i++)
+        f->line_count += text[i] == '\n';
+    f->line_start = arena_alloc(m->arena, f->line_count * sizeof *f->line_start);
+    for (uint32_t i = 0, line = 1; i < f->len; i++)
+        if (text[i] == '\n' && line < f->line_count)
+            f->line_start[line++] = i + 1;
+    m->file = grow(m->arena, m->file, m->count, &m->capacity, sizeof(struct source_file *));
+    m->file[m->count] = f;
+    return m->count++;
+}
+
+uint32_t source_line(const struct source_file *f, uint32_t offset)
+{
+    uint32_t lo = 0, hi = f->line_count;
+    while (hi - lo > 1) {
+        uint32_t mid = lo + (hi - lo) / 2;
+        if (f->line_start[mid] <= offset)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+uint32_t source_expand(struct source_map *m, const char *macro, struct span called_at)
+{
+    if (m->expansion_count >= EXPANSIONS_MAX)
+        return 0;
+    m->expansions = grow(m->arena, m->expansions, m->expansion_count,
+                         &m->expansion_capacity, sizeof(struct expansion));
+    m->expansions[m->expansion_count] = (struct expansion){macro, called_at};
+    return m->expansion_count++;
+}

@@ -1,0 +1,55 @@
+#ifndef BASE_SOURCE_H
+#define BASE_SOURCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct arena;
+
+// A half-open byte range [begin, end) of one source file. `expansion` is the
+// macro call whose body the text was read for (an index into source_map's
+// expansions; 0 = none), so that a message can name the calls that led to it.
+struct span {
+    uint32_t file, begin, end, expansion;
+};
+
+struct source_file {
+    const char *name; // as used to open it
+    const char *text;
+    uint32_t len;
+    uint32_t *line_start; // byte offset of each line
+    uint32_t line_count;
+    struct span included_at; // where the #include stood; end == 0 for the main file
+};
+
+struct expansion {
+    const char *macro;
+    struct span called_at; // its own `expansion` is the enclosing call
+};
+
+// Every file read for one scene and every macro call; grows, never shrinks.
+struct source_map {
+    struct arena *arena;
+    struct source_file **file;
+    uint32_t count, capacity;
+    struct expansion *expansions;
+    uint32_t expansion_count, expansion_capacity;
+};
+
+void source_map_init(struct source_map *m, struct arena *arena);
+uint32_t source_add(struct source_map *m, const char *name, const char *text, size_t len,
+                    struct span included_at);
+uint32_t source_line(const struct source_file *f, uint32_t offset); // 0-based
+
+// Records a macro call and returns its id; 0 (no trace) once EXPANSIONS_MAX are
+// recorded, so that a scene with millions of calls does not pay for messages.
+uint32_t source_expand(struct source_map *m, const char *macro, struct span called_at);
+
+static inline struct span span_join(struct span a, struct span b)
+{
+    if (a.file == b.file && b.end > a.begin)
+        a.end = b.end;
+    return a;
+}
+
+#endif

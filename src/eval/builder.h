@@ -1,0 +1,24 @@
+#ifndef EVAL_BUILDER_H
+#define EVAL_BUILDER_H
+
+#include "eval/eval.h"
+
+// Turns blocks into parts of the scene. One per evaluation.
+struct builder *builder_new(struct eval *e);
+
+// A finished object block (sphere{}, union{}, object{}, light_source{} ...): an
+// AST_VALUE node holding the object, or NULL after an error.
+const struct value *builder_object(struct builder *b, const struct ast *block);
+// Any other block that can stand on a right side (texture, pigment, finish,
+// transform, camera, color_map ...). `items` may be several textures in a row.
+const struct value *builder_block(struct builder *b, const struct ast *items);
+// A statement of the scene: adds to b's scene.
+bool builder_statement(struct builder *b, const struct ast *item);
+bool builder_defaults(struct builder *b, const struct ast *items);
+// Fills what the end of parsing decides: default camera, gamma, background.
+bool builder_finish(struct builder *b);
+
+bool builder_is_object_word(enum word w);
+bool builder_is_block_word(enum word w);
+
+#endif

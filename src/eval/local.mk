@@ -1,0 +1,2 @@
+liblambert_a_SOURCES += \
+	%D%/builder.h %D%/eval.h %D%/value.h

@@ -1,0 +1,59 @@
+#ifndef IMAGE_IMAGE_H
+#define IMAGE_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Pixels as rows from the top, `channels` floats each (3 rgb or 4 premultiplied
+// rgba), linear unless said.
+struct image {
+    int width, height, channels;
+    float *pixel;
+};
+
+bool image_init(struct image *im, int width, int height, int channels); // zeroed
+void image_free(struct image *im);
+static inline float *image_at(const struct image *im, int x, int y)
+{
+    return im->pixel + ((size_t)y * (size_t)im->width + (size_t)x) * (size_t)im->channels;
+}
+
+// How numbers are encoded in integer files (spec/lighting.md 3.4).
+enum transfer_kind { TRANSFER_NONE, TRANSFER_POWER, TRANSFER_SRGB };
+struct transfer {
+    enum transfer_kind kind;
+    double gamma; // TRANSFER_POWER
+};
+double transfer_encode(struct transfer t, double linear);
+double transfer_decode(struct transfer t, double encoded);
+
+enum image_type { IMAGE_PNG, IMAGE_EXR, IMAGE_PPM, IMAGE_UNKNOWN };
+enum image_type image_type_of(const char *path); // by extension
+
+struct image_metadata {
+    const char *const *key;
+    const char *const *text;
+    size_t count;
+};
+
+struct image_write_options {
+    enum image_type type;
+    int bits;                 // PNG: 8 or 16; EXR: 16 half or 32 float
+    bool alpha;               // write the fourth channel
+    bool grey;
+    struct transfer transfer; // integer files
+    struct image_metadata metadata;
+};
+
+// Writes to a temporary file beside `path` and renames it: an older good file is
+// never left half overwritten. Same pixels and options give the same bytes. "-" is
+// standard output. False: *error says why (static or in errbuf).
+bool image_write(const struct image *im, const char *path,
+                 const struct image_write_options *options, char *error,
+                 size_t error_size);
+// Reads PNG, EXR or PPM to linear floats (integer files decoded by `transfer`).
+bool image_read(struct image *im, const char *path, struct transfer transfer, char *error,
+                size_t error_size);
+
+#endif

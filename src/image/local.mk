@@ -1,0 +1,2 @@
+liblambert_a_SOURCES += \
+	%D%/image.h

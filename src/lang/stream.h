@@ -1,0 +1,106 @@
+#ifndef LANG_STREAM_H
+#define LANG_STREAM_H
+
+#include <stdbool.h>
+
+#include "base/diag.h"
+#include "lang/ast.h"
+#include "lang/token.h"
+
+struct arena;
+struct value;
+
+// What a name stands for at the moment its token is read; tells the grammar how
+// to take what follows ('(' after a function, '[' after an array).
+enum name_class {
+    NAME_UNDECLARED,
+    NAME_VALUE,    // number, vector, colour, or anything copied whole
+    NAME_STRING,
+    NAME_FUNCTION, // declared function or spline: NAME '(' starts a call
+    NAME_ARRAY,    // NAME '[' starts a subscript
+    NAME_MACRO,    // the stream expands it; the grammar never sees it
+    NAME_OBJECT,   // object
+    NAME_BLOCK,    // texture, pigment, transform, map, ...: any other block value
+};
+
+struct name_info {
+    enum name_class class;
+    const struct value *value; // the value now, immutable
+    void *macro;               // NAME_MACRO: what define_macro stored
+};
+
+// A place an assignment goes to: a name, with subscripts for an array element.
+struct lvalue {
+    const char *name;
+    size_t len;
+    struct span where;
+    const struct ast *index; // list of subscripts, or NULL
+    bool local;              // #local
+};
+
+// One macro argument: by reference when it is a single name or array element,
+// else a value.
+struct macro_argument {
+    bool by_reference;
+    struct lvalue reference;
+    const struct ast *rvalue; // list of items when not by reference
+};
+
+// How the stream asks for the worth of expressions and where names are kept;
+// eval/ fills it in, so that lang/ need not know eval/. All report their own
+// errors; false or NULL means the statement had an error and was dropped.
+struct stream_host {
+    void *user;
+    struct name_info (*lookup)(void *user, const char *name, size_t len);
+    bool (*number)(void *user, const struct ast *expr, double *out); // width 1
+    bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
+    bool (*is_declared)(void *user, const struct lvalue *name); // #ifdef, defined()
+
+    // #declare / #local: begin makes the empty local entry before the right side
+    // is read (spec/language 3.2); assign stores it. items: one node or a list
+    // (`rgb <1,0,0> filter 0.5`, `texture{} texture{}`).
+    bool (*declare_begin)(void *user, const struct lvalue *to);
+    bool (*declare)(void *user, const struct lvalue *to, const struct ast *items);
+    bool (*declare_number)(void *user, const struct lvalue *to, double v); // #for
+    bool (*declare_array)(void *user, const struct lvalue *to, const struct ast *sizes,
+                          const struct ast *elements); // elements: nested AST_ENTRY or NULL
+    bool (*undef)(void *user, const struct lvalue *name);
+    bool (*define_macro)(void *user, const char *name, size_t len, struct span where,
+                         void *macro);
+
+    // Symbol tables: one per include file and macro call in progress.
+    bool (*enter_scope)(void *user, struct span where);
+    void (*leave_scope)(void *user);
+    bool (*bind_argument)(void *user, const char *parameter, size_t len,
+                          const struct macro_argument *argument);
+
+    // An expression or block the grammar has just finished, to be evaluated at its
+    // closing token (calls with side effects, objects): returns the node to keep.
+    struct ast *(*finish)(void *user, struct ast *node);
+
+    // #debug #warning #error #render #statistics
+    bool (*message)(void *user, enum word directive, struct span where, const char *text);
+    bool (*version)(void *user, struct span where, double version);
+    bool (*defaults)(void *user, const struct ast *items); // #default { }
+    // #fopen #fclose #read #write, with the parsed pieces; issue 3 builds them
+    bool (*file_io)(void *user, enum word directive, struct span where,
+                    const struct lvalue *handle, const struct ast *items);
+    // Finds and reads an include file through the library path: sets name as found,
+    // text and len (in the source arena). False: not found (reported).
+    bool (*open_include)(void *user, const char *name, struct span where,
+                         const char **found, const char **text, size_t *len);
+};
+
+// Runs the #-directives and macros: hands the grammar a token sequence in which
+// every #if has been decided and every loop unrolled. The grammar never sees a '#'.
+struct stream;
+
+struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t file,
+                          struct diag_sink *diags, struct stream_host host);
+void stream_free(struct stream *s); // arena memory stays
+struct token stream_next(struct stream *s);
+bool stream_at_end(const struct stream *s); // every file is read, nothing is pending
+void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
+                        struct diag_sink *diags, FILE *out); // --dump-tokens
+
+#endif

@@ -1,0 +1,45 @@
+#ifndef SCENE_ARGS_H
+#define SCENE_ARGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/diag.h"
+#include "math/vec.h"
+
+struct arena;
+struct texture;
+
+// The values written in an object's braces, read in order by its build
+// function. Commas are optional between values. Implemented by eval/args.c; a
+// shape only reads. Each reader reports what is missing and returns false.
+struct args;
+
+bool args_float(struct args *a, const char *role, double *out);
+bool args_int(struct args *a, const char *role, long *out); // truncated
+bool args_vec2(struct args *a, const char *role, struct vec2 *out);
+bool args_vec3(struct args *a, const char *role, struct vec3 *out);
+bool args_vec4(struct args *a, const char *role, double out[4]);
+bool args_string(struct args *a, const char *role, const char **out);
+// `< f, f, ... >` with exactly n numbers (cubic, quartic, poly).
+bool args_floats(struct args *a, const char *role, double *out, size_t n);
+
+// True when the next item can start a number (an optional argument is there).
+bool args_at_number(struct args *a);
+// Whether the next number item is a vector (more than one component).
+bool args_at_vector(struct args *a);
+// Consumes the word (keyword) if it is next: `open`, `linear_spline`.
+bool args_word(struct args *a, const char *word);
+// If the next item is the block `word { ... }`, consumes it and returns its
+// contents as an args of their own, else NULL.
+struct args *args_block(struct args *a, const char *word);
+// If the next item is texture { TEXID }, consumes it and returns the texture.
+const struct texture *args_texture(struct args *a);
+bool args_end(struct args *a); // nothing is left (or only object modifiers)
+
+struct arena *args_arena(struct args *a); // the scene's
+struct diag_sink *args_diags(struct args *a);
+struct span args_where(struct args *a); // of the next item, or of the block's end
+const char *args_owner(struct args *a);
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef SCENE_CAMERA_H
+#define SCENE_CAMERA_H
+
+#include <stdbool.h>
+
+#include "math/vec.h"
+
+enum camera_kind {
+    CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC, CAMERA_FISHEYE, CAMERA_ULTRA_WIDE_ANGLE,
+    CAMERA_OMNIMAX, CAMERA_PANORAMIC, CAMERA_CYLINDER_1, CAMERA_CYLINDER_2,
+    CAMERA_CYLINDER_3, CAMERA_CYLINDER_4, CAMERA_SPHERICAL,
+};
+
+// As it stands after every item was combined (spec/lighting.md 1.2).
+struct camera {
+    enum camera_kind kind;
+    struct vec3 location, direction, right, up;
+    double angle, angle_v; // degrees; for the angular kinds
+    double aperture, focal_distance, confidence, variance;
+    int blur_samples_min, blur_samples;
+    const struct normal *normal; // NULL: none
+};
+extern const struct camera camera_default;
+
+// The ray of sub-pixel position (x, y) in pixels from the left/top corner of a
+// w x h picture; pixel (i,j)'s centre is (i+0.5, j+0.5). Unit direction,
+// t_min = 0, t_max = infinity. False: no ray there (fisheye corner).
+bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct ray *out);
+
+#endif

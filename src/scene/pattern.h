@@ -1,0 +1,106 @@
+#ifndef SCENE_PATTERN_H
+#define SCENE_PATTERN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/transform.h"
+#include "math/vec.h"
+
+struct object;
+struct pigment;
+struct image_map;
+struct pattern;
+
+enum wave { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY };
+
+struct turbulence {
+    struct vec3 amount;
+    int octaves;         // 6
+    float lambda, omega; // 2, 0.5
+};
+
+enum warp_kind {
+    WARP_TRANSFORM, WARP_TURBULENCE, WARP_REPEAT, WARP_BLACK_HOLE, WARP_PLANAR,
+    WARP_CYLINDRICAL, WARP_SPHERICAL, WARP_TOROIDAL, WARP_CUBIC,
+};
+
+// One step from the point outside towards the pattern's own space (spec/textures
+// 3.4, 4); applied in list order.
+struct warp {
+    enum warp_kind kind;
+    const struct warp *next;
+    struct transform transform; // WARP_TRANSFORM: applied inverse
+    struct turbulence turbulence;
+    struct vec3 repeat, offset, flip;       // repeat; black_hole: repeat
+    struct vec3 center;                     // black_hole
+    double radius, strength, falloff;       // black_hole
+    bool inverse;                           // black_hole
+    int type;                               // black_hole
+    struct vec3 uncertainty;                // black_hole: turbulence vector
+    struct vec3 orientation;                // planar..toroidal
+    double dist_exp, major_radius, distance; // distance: planar
+};
+
+// What a pattern may ask about the place it is evaluated at, beyond the point.
+struct pattern_context {
+    struct vec3 p_world; // the intersection point
+    struct vec3 normal;  // the layer's perturbed unit normal; zero: no surface
+    struct vec3 ray_d;   // unit direction of the ray; zero: none
+};
+
+// A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists
+// it. value is the raw value of spec/textures 5.1, before frequency, phase, wave.
+struct pattern_ops {
+    const char *keyword;
+    enum wave wave;       // wave type that the keyword sets
+    float frequency;      // 1, or 0 for list and bitmap patterns
+    int list;             // >0: takes that many list entries (checker 2)
+    double (*value)(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c);
+};
+
+// A pattern with its parameters. What a kind does not use stays zero.
+struct pattern {
+    const struct pattern_ops *ops; // NULL: no pattern (plain colour)
+    enum wave wave;
+    float exponent; // WAVE_POLY
+    float frequency, phase;
+    int noise_generator; // 1..3; resolved when built
+    const struct warp *warps;             // front first
+    const struct turbulence *turbulence;  // the classic element, always last; NULL: none
+    // parameters, by pattern
+    struct vec3 vector;      // gradient, slope direction, brick_size, crackle form, julia c
+    struct vec3 vector2;     // slope altitude
+    double low, high, low2, high2; // slope
+    bool point_at;           // slope
+    float value[4];          // mortar; agate_turb; quilted controls; facets size, coords
+    float metric, offset;    // crackle
+    bool solid;              // crackle
+    int integer[4];          // iterations, spiral arms, magnet type, tiling number,
+                             // pavement sides tiles pattern form
+    int exterior_type, interior_type; // fractals; pavement exterior, interior
+    float exterior_factor, interior_factor;
+    int fractal_exponent;
+    const struct object *object;      // object pattern
+    const struct pigment *pigment;    // pigment_pattern
+    const struct image_map *image;    // image_pattern, density_file
+    // function pattern: evaluates user code at a point
+    double (*function)(const void *data, struct vec3 p);
+    const void *function_data;
+};
+
+// The value after warps, frequency, phase and wave (spec/textures 3.2), 0..1 for
+// most patterns; list patterns give the entry's index.
+double pattern_value(const struct pattern *p, struct vec3 at,
+                     const struct pattern_context *c);
+struct vec3 pattern_warp(const struct pattern *p, struct vec3 at);
+const struct pattern_ops *pattern_find(const char *keyword, size_t len);
+
+#define PATTERN(name) extern const struct pattern_ops name##_pattern_ops;
+#include "scene/patterns.def"
+#undef PATTERN
+extern const struct pattern_ops *const pattern_table[];
+extern const size_t pattern_count;
+
+#endif

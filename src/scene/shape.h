@@ -1,0 +1,72 @@
+#ifndef SCENE_SHAPE_H
+#define SCENE_SHAPE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "math/aabb.h"
+#include "math/transform.h"
+#include "math/vec.h"
+#include "scene/boundary.h"
+
+struct args;
+struct arena;
+
+enum shape_flags {
+    SHAPE_SOLID = 1,   // has an inside; otherwise a sheet (CROSS_TOUCH only)
+    SHAPE_BOUNDED = 2, // bounds are finite for every parameter
+    SHAPE_STURM = 4,   // accepts the modifier `sturm`
+    SHAPE_HIERARCHY = 8,
+    SHAPE_CONVEX = 16, // at most one ENTER and one EXIT on any line
+};
+
+// A point on a surface, as shading wants it. In the shape's own space.
+struct surface_point {
+    struct vec3 p;
+    struct vec3 ng; // outward unit normal of the true surface
+    struct vec3 ns; // unit shading normal (smooth triangles); else ng
+    struct vec2 uv; // as uv_mapping sees it
+};
+
+// What a kind of shape can do. Each src/scene/shapes/NAME.c defines one table,
+// NAME_ops; shapes.def lists it. Shapes are in their own coordinates: the
+// object holding the shape has the transform. Designated initialisers only.
+struct shape_ops {
+    const char *keyword; // as written in a scene: "sphere"
+    size_t size;         // of the struct that build fills
+    unsigned flags;      // enum shape_flags; for a shape whose solidity depends on
+                         // its data (mesh) see is_solid
+
+    // Reads the arguments between '{' and the first object modifier. Large data
+    // (meshes) goes to args_arena().
+    bool (*build)(void *shape, struct args *args);
+
+    // Folds t into the parameters exactly (sphere: translate, rotate, uniform
+    // scale) so that no transform is left; false: keep the transform outside.
+    bool (*absorb)(void *shape, const struct transform *t);
+
+    struct aabb (*bounds)(const void *shape);
+    bool (*is_solid)(const void *shape); // NULL: as flags say
+    bool (*inside)(const void *shape, struct vec3 p);
+
+    // Appends every crossing of the whole line (t_min, t_max of the ray are
+    // hints that later crossings are not wanted, except that the alternation
+    // and the state at t_min must stay right; most shapes ignore them).
+    void (*intersect)(const void *shape, const struct ray *ray, struct boundary_list *out);
+
+    // Geometry at a crossing that intersect reported; p is the point in shape space.
+    void (*surface)(const void *shape, const struct boundary *b, struct vec3 p,
+                    struct surface_point *out);
+    void (*print)(const void *shape, FILE *out); // as valid scene text, no newline
+};
+
+#define SHAPE(name) extern const struct shape_ops name##_ops;
+#include "scene/shapes.def"
+#undef SHAPE
+
+extern const struct shape_ops *const shape_table[];
+extern const size_t shape_count;
+const struct shape_ops *shape_find(const char *keyword, size_t len); // NULL: none
+
+#endif

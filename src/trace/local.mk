@@ -1,0 +1,2 @@
+liblambert_a_SOURCES += \
+	%D%/intersect.h %D%/render.h %D%/world.h

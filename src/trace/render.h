@@ -1,0 +1,48 @@
+#ifndef TRACE_RENDER_H
+#define TRACE_RENDER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "image/image.h"
+#include "trace/intersect.h"
+#include "trace/world.h"
+
+// Spec/language 7.2 names of the switches in brackets.
+struct render_settings {
+    int width, height;
+    int col_begin, col_end, row_begin, row_end; // half-open, in pixels; full by default
+    int threads;           // 0: all cores
+    int tile_size;         // 32
+    int antialias;         // 0 off, 1, 2 [+AM]
+    double aa_threshold;   // 0.3
+    int aa_depth;          // 3 [+R]
+    double aa_gamma;       // 2.5
+    bool aa_jitter;        // on
+    double aa_jitter_amount; // 1.0
+    int quality;           // 9
+    bool output_alpha;
+};
+extern const struct render_settings render_settings_default;
+
+// Called from the rendering thread that finished a tile (serialised by a lock).
+struct render_progress {
+    void (*tile)(void *user, uint32_t done, uint32_t total);
+    void *user;
+    const volatile bool *cancel; // set to stop after the current tiles; may be NULL
+};
+
+struct render_stats {
+    struct trace_stats trace;
+    uint64_t samples, pixels;
+    double seconds; // wall, of tracing alone
+    uint32_t tiles_done, tiles_total;
+};
+
+// Renders into a picture of premultiplied linear (working space) RGBA floats.
+// True when every tile was done; false after a cancel (missing tiles are zero).
+bool render_world(const struct world *w, const struct render_settings *settings,
+                  const struct render_progress *progress, struct image *out,
+                  struct render_stats *stats);
+
+#endif

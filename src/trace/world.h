@@ -1,0 +1,97 @@
+#ifndef TRACE_WORLD_H
+#define TRACE_WORLD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/aabb.h"
+#include "math/transform.h"
+#include "scene/scene.h"
+
+struct arena;
+struct accel;
+
+// The material of a leaf with inheritance resolved: what shading needs to know.
+struct surface {
+    const struct texture *texture;          // never NULL
+    struct transform texture_transform;     // world from the texture's outer space
+    const struct texture *interior_texture; // NULL: none
+    struct transform interior_texture_transform;
+    const struct interior *interior; // never NULL; identity decides refraction
+    unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
+    bool opaque;                     // never lets light through
+    uint32_t light_group;            // index+1 into world light groups; 0: none
+};
+
+// A shape placed in the world. `inverted`: an odd number of inversions lies on the
+// path from the root, so its normal points the other way and inside is outside.
+struct leaf {
+    const struct shape_ops *ops;
+    const void *shape;
+    struct transform transform; // world from shape space; identity when absorbed
+    struct aabb bounds;         // world, of the bare shape
+    uint32_t surface;           // index into world surfaces
+    uint32_t object;            // index into world objects
+    bool inverted;
+    bool drawn; // false: a clip; its boundaries only change states
+};
+
+enum node_op { NODE_LEAF, NODE_UNION, NODE_MERGE, NODE_INTERSECTION };
+
+// One node of an object's CSG expression. Differences and inverses were pushed to
+// the leaves (De Morgan), so only these operators are left. Children of node i
+// are the nodes whose parent is i; the root is the first.
+struct csg_node {
+    enum node_op op;
+    uint32_t parent;       // index into world nodes; own index for the root
+    uint32_t leaf;         // NODE_LEAF
+    uint32_t child_count;
+    uint32_t first_child;  // children are contiguous
+    struct aabb bounds;    // S-bounds: clipped by the parents'
+};
+
+// What the BVH holds: one top-level object.
+struct world_object {
+    struct aabb bounds; // world; infinite objects are kept out of the BVH
+    uint32_t first_leaf, leaf_count;
+    uint32_t root;      // csg node; meaningless when leaf_count == 1
+    bool is_csg;        // false: the single leaf stands alone
+    bool opaque;        // every leaf is
+    unsigned flags;     // visibility of the whole
+    const struct object *source;
+    const struct object *const *bound; // user bounds that cull rays; NULL: none
+    uint32_t bound_count;
+    struct transform bound_transform;  // world from the bounds' space
+};
+
+struct light_group {
+    const struct light *const *light;
+    uint32_t count;
+    bool global_lights;
+};
+
+// The scene flattened for tracing; const while rendering.
+struct world {
+    struct arena *arena;
+    const struct scene *scene;
+    struct leaf *leaf;
+    uint32_t leaf_count;
+    struct csg_node *node;
+    uint32_t node_count;
+    struct world_object *object;
+    uint32_t object_count;
+    struct surface *surface;
+    uint32_t surface_count;
+    const struct light **light; // global lights in written order
+    uint32_t light_count;
+    struct light_group *light_group;
+    uint32_t light_group_count;
+    bool has_transparent; // some surface is not opaque
+    struct aabb bounds;   // of the finite objects
+    struct accel *accel;  // trace/accel.h
+};
+
+// Splits unions, resolves inheritance, absorbs transforms, computes bounds.
+struct world *world_build(struct arena *a, const struct scene *scene);
+
+#endif
