@@ -1,0 +1,136 @@
+// Every function against the long double library: below one ulp (two for the
+// hyperbolic ones), over ordinary, tiny and huge arguments.
+#include "test.h"
+
+#include <float.h>
+#include <stdbool.h>
+
+#include "math/elementary.h"
+
+typedef double (*fn)(double);
+typedef long double (*reference)(long double);
+
+static double random_unit(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+static double ulps(double got, long double want)
+{
+    if (got == (double)want)
+        return fabs((double)((long double)got - want)) == 0 ? 0 : 0.5;
+    int e;
+    frexpl(want, &e);
+    long double unit = ldexpl(1, e - 53 < -1074 ? -1074 : e - 53);
+    return (double)(fabsl((long double)got - want) / unit);
+}
+
+struct row {
+    const char *name;
+    fn f;
+    reference r;
+    double lo, hi;
+    bool logarithmic; // spread arguments over the exponents
+    double bound;
+};
+
+static const struct row rows[] = {
+    {"sin", det_sin, sinl, -100, 100, false, 0.95},
+    {"sin large", det_sin, sinl, 1, 0x1p60, true, 0.95},
+    {"sin tiny", det_sin, sinl, 1e-300, 1, true, 0.95},
+    {"cos", det_cos, cosl, -100, 100, false, 0.95},
+    {"cos large", det_cos, cosl, 1, 0x1p60, true, 0.95},
+    {"tan", det_tan, tanl, -100, 100, false, 0.95},
+    {"asin", det_asin, asinl, -1, 1, false, 0.95},
+    {"asin tiny", det_asin, asinl, 1e-200, 1, true, 0.95},
+    {"acos", det_acos, acosl, -1, 1, false, 0.95},
+    {"atan", det_atan, atanl, -20, 20, false, 0.95},
+    {"atan wide", det_atan, atanl, 1e-300, 1e300, true, 0.95},
+    {"exp", det_exp, expl, -700, 700, false, 0.95},
+    {"exp small", det_exp, expl, 1e-20, 1, true, 0.95},
+    {"log", det_log, logl, 1e-300, 1e300, true, 0.95},
+    {"log near 1", det_log, logl, 0.5, 2, false, 0.95},
+    {"log10", det_log10, log10l, 1e-300, 1e300, true, 0.95},
+    {"sinh", det_sinh, sinhl, -50, 50, false, 2},
+    {"sinh small", det_sinh, sinhl, 1e-20, 1, true, 2},
+    {"cosh", det_cosh, coshl, -50, 50, false, 2},
+    {"tanh", det_tanh, tanhl, -25, 25, false, 2},
+    {"tanh small", det_tanh, tanhl, 1e-20, 1, true, 2},
+    {"asinh", det_asinh, asinhl, 1e-20, 1e20, true, 2},
+    {"acosh", det_acosh, acoshl, 1, 1e10, true, 2},
+    {"atanh", det_atanh, atanhl, -1, 1, false, 2},
+};
+
+static void against_long_double(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const struct row *r = &rows[i];
+        uint64_t seed = 1;
+        for (int n = 0; n < 20000; n++) {
+            double u = random_unit(&seed);
+            double x = r->logarithmic ? r->lo * exp(u * log(r->hi / r->lo))
+                                      : r->lo + u * (r->hi - r->lo);
+            double e = ulps(r->f(x), r->r(x));
+            if (!(e <= r->bound))
+                fail_msg("%s(%a): %.3f ulp", r->name, x, e);
+        }
+    }
+}
+
+static void pow_against_long_double(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int n = 0; n < 100000; n++) {
+        double x = exp(40 * random_unit(&seed) - 20), y = 60 * random_unit(&seed) - 30;
+        long double want = powl(x, y);
+        if (want > DBL_MAX || want < DBL_MIN)
+            continue;
+        double e = ulps(det_pow(x, y), want);
+        if (!(e <= 0.95))
+            fail_msg("pow(%a, %a): %.3f ulp", x, y, e);
+    }
+}
+
+static void atan2_in_all_quadrants(void **state)
+{
+    (void)state;
+    uint64_t seed = 9;
+    for (int n = 0; n < 100000; n++) {
+        double x = 2 * random_unit(&seed) - 1, y = 2 * random_unit(&seed) - 1;
+        double e = ulps(det_atan2(y, x), atan2l(y, x));
+        if (!(e <= 0.95))
+            fail_msg("atan2(%a, %a): %.3f ulp", y, x, e);
+    }
+}
+
+static void special_values(void **state)
+{
+    (void)state;
+    assert_true(det_pow(0, 0) == 1 && det_pow(0, 2) == 0 && det_pow(-2, 3) == -8);
+    assert_true(det_pow(-2, 2) == 4 && isnan(det_pow(-2, 0.5)));
+    assert_true(isinf(det_pow(0, -1)) && det_pow(HUGE_VAL, -1) == 0);
+    assert_true(det_pow(2, 1024) == HUGE_VAL && det_pow(2, -1075) == 0);
+    assert_true(det_exp(0) == 1 && det_log(1) == 0 && isnan(det_log(-1)));
+    assert_true(det_log(0) == -HUGE_VAL && det_exp(1000) == HUGE_VAL);
+    assert_true(det_atan2(0, -1) == 3.14159265358979323846 && det_atan2(0, 1) == 0);
+    assert_true(det_atan2(1, 0) == 1.57079632679489661923);
+    assert_true(det_asin(1) == 1.57079632679489661923 && det_acos(1) == 0);
+    assert_true(det_acos(-1) == 3.14159265358979323846);
+    assert_true(det_sin(0) == 0 && det_cos(0) == 1 && signbit(det_sin(-0.0)));
+    assert_true(isnan(det_sin(HUGE_VAL)) && isnan(det_acos(1.5)));
+    assert_near(det_sin(0x1p1000), (double)sinl(0x1p1000L), 1e-16);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_long_double),
+        cmocka_unit_test(pow_against_long_double),
+        cmocka_unit_test(atan2_in_all_quadrants),
+        cmocka_unit_test(special_values),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
