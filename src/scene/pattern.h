@@ -2,6 +2,7 @@
 #define SCENE_PATTERN_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "math/transform.h"
