@@ -20,5 +20,6 @@ include %D%/stability/local.mk
 include %D%/shading/local.mk
 include %D%/fuzz/local.mk
 include %D%/harness/local.mk
+include %D%/perf/local.mk
 
 TESTS += $(check_PROGRAMS)
