@@ -10,11 +10,27 @@
 struct arena;
 struct value; // eval/value.h; opaque here
 
+// What the parser makes of the text. Blocks are generic: a keyword and the items in
+// its braces; eval/ gives them meaning. Some forms worth knowing:
+//  - `function (a, b) { body }`: AST_BLOCK of WORD_function; its list is an AST_ENTRY
+//    of the parameter names if there are parentheses, for the image form
+//    `function w, h { body }` the two sizes, and last the body: an expression or a
+//    nested block. Undeclared names in the body are AST_UNDECLARED. Calls in it are
+//    not given to stream_host.finish; array elements are.
+//  - `array[2][3] { ... }` as a macro argument or inside an initialiser: AST_BLOCK of
+//    WORD_array; list: an AST_ENTRY of sizes, then the AST_ENTRY of elements if any.
+//  - array elements `{ a, { b, c } }`: an AST_ENTRY for each pair of braces; an element
+//    of several items (`rgb 1 filter 0.5`, two textures in a row) is an AST_BLOCK of
+//    WORD_NONE holding the items.
+//  - `xyz(1, 2, 3): 4` (polynomial): AST_CALL of WORD_xyz with four arguments;
+//    `pwr(2, 3)` (julia_fractal): AST_CALL of WORD_pwr. Neither goes to finish.
+//  - `max_trace_level 5` at scene level: AST_BLOCK of that word with the one item.
+//  - `defined(NAME)` is an AST_NUMBER, 0 or 1: it is decided when read.
 enum ast_kind {
     AST_NUMBER,      // number
     AST_STRING,      // text, len: between the quotes, escapes unresolved
     AST_VALUE,       // value: a declared name as it was when read, an array element,
-                     // a finished call, a finished object; text/len: the name
+                     // a finished call, a finished object; text/len: the name, if any
     AST_UNDECLARED,  // text, len: a name nobody declared
     AST_WORD,        // word: a reserved word standing as an item (`rgb`, `rotate`, `open`)
     AST_CONSTANT,    // word: x y z t u v pi clock true false yes no on off version ...
@@ -24,8 +40,8 @@ enum ast_kind {
     AST_CONDITIONAL, // list: condition, if true, if false
     AST_MEMBER,      // left, word: .x .red .gray ...
     AST_CALL,        // word: a built-in function; list: arguments
-    AST_APPLY,       // value: a declared function or spline; list: arguments
-    AST_INDEX,       // value: an array; list: subscripts (only where it must stay lazy)
+    AST_APPLY,       // value, text/len: a declared function or spline; list: arguments
+    AST_INDEX,       // value, text/len: an array; list: all subscripts
     AST_BLOCK,       // word: keyword; list: items in braces
     AST_ENTRY,       // list: items in [ ]
 };
@@ -33,7 +49,9 @@ enum ast_kind {
 enum ast_op { OP_LE = 256, OP_GE, OP_NE };
 
 // One node type; `kind` says which members hold. Lists are linked through `next`
-// in source order. Nodes live in the parser's arena and never change.
+// in source order. Nodes live in the stream's own arena: a node is good until the
+// host function it was given to returns (a statement: until the next parse_item).
+// Whoever needs it longer takes an ast_copy.
 struct ast {
     enum ast_kind kind;
     struct span where;
@@ -45,14 +63,14 @@ struct ast {
     struct ast *next;
     union {
         double number;
-        const char *text; // STRING, UNDECLARED, and the name of a VALUE
+        const char *text; // STRING, UNDECLARED, and the name of VALUE, APPLY, INDEX
         struct ast *left;
     };
     union {
-        const struct value *value;
         struct ast *right;
         struct ast *list;
     };
+    const struct value *value;
 };
 
 struct ast_list {
@@ -62,6 +80,8 @@ struct ast_list {
 
 struct ast *ast_new(struct arena *a, enum ast_kind kind, struct span where);
 struct ast_list ast_append(struct ast_list list, struct ast *node);
+// A deep copy of one node, without what follows it. Text stays in the source.
+struct ast *ast_copy(struct arena *a, const struct ast *node);
 // As an indented tree, one node a line, stable: --dump-ast.
 void ast_print(const struct ast *node, FILE *out, int indent);
 

@@ -36,6 +36,9 @@ struct lvalue {
     struct span where;
     const struct ast *index; // list of subscripts, or NULL
     bool local;              // #local
+    bool deprecated;         // `#declare deprecated`: each use warns
+    bool deprecated_once;    // ... only the first
+    const struct ast *deprecated_text; // AST_STRING, or NULL for a standard text
 };
 
 // One macro argument: by reference when it is a single name or array element,
@@ -48,7 +51,8 @@ struct macro_argument {
 
 // How the stream asks for the worth of expressions and where names are kept;
 // eval/ fills it in, so that lang/ need not know eval/. All report their own
-// errors; false or NULL means the statement had an error and was dropped.
+// errors; false or NULL means the statement had an error and was dropped. Nodes
+// handed over are good until the function returns.
 struct stream_host {
     void *user;
     struct name_info (*lookup)(void *user, const char *name, size_t len);
@@ -68,21 +72,29 @@ struct stream_host {
     bool (*define_macro)(void *user, const char *name, size_t len, struct span where,
                          void *macro);
 
-    // Symbol tables: one per include file and macro call in progress.
+    // Symbol tables: one per include file and macro call in progress. Arguments are
+    // bound after enter_scope, and each at once: a reference means the entry visible
+    // from below the new scope (M(B, A) may call `#macro M(A, B)`), its subscripts
+    // those of now.
     bool (*enter_scope)(void *user, struct span where);
     void (*leave_scope)(void *user);
     bool (*bind_argument)(void *user, const char *parameter, size_t len,
                           const struct macro_argument *argument);
 
     // An expression or block the grammar has just finished, to be evaluated at its
-    // closing token (calls with side effects, objects): returns the node to keep.
+    // closing token (calls with side effects, objects): returns the node to keep,
+    // which may be `node` overwritten in place. An AST_INDEX comes with all its
+    // subscripts. Blocks that only look like objects (the components of a blob,
+    // triangles of a mesh, contained_by shapes, the object pattern) do not come here.
     struct ast *(*finish)(void *user, struct ast *node);
 
     // #debug #warning #error #render #statistics
     bool (*message)(void *user, enum word directive, struct span where, const char *text);
     bool (*version)(void *user, struct span where, double version);
     bool (*defaults)(void *user, const struct ast *items); // #default { }
-    // #fopen #fclose #read #write, with the parsed pieces; issue 3 builds them
+    // #fopen (items: the path, then AST_WORD read, write or append), #fclose (none),
+    // #read (items: places to assign, each an AST_UNDECLARED or AST_VALUE with its
+    // name, or an AST_INDEX), #write (items: values, and AST_WORD uint8 ...).
     bool (*file_io)(void *user, enum word directive, struct span where,
                     const struct lvalue *handle, const struct ast *items);
     // Finds and reads an include file through the library path: sets name as found,
@@ -98,6 +110,9 @@ struct stream;
 struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t file,
                           struct diag_sink *diags, struct stream_host host);
 void stream_free(struct stream *s); // arena memory stays
+// Where the nodes are made: for finish, and for scratch that need not outlive the
+// host call.
+struct arena *stream_arena(struct stream *s);
 struct token stream_next(struct stream *s);
 bool stream_at_end(const struct stream *s); // every file is read, nothing is pending
 void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
