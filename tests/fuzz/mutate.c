@@ -1,0 +1,245 @@
+// Mutation fuzzing without a fuzzing engine: makes COUNT mutants of the seed files,
+// feeds each to the fuzz target, and reports crashes and runs over the time limit.
+//
+//   mutate COUNT [-s SEED] [-t SECONDS] FILE...
+//
+// Mutants are made of bytes, tokens and splices of two seeds. They run in a child
+// process, a batch at a time; a child that dies or hangs names its mutant, which is
+// written to crash-N.scn for the corpus. Exit code 1 when there was any. Built with
+// the sanitizers this is the ten-thousand-mutants run of the test suite's long mode.
+#include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { BATCH = 50, SIZE_MAX_MUTANT = 1 << 16 };
+
+struct seed {
+    char *text;
+    size_t size;
+};
+
+struct random {
+    uint64_t state;
+};
+
+static uint32_t next(struct random *r)
+{
+    r->state = r->state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(r->state >> 33);
+}
+
+static size_t below(struct random *r, size_t n) { return n ? next(r) % n : 0; }
+
+static bool load(const char *path, struct seed *out)
+{
+    FILE *f = fopen(path, "rb");
+    if (!f)
+        return false;
+    out->text = malloc(SIZE_MAX_MUTANT);
+    out->size = out->text ? fread(out->text, 1, SIZE_MAX_MUTANT / 2, f) : 0;
+    fclose(f);
+    return out->size > 0;
+}
+
+struct buffer {
+    char text[SIZE_MAX_MUTANT];
+    size_t size;
+};
+
+static void replace(struct buffer *b, size_t at, size_t len, const char *with, size_t n)
+{
+    if (b->size - len + n > sizeof b->text)
+        return;
+    memmove(b->text + at + n, b->text + at + len, b->size - at - len);
+    memcpy(b->text + at, with, n);
+    b->size += n - len;
+}
+
+static bool is_word(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           c == '_' || c == '.';
+}
+
+// The token at or after a random place.
+static void token_at(const char *text, size_t size, struct random *r, size_t *at,
+                     size_t *len)
+{
+    size_t i = below(r, size);
+    while (i > 0 && is_word(text[i]) && is_word(text[i - 1]))
+        i--;
+    size_t n = 1;
+    if (is_word(text[i]))
+        while (i + n < size && is_word(text[i + n]))
+            n++;
+    *at = i;
+    *len = n;
+}
+
+static void mutate_once(struct buffer *b, const struct seed *seeds, size_t count,
+                        struct random *r)
+{
+    static const char *const spice[] = {
+        "{",      "}",      "(",     ")",       "<",       ">",      "#end",   "#if (1)",
+        "#while (0)", "#macro M()", "#declare A = ", ";",  ",",      "1e308",  "-1e-308",
+        "0",      "1e999",  "\"",    "/*",      "*/",      "//",     "#include \"x.inc\"",
+        "[",      "]",      "#else", "#local A = A + 1;", "rgb", "<1,2,3,4,5,6>", "\xff",
+        "union {", "texture {", "pigment {", "#for (I, 0, 3)", "#break", "#switch (1)",
+        "array[3]", "A[0]", "seed(1)", "rand(0)", "0/0", ".x", "?", ":", "!", "#default {",
+        "#version 3.1;", "matrix", "function { x }", "inverse", "scale 0", "rotate",
+    };
+    const struct seed *other = &seeds[below(r, count)];
+    size_t at, len, from, n;
+    if (b->size < 2)
+        return;
+    token_at(b->text, b->size, r, &at, &len);
+    switch (below(r, 7)) {
+    case 0: // flip a byte
+        b->text[below(r, b->size)] ^= (char)(1 << below(r, 8));
+        break;
+    case 1: // drop a token
+        replace(b, at, len, "", 0);
+        break;
+    case 2: { // put something nasty in its place or before it
+        const char *s = spice[below(r, sizeof spice / sizeof spice[0])];
+        replace(b, at, below(r, 2) ? len : 0, s, strlen(s));
+        break;
+    }
+    case 3: // a token of another seed
+        token_at(other->text, other->size, r, &from, &n);
+        replace(b, at, len, other->text + from, n);
+        break;
+    case 4: // a stretch of another seed
+        from = below(r, other->size);
+        n = below(r, other->size - from < 400 ? other->size - from : 400);
+        replace(b, at, 0, other->text + from, n);
+        break;
+    case 5: // drop a stretch
+        n = below(r, 200);
+        replace(b, at, n < b->size - at ? n : b->size - at, "", 0);
+        break;
+    default: // end early
+        if (below(r, 4) == 0)
+            b->size = at;
+        break;
+    }
+}
+
+static void make_mutant(struct buffer *b, const struct seed *seeds, size_t count,
+                        uint64_t number, uint64_t seed)
+{
+    struct random r = {number * 0x9e3779b97f4a7c15u + seed};
+    for (int i = 0; i < 4; i++)
+        next(&r);
+    const struct seed *s = &seeds[below(&r, count)];
+    memcpy(b->text, s->text, s->size);
+    b->size = s->size;
+    for (size_t times = 1 + below(&r, 8); times > 0; times--)
+        mutate_once(b, seeds, count, &r);
+}
+
+struct job {
+    const struct seed *seeds;
+    size_t seed_count;
+    uint64_t seed, count;
+    unsigned seconds;
+    volatile uint64_t *current; // shared with the child: the mutant in progress
+};
+
+static void save(const struct job *job, uint64_t number)
+{
+    static const char pattern[] = "crash-%llu.scn";
+    char path[64];
+    struct buffer *b = malloc(sizeof *b);
+    if (!b)
+        return;
+    make_mutant(b, job->seeds, job->seed_count, number, job->seed);
+    snprintf(path, sizeof path, pattern, (unsigned long long)number);
+    FILE *f = fopen(path, "wb");
+    if (f) {
+        fwrite(b->text, 1, b->size, f);
+        fclose(f);
+    }
+    free(b);
+}
+
+static void run_batch(const struct job *job, uint64_t begin, uint64_t end)
+{
+    struct buffer *b = malloc(sizeof *b);
+    if (!b)
+        _exit(2);
+    for (uint64_t i = begin; i < end; i++) {
+        *job->current = i;
+        alarm(job->seconds); // SIGALRM's default action ends the child
+        make_mutant(b, job->seeds, job->seed_count, i, job->seed);
+        uint8_t *copy = malloc(b->size ? b->size : 1); // exact size: overreads show
+        memcpy(copy, b->text, b->size);
+        LLVMFuzzerTestOneInput(copy, b->size);
+        free(copy);
+    }
+    free(b);
+    exit(0); // through atexit, so that leaks are looked for
+}
+
+static unsigned run(const struct job *job)
+{
+    unsigned bad = 0;
+    for (uint64_t at = 0; at < job->count;) {
+        uint64_t end = at + BATCH < job->count ? at + BATCH : job->count;
+        fflush(NULL);
+        pid_t child = fork();
+        if (child == 0)
+            run_batch(job, at, end);
+        int status = 0;
+        if (child < 0 || waitpid(child, &status, 0) < 0) {
+            perror("mutate");
+            return bad + 1;
+        }
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+            at = end;
+            continue;
+        }
+        bad++;
+        printf("mutant %llu: %s\n", (unsigned long long)*job->current,
+               WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? "over the time limit"
+                                                                  : "died");
+        save(job, *job->current);
+        at = *job->current + 1;
+    }
+    return bad;
+}
+
+int main(int argc, char **argv)
+{
+    struct job job = {.seed = 1, .seconds = 10};
+    int i = 1;
+    if (argc < 3)
+        return fprintf(stderr, "usage: mutate COUNT [-s SEED] [-t SECONDS] FILE...\n"), 64;
+    job.count = strtoull(argv[i++], NULL, 10);
+    for (; i + 1 < argc && argv[i][0] == '-'; i += 2) {
+        if (argv[i][1] == 's')
+            job.seed = strtoull(argv[i + 1], NULL, 10);
+        else if (argv[i][1] == 't')
+            job.seconds = (unsigned)strtoul(argv[i + 1], NULL, 10);
+    }
+    struct seed *seeds = calloc((size_t)argc, sizeof *seeds);
+    for (; seeds && i < argc; i++)
+        if (load(argv[i], &seeds[job.seed_count]))
+            job.seed_count++;
+    job.seeds = seeds;
+    job.current = mmap(NULL, sizeof *job.current, PROT_READ | PROT_WRITE,
+                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (!seeds || !job.seed_count || job.current == MAP_FAILED)
+        return fprintf(stderr, "mutate: no seed file could be read\n"), 66;
+    unsigned bad = run(&job);
+    printf("%llu mutants, %u bad\n", (unsigned long long)job.count, bad);
+    return bad != 0;
+}
