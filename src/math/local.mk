@@ -1,2 +1,2 @@
 liblambert_a_SOURCES += \
-	%D%/aabb.h %D%/color.h %D%/dd.h %D%/elementary.c %D%/elementary.h %D%/trig.c %D%/transform.h %D%/vec.h
+	%D%/aabb.h %D%/color.h %D%/dd.h %D%/elementary.c %D%/elementary.h %D%/polynomial.c %D%/polynomial.h %D%/trig.c %D%/transform.h %D%/vec.h

@@ -3,3 +3,7 @@ check_PROGRAMS += test_elementary
 test_elementary_SOURCES = %D%/test_elementary.c
 test_elementary_CPPFLAGS = $(test_cppflags)
 test_elementary_LDADD = $(test_ldadd)
+check_PROGRAMS += test_polynomial
+test_polynomial_SOURCES = %D%/test_polynomial.c
+test_polynomial_CPPFLAGS = $(test_cppflags)
+test_polynomial_LDADD = $(test_ldadd)

@@ -1,0 +1,28 @@
+#ifndef MATH_POLYNOMIAL_H
+#define MATH_POLYNOMIAL_H
+
+// Real roots of a polynomial of any degree on an interval, by isolation: between two
+// neighbouring roots of the derivative a polynomial is monotone and crosses zero at
+// most once, where its sign changes. So nothing is missed, and roots come ordered with
+// alternating signs (Collins & Loos 1976; research 4.7).
+enum { POLYNOMIAL_DEGREE_MAX = 35 };
+
+struct polynomial_root {
+    double t;
+    double dt;   // bound on the error of t from the rounding of the evaluation
+    int rising;  // the sign goes from - to + with growing t
+};
+
+// coefficient[i] belongs to t^i. Roots in lo < t < hi at which the sign changes,
+// ascending; a zero counts as positive, so that a touch from above is no root. Returns
+// their number, at most degree. rounding: relative error of the coefficients, in
+// units of roundoff, on top of the evaluation's own.
+int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
+                     double rounding, struct polynomial_root *root);
+
+double polynomial_value(const double *coefficient, int degree, double t);
+
+// A bound on |t| of every root (Fujiwara 1916); 0 for a constant.
+double polynomial_root_bound(const double *coefficient, int degree);
+
+#endif
