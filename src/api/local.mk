@@ -1,1 +1,6 @@
-# sources of src/api
+liblambert_a_SOURCES += \
+	include/lambert/lambert.h \
+	%D%/context.c %D%/context.h %D%/load.c %D%/options.c %D%/options.def \
+	%D%/picture.c %D%/render.c
+lambertincludedir = $(includedir)/lambert
+lambertinclude_HEADERS = include/lambert/lambert.h

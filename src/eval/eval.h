@@ -25,12 +25,18 @@ struct eval_options {
     int version;                // 100*f from the command line; 0: none
     double clock;
     bool clock_set;
+    // Of an animation; all 0 for a single picture (spec/language 7.4).
+    double frame_number, initial_frame, final_frame;
+    double initial_clock, final_clock, clock_delta;
     int image_width, image_height;
     const char *input_name;
     bool output_alpha;
     // Text of #debug, #warning and so on; NULL: to stderr.
     void (*message)(void *user, enum word directive, const char *text);
     void *message_user;
+    // Sees each statement the grammar hands over, before it is carried out; or NULL.
+    void (*statement)(void *user, const struct ast *item);
+    void *statement_user;
 };
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.

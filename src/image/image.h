@@ -27,6 +27,7 @@ struct transfer {
 };
 double transfer_encode(struct transfer t, double linear);
 double transfer_decode(struct transfer t, double encoded);
+bool transfer_equal(struct transfer a, struct transfer b);
 
 enum image_type { IMAGE_PNG, IMAGE_EXR, IMAGE_PPM, IMAGE_UNKNOWN };
 enum image_type image_type_of(const char *path); // by extension
@@ -39,10 +40,17 @@ struct image_metadata {
 
 struct image_write_options {
     enum image_type type;
-    int bits;                 // PNG: 8 or 16; EXR: 16 half or 32 float
-    bool alpha;               // write the fourth channel
+    int bits;   // PNG: 8 or 16; EXR: 16 half or 32 float
+    bool alpha; // write the fourth channel
     bool grey;
-    struct transfer transfer; // integer files
+    int compression;          // PNG: 1..9; 0: the library's default
+    struct transfer transfer; // of integer files
+    // How the picture's own numbers are encoded; NONE: they are linear light. When it
+    // equals `transfer`, integer files get the numbers unchanged.
+    struct transfer working;
+    // The picture has no gamma of its own (spec/lighting.md 3.3): integer files get
+    // its numbers unchanged, EXR gets them decoded by `transfer`.
+    bool unmanaged;
     struct image_metadata metadata;
 };
 
@@ -55,5 +63,6 @@ bool image_write(const struct image *im, const char *path,
 // Reads PNG, EXR or PPM to linear floats (integer files decoded by `transfer`).
 bool image_read(struct image *im, const char *path, struct transfer transfer, char *error,
                 size_t error_size);
+enum image_type image_type_of_file(const char *path); // by its first bytes
 
 #endif

@@ -1,0 +1,256 @@
+// From a scene file to what the tracer takes.
+#include "api/context.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "eval/eval.h"
+#include "lang/ast.h"
+#include "lang/stream.h"
+#include "scene/object.h"
+#include "trace/world.h"
+
+static enum diag_style style_of(const char *word)
+{
+    switch (word[0]) {
+    case 'g': return DIAG_GCC;
+    case 'j': return DIAG_JSON;
+    case 'p': return DIAG_POV;
+    default: return DIAG_TEXT;
+    }
+}
+
+static void set_place(struct lambert_message *m, const struct source_map *sources,
+                      struct span where)
+{
+    const struct source_file *f = sources->file[where.file];
+    uint32_t line = source_line(f, where.begin);
+    m->file = f->name;
+    m->line = line + 1;
+    m->column = where.begin - f->line_start[line] + 1;
+    m->end_column = m->column + (where.end - where.begin);
+}
+
+// A diagnostic of any stage becomes a message to the caller.
+static void emit(void *user, const struct diag *d)
+{
+    struct lambert_context *ctx = user;
+    static const enum lambert_message_kind kinds[] = {LAMBERT_NOTE, LAMBERT_WARNING,
+                                                      LAMBERT_ERROR};
+    if (!ctx->message)
+        return;
+    char *rendered = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&rendered, &size);
+    if (!out)
+        return;
+    diag_print(out, &ctx->sources, d, style_of(lambert_option_text(ctx, "diagnostics")),
+               strcmp(lambert_option_text(ctx, "color"), "always") == 0);
+    fclose(out);
+    struct lambert_message m = {.kind = kinds[d->severity],
+                                .code = (int)d->code,
+                                .text = d->message,
+                                .hint = d->hint,
+                                .rendered = rendered};
+    if (d->where.end)
+        set_place(&m, &ctx->sources, d->where);
+    ctx->message(ctx->message_user, &m);
+    free(rendered);
+}
+
+static void scene_text(void *user, enum word directive, const char *text)
+{
+    struct lambert_context *ctx = user;
+    (void)directive;
+    if (!ctx->message)
+        return;
+    struct lambert_message m = {
+        .kind = LAMBERT_SCENE_TEXT, .text = text, .rendered = text};
+    ctx->message(ctx->message_user, &m);
+}
+
+static char *read_all(FILE *f, struct arena *a, const char *prefix, size_t *len)
+{
+    size_t used = strlen(prefix), capacity = used + 65536;
+    char *text = malloc(capacity);
+    if (text)
+        memcpy(text, prefix, used);
+    for (size_t got = 1; text && got; used += got) {
+        if (used == capacity) {
+            char *more = realloc(text, capacity *= 2);
+            if (!more)
+                free(text);
+            text = more;
+            if (!text)
+                break;
+        }
+        got = fread(text + used, 1, capacity - used, f);
+    }
+    char *kept = text ? arena_strndup(a, text, used) : NULL;
+    *len = used;
+    free(text);
+    return kept;
+}
+
+// The file as source number 0. An include header is put before the first line, so
+// that line numbers stay.
+static enum lambert_status open_source(struct lambert_context *ctx, const char *path,
+                                       uint32_t *file)
+{
+    struct arena *a = ctx->scene_arena = arena_new(1 << 20);
+    source_map_init(&ctx->sources, a);
+    ctx->diags =
+        (struct diag_sink){.emit = emit,
+                           .user = ctx,
+                           .errors_max = (unsigned)option_number(ctx, "max-errors")};
+    const char *header = lambert_option_text(ctx, "include-header");
+    const char *prefix = header ? arena_printf(a, "#include \"%s\" ", header) : "";
+    bool standard = strcmp(path, "-") == 0;
+    FILE *f = standard ? stdin : fopen(path, "rb");
+    if (!f)
+        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path,
+                            strerror(errno));
+    size_t len;
+    char *text = read_all(f, a, prefix, &len);
+    bool ok = text && !ferror(f);
+    if (!standard)
+        fclose(f);
+    if (!ok)
+        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s'", path);
+    const char *name = standard ? "<stdin>" : arena_strndup(a, path, strlen(path));
+    *file = source_add(&ctx->sources, name, text, len, (struct span){0});
+    return LAMBERT_OK;
+}
+
+// What the user said, then the includes that were installed with lambert or POV-Ray.
+static void set_library_path(struct lambert_context *ctx, struct eval_options *o)
+{
+    const char *const *given;
+    size_t n = lambert_option_list(ctx, "library-path", &given);
+    const char **path = arena_new_array(ctx->scene_arena, const char *, n + 2);
+    for (size_t i = 0; i < n; i++)
+        path[i] = given[i];
+#ifdef LAMBERT_INCLUDE_DIR
+    path[n++] = LAMBERT_INCLUDE_DIR;
+#endif
+#ifdef POVRAY_INCLUDE_DIR
+    path[n++] = POVRAY_INCLUDE_DIR;
+#endif
+    o->library_path = path;
+    o->library_path_count = (uint32_t)n;
+}
+
+static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
+{
+    struct eval_options o = {
+        .version = (int)(option_number(ctx, "language") * 100 + 0.5),
+        .clock = (double)(float)option_number(ctx, "clock"), // spec/language 7.4
+        .clock_set = lambert_option_is_set(ctx, "clock"),
+        .frame_number = option_number(ctx, "frame"),
+        .initial_frame = option_number(ctx, "frame-initial"),
+        .final_frame = option_number(ctx, "frame-final"),
+        .initial_clock = option_number(ctx, "frame-initial-clock"),
+        .final_clock = option_number(ctx, "frame-final-clock"),
+        .clock_delta = option_number(ctx, "frame-clock-delta"),
+        .image_width = (int)option_number(ctx, "width"),
+        .image_height = (int)option_number(ctx, "height"),
+        .input_name = path,
+        .output_alpha = option_flag(ctx, "alpha"),
+        .message = scene_text,
+        .message_user = ctx,
+    };
+    o.declare_count = (uint32_t)lambert_option_list(ctx, "declare", &o.declare);
+    set_library_path(ctx, &o);
+    return o;
+}
+
+// A language version of 3.7 asked for by option turns gamma handling on for a scene
+// that says nothing of it (spec/lighting.md 3.3).
+static void settle_gamma(struct lambert_context *ctx)
+{
+    struct settings *s = &ctx->scene.settings;
+    if (s->gamma_mode == GAMMA_NONE && option_number(ctx, "language") >= 3.7) {
+        s->gamma_mode = GAMMA_POWER;
+        s->assumed_gamma = 1;
+    }
+}
+
+static void print_statement(void *user, const struct ast *item)
+{
+    ast_print(item, user, 0);
+}
+
+static enum lambert_status evaluate(struct lambert_context *ctx, const char *path,
+                                    FILE *ast)
+{
+    uint32_t file;
+    context_forget_scene(ctx);
+    enum lambert_status status = open_source(ctx, path, &file);
+    if (status != LAMBERT_OK)
+        return status;
+    double start = context_seconds();
+    struct eval_options o = eval_settings(ctx, path);
+    if (ast) {
+        o.statement = print_statement;
+        o.statement_user = ast;
+    }
+    ctx->scene = (struct scene){0};
+    bool ok =
+        eval_scene(ctx->scene_arena, &ctx->sources, file, &ctx->diags, &o, &ctx->scene);
+    ctx->stats.parse_seconds = context_seconds() - start;
+    ctx->stats.errors = ctx->diags.errors;
+    ctx->stats.warnings = ctx->diags.warnings;
+    if (!ok || ctx->diags.errors)
+        return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: %u error%s", path,
+                            ctx->diags.errors, ctx->diags.errors == 1 ? "" : "s");
+    if (ctx->diags.warnings && option_flag(ctx, "werror"))
+        return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: warnings count as errors",
+                            path);
+    settle_gamma(ctx);
+    return LAMBERT_OK;
+}
+
+enum lambert_status lambert_load_file(struct lambert_context *ctx, const char *path)
+{
+    enum lambert_status status = evaluate(ctx, path, NULL);
+    if (status != LAMBERT_OK)
+        return status;
+    double start = context_seconds();
+    ctx->world = world_build(ctx->scene_arena, &ctx->scene);
+    ctx->stats.build_seconds = context_seconds() - start;
+    if (!ctx->world)
+        return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: nothing can be traced", path);
+    ctx->stats.objects = ctx->world->object_count;
+    ctx->stats.leaves = ctx->world->leaf_count;
+    ctx->stats.lights = ctx->world->light_count;
+    return LAMBERT_OK;
+}
+
+enum lambert_status lambert_dump_tokens(struct lambert_context *ctx, const char *path,
+                                        FILE *out)
+{
+    uint32_t file;
+    context_forget_scene(ctx);
+    enum lambert_status status = open_source(ctx, path, &file);
+    if (status != LAMBERT_OK)
+        return status;
+    stream_dump_tokens(ctx->scene_arena, &ctx->sources, file, &ctx->diags, out);
+    return ctx->diags.errors ? LAMBERT_ERROR_SCENE : LAMBERT_OK;
+}
+
+enum lambert_status lambert_dump_ast(struct lambert_context *ctx, const char *path,
+                                     FILE *out)
+{
+    return evaluate(ctx, path, out);
+}
+
+enum lambert_status lambert_dump_csg(struct lambert_context *ctx, const char *path,
+                                     FILE *out)
+{
+    enum lambert_status status = evaluate(ctx, path, NULL);
+    for (uint32_t i = 0; status == LAMBERT_OK && i < ctx->scene.object_count; i++)
+        object_print(ctx->scene.object[i], out, 0);
+    return status;
+}

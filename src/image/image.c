@@ -1,0 +1,85 @@
+// Pictures in memory and the curves between linear light and file numbers.
+#include "image/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "math/elementary.h"
+
+bool image_init(struct image *im, int width, int height, int channels)
+{
+    *im = (struct image){width, height, channels, NULL};
+    if (width <= 0 || height <= 0 || channels <= 0)
+        return false;
+    size_t pixels = (size_t)width * (size_t)height;
+    if (pixels > SIZE_MAX / sizeof(float) / (size_t)channels)
+        return false;
+    im->pixel = calloc(pixels * (size_t)channels, sizeof(float));
+    return im->pixel;
+}
+
+void image_free(struct image *im)
+{
+    free(im->pixel);
+    *im = (struct image){0};
+}
+
+// IEC 61966-2-1, with the break points as spec/lighting.md 3.1 gives them.
+static double srgb_encode(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * det_pow(x, 1 / 2.4) - 0.055;
+}
+
+static double srgb_decode(double x)
+{
+    return x < 0.04045 ? x / 12.92 : det_pow((x + 0.055) / 1.055, 2.4);
+}
+
+double transfer_encode(struct transfer t, double linear)
+{
+    switch (t.kind) {
+    case TRANSFER_SRGB: return srgb_encode(linear);
+    case TRANSFER_POWER: return linear > 0 ? det_pow(linear, 1 / t.gamma) : 0;
+    case TRANSFER_NONE: break;
+    }
+    return linear;
+}
+
+double transfer_decode(struct transfer t, double encoded)
+{
+    switch (t.kind) {
+    case TRANSFER_SRGB: return srgb_decode(encoded);
+    case TRANSFER_POWER: return encoded > 0 ? det_pow(encoded, t.gamma) : 0;
+    case TRANSFER_NONE: break;
+    }
+    return encoded;
+}
+
+bool transfer_equal(struct transfer a, struct transfer b)
+{
+    return a.kind == b.kind && (a.kind != TRANSFER_POWER || a.gamma == b.gamma);
+}
+
+enum image_type image_type_of(const char *path)
+{
+    static const struct {
+        const char *extension;
+        enum image_type type;
+    } types[] = {{".png", IMAGE_PNG},
+                 {".exr", IMAGE_EXR},
+                 {".ppm", IMAGE_PPM},
+                 {".pgm", IMAGE_PPM},
+                 {".pnm", IMAGE_PPM}};
+    const char *dot = strrchr(path, '.');
+    if (!dot || strlen(dot) != 4)
+        return IMAGE_UNKNOWN;
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        bool same = true;
+        for (int k = 1; k < 4; k++) // lower case: the letters are ASCII
+            same = same && (dot[k] | 0x20) == types[i].extension[k];
+        if (same)
+            return types[i].type;
+    }
+    return IMAGE_UNKNOWN;
+}
