@@ -30,6 +30,12 @@ struct transform transform_then(const struct transform *first,
                                 const struct transform *second);
 struct transform transform_invert(const struct transform *t);
 
+// Whether the map keeps all angles (rotation, reflection, equal scaling), up to the
+// rounding of a chain of rotations; then *scale is its factor, exactly 1 for a
+// rotation.
+bool transform_is_similarity(const struct transform *t, double *scale);
+bool transform_is_diagonal(const struct transform *t); // translation and scaling only
+
 struct vec3 transform_point(const struct transform *t, struct vec3 p);
 struct vec3 transform_vector(const struct transform *t, struct vec3 v);
 struct vec3 transform_normal(const struct transform *t, struct vec3 n); // not normalised

@@ -9,6 +9,7 @@
 
 struct arena;
 struct texture;
+struct transform;
 
 // The values written in an object's braces, read in order by its build
 // function. Commas are optional between values. Implemented by eval/args.c; a
@@ -36,6 +37,17 @@ struct args *args_block(struct args *a, const char *word);
 // If the next item is texture { TEXID }, consumes it and returns the texture.
 const struct texture *args_texture(struct args *a);
 bool args_end(struct args *a); // nothing is left (or only object modifiers)
+
+// Reports `message` at the block; the shape is then dropped. / A warning only.
+void args_reject(struct args *a, const char *message);
+void args_warn(struct args *a, const char *message);
+// The path of a file found as #include finds it, or in the fonts and images installed
+// with the include files; the extension is added when the name has none.
+bool args_find_file(struct args *a, const char *role, const char *name,
+                    const char *extension, const char **path);
+// The transforms after the arguments of a part that is no object of its own (a blob
+// component), composed; textures there are not built yet and are reported.
+bool args_transforms(struct args *a, struct transform *out);
 
 struct arena *args_arena(struct args *a); // the scene's
 struct diag_sink *args_diags(struct args *a);

@@ -19,6 +19,7 @@ enum shape_flags {
     SHAPE_STURM = 4,   // accepts the modifier `sturm`
     SHAPE_HIERARCHY = 8,
     SHAPE_CONVEX = 16, // at most one ENTER and one EXIT on any line
+    SHAPE_UV = 32, // surface fills uv; otherwise uv is the world x and y of the hit
 };
 
 // A point on a surface, as shading wants it. In the shape's own space.
@@ -46,19 +47,31 @@ struct shape_ops {
     // scale) so that no transform is left; false: keep the transform outside.
     bool (*absorb)(void *shape, const struct transform *t);
 
+    // Of everything inside (and of the surface).
     struct aabb (*bounds)(const void *shape);
+    // Of what is drawn, where that is smaller: a disc is a half space in CSG but a
+    // disc to the eye. NULL: as bounds.
+    struct aabb (*surface_bounds)(const void *shape);
     bool (*is_solid)(const void *shape); // NULL: as flags say
     bool (*inside)(const void *shape, struct vec3 p);
 
     // Appends every crossing of the whole line (t_min, t_max of the ray are
     // hints that later crossings are not wanted, except that the alternation
-    // and the state at t_min must stay right; most shapes ignore them).
+    // and the state at t_min must stay right; most shapes ignore them). A line that
+    // no boundary meets is wholly inside or wholly outside: only `inside` tells
+    // which, and only for a shape without SHAPE_BOUNDED can it be inside.
     void (*intersect)(const void *shape, const struct ray *ray, struct boundary_list *out);
+
+    // The first drawn crossing with t_min < t < t_max, for shapes that find it much
+    // faster than all crossings (a mesh that stands alone). NULL: use intersect.
+    bool (*closest)(const void *shape, const struct ray *ray, struct boundary *out);
 
     // Geometry at a crossing that intersect reported; p is the point in shape space.
     void (*surface)(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out);
-    void (*print)(const void *shape, FILE *out); // as valid scene text, no newline
+    // The keyword, the open brace and the arguments as scene text, no newline and no
+    // closing brace: object_print adds modifiers and closes.
+    void (*print)(const void *shape, FILE *out);
 };
 
 #define SHAPE(name) extern const struct shape_ops name##_ops;
@@ -68,5 +81,10 @@ struct shape_ops {
 extern const struct shape_ops *const shape_table[];
 extern const size_t shape_count;
 const struct shape_ops *shape_find(const char *keyword, size_t len); // NULL: none
+bool shape_is_solid(const struct shape_ops *ops, const void *shape);
+struct aabb shape_surface_bounds(const struct shape_ops *ops, const void *shape);
+// A number or vector as scene text that reads back as the same bits.
+void shape_print_number(FILE *out, double v);
+void shape_print_vec3(FILE *out, struct vec3 v);
 
 #endif

@@ -1,0 +1,175 @@
+#include "scene/shapes/extrude.h"
+
+#include <string.h>
+
+#include "math/gamma.h"
+
+void boundary_list_sort(struct boundary_list *l, uint32_t from)
+{
+    for (uint32_t i = from + 1; i < l->count; i++) {
+        struct boundary b = l->at[i];
+        uint32_t j = i;
+        for (; j > from && l->at[j - 1].t > b.t; j--)
+            l->at[j] = l->at[j - 1];
+        l->at[j] = b;
+    }
+}
+
+void boundary_list_merge(struct boundary_list *l, uint32_t from)
+{
+    int depth = 0;
+    uint32_t kept = from;
+    for (uint32_t i = from; i < l->count; i++) {
+        const int before = depth;
+        depth += l->at[i].crossing == CROSS_ENTER ? 1 : -1;
+        if (before == 0 || depth == 0)
+            l->at[kept++] = l->at[i];
+    }
+    l->count = kept;
+}
+
+// The line in the plane as k.(u, v, 1) = 0, or all zero for a ray along the axis.
+static void plane_line(const struct extrude_ray *r, double k[3])
+{
+    k[0] = r->d[1];
+    k[1] = -r->d[0];
+    k[2] = r->d[0] * r->o[1] - r->d[1] * r->o[0];
+}
+
+static bool misses(const struct outline_segment *s, const double k[3])
+{
+    if (s->degree > 1)
+        return false; // control points may stick out; roots decide
+    const double a = k[0] * s->a.u + k[1] * s->a.v + k[2];
+    const double b = k[0] * s->b.u + k[1] * s->b.v + k[2];
+    return (a >= 0) == (b >= 0);
+}
+
+static void add_walls(const struct outline *o, const struct extrude_ray *r,
+                      struct boundary_list *out)
+{
+    double k[3];
+    plane_line(r, k);
+    const double dd = r->d[0] * r->d[0] + r->d[1] * r->d[1];
+    const double size = fmax(fmax(fabs(o->min.u), fabs(o->max.u)),
+                             fmax(fabs(o->min.v), fabs(o->max.v))) +
+                        fmax(fabs(r->o[0]), fabs(r->o[1]));
+    for (uint32_t i = 0; i < o->count; i++) {
+        const struct outline_segment *s = &o->segment[i];
+        double w[OUTLINE_ROOTS];
+        if (misses(s, k))
+            continue;
+        const int n = outline_roots(s, k, w);
+        for (int j = 0; j < n; j++) {
+            const struct vec2 p = outline_point(s, w[j]), c = outline_tangent(s, w[j]);
+            const double t =
+                ((p.u - r->o[0]) * r->d[0] + (p.v - r->o[1]) * r->d[1]) / dd;
+            // Along a grazed curve an error across the line becomes one along it.
+            const double across = fabs(c.u * r->d[1] - c.v * r->d[0]);
+            const double along = fabs(c.u * r->d[0] + c.v * r->d[1]);
+            const double error = GAMMA(16) * size / sqrt(dd);
+            const double dt = across > 0 ? error * (1 + along / across) : error;
+            struct boundary *b = boundary_list_add(out, t, dt, CROSS_ENTER, EXTRUDE_WALL + i);
+            b->v = w[j];
+            b->u = c.v * r->d[0] - c.u * r->d[1] < 0 ? 1 : -1; // faces the ray
+        }
+    }
+}
+
+struct slab {
+    double t[2], dt; // entry and exit
+    uint32_t part[2];
+    bool always;
+};
+
+static bool slab_of(const struct extrude_ray *r, double low, double high, struct slab *s)
+{
+    *s = (struct slab){{-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
+    if (r->d[2] == 0)
+        return r->o[2] >= low && r->o[2] <= high;
+    const bool up = r->d[2] > 0;
+    s->always = false;
+    s->t[0] = ((up ? low : high) - r->o[2]) / r->d[2];
+    s->t[1] = ((up ? high : low) - r->o[2]) / r->d[2];
+    s->dt = GAMMA(3) * (fabs(r->o[2]) + fmax(fabs(low), fabs(high))) / fabs(r->d[2]);
+    s->part[0] = up ? EXTRUDE_LOW : EXTRUDE_HIGH;
+    s->part[1] = up ? EXTRUDE_HIGH : EXTRUDE_LOW;
+    return true;
+}
+
+static void add_cap(struct boundary_list *out, const struct slab *s, int which, bool open)
+{
+    struct boundary *b = boundary_list_add(out, s->t[which], s->dt,
+                                           which ? CROSS_EXIT : CROSS_ENTER,
+                                           s->part[which]);
+    b->drawn = !open;
+}
+
+// Walls are sorted at [from, count); appends their product with the slab behind them,
+// then moves it down over them.
+static void clip_to_slab(const struct slab *s, bool open, uint32_t from,
+                         struct boundary_list *out)
+{
+    const uint32_t walls = out->count;
+    bool in = false;
+    bool in_slab = s->always;
+    for (uint32_t i = from; i <= walls; i++) {
+        const double t = i < walls ? out->at[i].t : HUGE_VAL;
+        for (int which = 0; which < 2 && !s->always; which++) {
+            if (in_slab != (which == 1) || s->t[which] > t)
+                continue;
+            in_slab = which == 0;
+            if (in)
+                add_cap(out, s, which, open);
+            if (which == 1)
+                i = walls; // nothing follows the slab
+        }
+        if (i >= walls)
+            break;
+        if (in_slab) {
+            struct boundary b = out->at[i];
+            b.crossing = in ? CROSS_EXIT : CROSS_ENTER;
+            b.u = in ? -b.u : b.u;
+            *boundary_list_add(out, b.t, b.dt, CROSS_ENTER, b.part) = b;
+        }
+        in = !in;
+    }
+    const uint32_t n = out->count - walls;
+    memmove(out->at + from, out->at + walls, n * sizeof *out->at);
+    out->count = from + n;
+}
+
+static void along_the_axis(const struct outline *o, const struct slab *s, bool open,
+                           const struct extrude_ray *r, struct boundary_list *out)
+{
+    if (!outline_inside(o, (struct vec2){r->o[0], r->o[1]}))
+        return;
+    add_cap(out, s, 0, open);
+    add_cap(out, s, 1, open);
+}
+
+void extrude_intersect(const struct outline *o, double low, double high, bool open,
+                       const struct extrude_ray *ray, struct boundary_list *out)
+{
+    struct slab slab;
+    if (o->count == 0 || !slab_of(ray, low, high, &slab))
+        return;
+    if (ray->d[0] == 0 && ray->d[1] == 0) {
+        along_the_axis(o, &slab, open, ray, out);
+        return;
+    }
+    const uint32_t from = out->count;
+    add_walls(o, ray, out);
+    if (out->count == from)
+        return;
+    boundary_list_sort(out, from);
+    clip_to_slab(&slab, open, from, out);
+}
+
+struct vec3 extrude_normal(const struct outline *o, const struct boundary *b)
+{
+    if (b->part < EXTRUDE_WALL)
+        return vec3(0, 0, b->part == EXTRUDE_HIGH ? 1 : -1);
+    const struct vec2 c = outline_tangent(&o->segment[b->part - EXTRUDE_WALL], b->v);
+    return vec3(b->u * c.v, -b->u * c.u, 0);
+}

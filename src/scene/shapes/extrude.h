@@ -1,0 +1,33 @@
+#ifndef SCENE_SHAPES_EXTRUDE_H
+#define SCENE_SHAPES_EXTRUDE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/vec.h"
+#include "scene/boundary.h"
+#include "scene/shapes/outline.h"
+
+// A plane outline swept along the third axis from low to high: coordinates (u, v, h).
+// Parts: EXTRUDE_LOW and EXTRUDE_HIGH are the caps, EXTRUDE_WALL + i the wall of segment i.
+enum { EXTRUDE_LOW, EXTRUDE_HIGH, EXTRUDE_WALL };
+
+struct extrude_ray {
+    double o[3], d[3]; // in (u, v, h)
+};
+
+// Appends the crossings of the whole line, ascending and alternating. b->u is +1 or -1:
+// the sign that turns (v', -u') of the wall outward; b->v the segment's parameter. The
+// caps of an open extrusion are not drawn.
+void extrude_intersect(const struct outline *o, double low, double high, bool open,
+                       const struct extrude_ray *ray, struct boundary_list *out);
+
+// The outward normal of a crossing, in (u, v, h), not normalised.
+struct vec3 extrude_normal(const struct outline *o, const struct boundary *b);
+
+// Sorts the crossings from index `from` on by t.
+void boundary_list_sort(struct boundary_list *l, uint32_t from);
+// Several solids' crossings, sorted: keeps those of their union.
+void boundary_list_merge(struct boundary_list *l, uint32_t from);
+
+#endif

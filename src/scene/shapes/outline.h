@@ -1,0 +1,49 @@
+#ifndef SCENE_SHAPES_OUTLINE_H
+#define SCENE_SHAPES_OUTLINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/vec.h"
+
+struct arena;
+
+// Closed plane curves of lines, parabolas and cubics, filled by the even-odd rule:
+// the cross-section of prisms and letters.
+//
+// Parity is exact: whether a line crosses a piece of curve is decided by the signs of
+// its two ends, computed from the stored end points, which neighbours share bit for bit.
+// So a line meets a closed loop an even number of times, also through a vertex.
+struct outline_segment {
+    struct vec2 a, b;       // end points, shared exactly with the neighbours
+    struct vec2 c3, c2, c1; // curve(w) = ((c3 w + c2) w + c1) w + a, 0 <= w <= 1
+    int degree;             // 1, 2, 3
+};
+
+struct outline {
+    struct outline_segment *segment;
+    uint32_t count, capacity;
+    struct arena *arena;
+    struct vec2 min, max; // of the control points
+};
+
+void outline_init(struct outline *o, struct arena *arena);
+void outline_line(struct outline *o, struct vec2 a, struct vec2 b);
+// Bezier control points.
+void outline_parabola(struct outline *o, struct vec2 a, struct vec2 control,
+                      struct vec2 b);
+void outline_cubic(struct outline *o, struct vec2 a, struct vec2 c1, struct vec2 c2,
+                   struct vec2 b);
+
+struct vec2 outline_point(const struct outline_segment *s, double w);
+struct vec2 outline_tangent(const struct outline_segment *s, double w);
+
+// The parameters w at which the segment crosses the line k.(u, v, 1) = 0, ascending.
+// Returns their number.
+enum { OUTLINE_ROOTS = 3 };
+int outline_roots(const struct outline_segment *s, const double k[3],
+                  double w[OUTLINE_ROOTS]);
+
+bool outline_inside(const struct outline *o, struct vec2 p);
+
+#endif

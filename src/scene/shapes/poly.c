@@ -1,0 +1,193 @@
+// poly { n, <c...> }, cubic { <20> }, quartic { <35> }, polynomial { n, xyz(i,j,k): c, ... }
+//
+// The set where a polynomial in x, y, z is negative. Coefficients come by falling power
+// of x, then of y, then of z (spec/shapes.md 4.8).
+#include <math.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "math/polynomial.h"
+#include "scene/args.h"
+#include "scene/shape.h"
+
+struct poly {
+    int order;
+    const double *coefficient;
+};
+
+static size_t term_count(int n) { return (size_t)((n + 1) * (n + 2) * (n + 3) / 6); }
+
+// A polynomial in the ray's parameter, ascending powers.
+struct line_poly {
+    double c[POLYNOMIAL_DEGREE_MAX + 1];
+    int degree;
+};
+
+// p = p * (o + d t) + c
+static void horner(struct line_poly *p, double o, double d, const struct line_poly *c)
+{
+    for (int i = p->degree + 1; i >= 0; i--)
+        p->c[i] = (i <= p->degree ? o * p->c[i] : 0) + (i > 0 ? d * p->c[i - 1] : 0);
+    p->degree++;
+    for (int i = 0; i <= c->degree; i++)
+        p->c[i] += c->c[i];
+}
+
+// The polynomial along o + t d, as nested Horner schemes in x, y and z.
+static void along(const struct poly *s, struct vec3 o, struct vec3 d,
+                  struct line_poly *out)
+{
+    const double *c = s->coefficient;
+    *out = (struct line_poly){.degree = -1};
+    for (int a = s->order; a >= 0; a--) {
+        struct line_poly in_y = {.degree = -1};
+        for (int b = s->order - a; b >= 0; b--) {
+            struct line_poly in_z = {.degree = -1};
+            for (int k = s->order - a - b; k >= 0; k--) {
+                const struct line_poly term = {{*c++}, 0};
+                horner(&in_z, o.z, d.z, &term);
+            }
+            horner(&in_y, o.y, d.y, &in_z);
+        }
+        horner(out, o.x, d.x, &in_y);
+    }
+}
+
+static double value_at(const struct poly *s, struct vec3 p)
+{
+    const double *c = s->coefficient;
+    double x = 0;
+    for (int a = s->order; a >= 0; a--) {
+        double y = 0;
+        for (int b = s->order - a; b >= 0; b--) {
+            double z = 0;
+            for (int k = s->order - a - b; k >= 0; k--)
+                z = z * p.z + *c++;
+            y = y * p.y + z;
+        }
+        x = x * p.x + y;
+    }
+    return x;
+}
+
+static struct aabb bounds(const void *shape)
+{
+    (void)shape;
+    return aabb_infinite();
+}
+
+static bool inside(const void *shape, struct vec3 p) { return value_at(shape, p) <= 0; }
+
+static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
+{
+    const struct poly *s = shape;
+    // From the point of the line nearest to the origin, with a unit direction: the
+    // coefficients are then of the size of the surface, not of the ray's distance.
+    const double length = vec3_length(ray->d);
+    const struct vec3 u = vec3_scale(1 / length, ray->d);
+    const double to_nearest = -vec3_dot(ray->o, u);
+    const struct vec3 o = vec3_mad(ray->o, to_nearest, u);
+    struct line_poly p;
+    along(s, o, u, &p);
+    struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
+    const double far = polynomial_root_bound(p.c, p.degree);
+    const int n = polynomial_roots(p.c, p.degree, -far, far, 4 * s->order, root);
+    for (int i = 0; i < n; i++) {
+        const double dt = root[i].dt + 0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
+        boundary_list_add(out, (root[i].t + to_nearest) / length, dt / length,
+                          root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
+    }
+}
+
+// The gradient by the same nested schemes, differentiated along each axis.
+static struct vec3 gradient(const struct poly *s, struct vec3 p)
+{
+    static const struct vec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double g[3];
+    for (int i = 0; i < 3; i++) {
+        struct line_poly line;
+        along(s, p, axis[i], &line);
+        g[i] = line.degree > 0 ? line.c[1] : 0;
+    }
+    return vec3(g[0], g[1], g[2]);
+}
+
+static void surface(const void *shape, const struct boundary *b, struct vec3 p,
+                    struct surface_point *out)
+{
+    (void)b;
+    struct vec3 n = vec3_normalize(gradient(shape, p));
+    if (vec3_dot(n, n) == 0)
+        n = vec3(1, 0, 0); // a singular point has no normal; POV-Ray's choice
+    out->p = p;
+    out->ng = out->ns = n;
+    out->uv = (struct vec2){p.x, p.y};
+}
+
+static bool read_terms(struct poly *s, struct args *args)
+{
+    double *c = arena_new_array(args_arena(args), double, term_count(s->order));
+    s->coefficient = c;
+    return args_floats(args, "coefficients", c, term_count(s->order));
+}
+
+static bool read_order(struct poly *s, struct args *args)
+{
+    long n;
+    if (!args_int(args, "order", &n))
+        return false;
+    if (n < 2 || n > POLYNOMIAL_DEGREE_MAX) {
+        args_reject(args, "the order must be from 2 to 35");
+        return false;
+    }
+    s->order = (int)n;
+    return true;
+}
+
+static bool build_poly(void *shape, struct args *args)
+{
+    return read_order(shape, args) && read_terms(shape, args);
+}
+
+static bool build_cubic(void *shape, struct args *args)
+{
+    struct poly *s = shape;
+    s->order = 3;
+    return read_terms(s, args);
+}
+
+static bool build_quartic(void *shape, struct args *args)
+{
+    struct poly *s = shape;
+    s->order = 4;
+    return read_terms(s, args);
+}
+
+static void print(const void *shape, FILE *out)
+{
+    const struct poly *s = shape;
+    fprintf(out, "poly { %d, <", s->order);
+    for (size_t i = 0; i < term_count(s->order); i++) {
+        if (i)
+            fputs(", ", out);
+        shape_print_number(out, s->coefficient[i]);
+    }
+    fputs(">", out);
+}
+
+#define POLY_OPS(word)                                                                   \
+    const struct shape_ops word##_ops = {                                                \
+        .keyword = #word,                                                                \
+        .size = sizeof(struct poly),                                                     \
+        .flags = SHAPE_SOLID | SHAPE_STURM,                                              \
+        .build = build_##word,                                                           \
+        .bounds = bounds,                                                                \
+        .inside = inside,                                                                \
+        .intersect = intersect,                                                          \
+        .surface = surface,                                                              \
+        .print = print,                                                                  \
+    }
+
+POLY_OPS(poly);
+POLY_OPS(cubic);
+POLY_OPS(quartic);

@@ -1,0 +1,16 @@
+#ifndef SCENE_SHAPES_QUADRIC_H
+#define SCENE_SHAPES_QUADRIC_H
+
+#include "math/vec.h"
+
+// With q = p - centre: xx q.x^2 + yy q.y^2 + zz q.z^2 + xy q.x q.y + xz q.x q.z +
+// yz q.y q.z + linear.q + constant <= 0. Central quadrics have linear == 0, and the
+// largest coefficient is between 1 and 2.
+struct quadric {
+    struct vec3 centre;
+    double xx, yy, zz, xy, xz, yz;
+    struct vec3 linear;
+    double constant;
+};
+
+#endif

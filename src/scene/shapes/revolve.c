@@ -1,0 +1,239 @@
+#include "scene/shapes/revolve.h"
+
+#include <math.h>
+
+#include "math/elementary.h"
+#include "math/gamma.h"
+#include "math/polynomial.h"
+#include "scene/shapes/extrude.h"
+
+enum { PART_FIRST_CAP, PART_LAST_CAP, PART_SEGMENT };
+
+// A ray this flat (sine of its slope) is taken as horizontal: the two crossings of a
+// height then lie closer in w than the polynomial can tell, and the error made is below
+// the slope times the radius.
+static const double FLAT = 0x1p-26; // square root of the roundoff
+
+static const double pi = 3.14159265358979323846;
+
+void revolve_prepare(struct revolve *r)
+{
+    double r2 = 0;
+    r->h_min = HUGE_VAL;
+    r->h_max = -HUGE_VAL;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct revolve_segment *s = &r->segment[i];
+        enum { STEPS = 64 };
+        for (int k = 0; k <= STEPS; k++) {
+            const double w = k / (double)STEPS;
+            const double h = polynomial_value(s->h, s->h_degree, w);
+            r->h_min = fmin(r->h_min, h);
+            r->h_max = fmax(r->h_max, h);
+            r2 = fmax(r2, polynomial_value(s->r2, s->r2_degree, w));
+        }
+    }
+    // Between samples a cubic rises by less than this share of its range.
+    const double slack = (r->h_max - r->h_min) / 256;
+    const bool straight = r->count && r->segment[0].h_degree == 1;
+    r->h_min -= straight ? 0 : slack;
+    r->h_max += straight ? 0 : slack;
+    r->r_max = sqrt(r2) * (1 + 1. / 256);
+}
+
+struct aabb revolve_bounds(const struct revolve *r)
+{
+    return (struct aabb){vec3(-r->r_max, r->h_min, -r->r_max),
+                         vec3(r->r_max, r->h_max, r->r_max)};
+}
+
+// The sign changes of f on (0, 1), the signs at the ends given.
+static int crossings(const double *f, int degree, bool above[2], double *w)
+{
+    struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
+    int n = polynomial_roots(f, degree, 0, 1, 16, root);
+    // The ends decide: drop or add a root at the end where rounding disagrees.
+    bool state = above[0];
+    int kept = 0;
+    for (int i = 0; i < n; i++)
+        if (root[i].rising == !state) {
+            w[kept++] = root[i].t;
+            state = !state;
+        }
+    if (state != above[1])
+        w[kept++] = 1;
+    return kept;
+}
+
+bool revolve_inside(const struct revolve *r, struct vec3 p)
+{
+    const double rho2 = p.x * p.x + p.z * p.z;
+    bool in = false;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct revolve_segment *s = &r->segment[i];
+        double f[4], w[8];
+        for (int k = 0; k <= s->h_degree; k++)
+            f[k] = s->h[k];
+        f[0] -= p.y;
+        bool above[2] = {s->h_end[0] >= p.y, s->h_end[1] >= p.y};
+        for (int n = crossings(f, s->h_degree, above, w); n > 0; n--)
+            in ^= polynomial_value(s->r2, s->r2_degree, w[n - 1]) >= rho2;
+    }
+    return in;
+}
+
+struct line {
+    const struct revolve *r;
+    const struct ray *ray;
+    double q, m, p; // |D_xz|^2, D_xz . O_xz, |O_xz|^2
+    double dt;      // the part of the error that all crossings share
+    struct boundary_list *out;
+};
+
+static void add(const struct line *l, double t, double dt, uint32_t part, double w)
+{
+    struct boundary *b = boundary_list_add(l->out, t, dt, CROSS_ENTER, part);
+    b->v = w;
+}
+
+// Both points of a circle of squared radius r2 at the height of a horizontal ray.
+static void add_circle(const struct line *l, double r2, uint32_t part, double w)
+{
+    const double shift = -l->m / l->q, rest = r2 - (l->p - l->m * l->m / l->q);
+    if (!(rest > 0))
+        return;
+    const double reach = sqrt(rest / l->q);
+    const double dt = l->dt * (1 + (r2 + l->p) / fmax(rest, 0x1p-50 * (r2 + l->p)));
+    add(l, shift - reach, dt, part, w);
+    add(l, shift + reach, dt, part, w);
+}
+
+static void flat_segment(const struct line *l, uint32_t i)
+{
+    const struct revolve_segment *s = &l->r->segment[i];
+    const double y = l->ray->o.y;
+    double f[4], w[8];
+    for (int k = 0; k <= s->h_degree; k++)
+        f[k] = s->h[k];
+    f[0] -= y;
+    bool above[2] = {s->h_end[0] >= y, s->h_end[1] >= y};
+    for (int n = crossings(f, s->h_degree, above, w); n > 0; n--)
+        add_circle(l, polynomial_value(s->r2, s->r2_degree, w[n - 1]), PART_SEGMENT + i,
+                   w[n - 1]);
+}
+
+// q s^2 + 2 Dy m s + Dy^2 (p - r^2), s = h - Oy.
+static double conic(const struct line *l, double h, double r2)
+{
+    const double s = h - l->ray->o.y, dy = l->ray->d.y;
+    return l->q * s * s + 2 * dy * l->m * s + dy * dy * (l->p - r2);
+}
+
+static void sloped_segment(const struct line *l, uint32_t i)
+{
+    const struct revolve_segment *s = &l->r->segment[i];
+    const double dy = l->ray->d.y;
+    double f[7] = {0}, h[4], w[8];
+    for (int k = 0; k <= s->h_degree; k++)
+        h[k] = s->h[k];
+    h[0] -= l->ray->o.y;
+    int degree = 2 * s->h_degree > s->r2_degree ? 2 * s->h_degree : s->r2_degree;
+    for (int j = 0; j <= s->h_degree; j++) {
+        for (int k = 0; k <= s->h_degree; k++)
+            f[j + k] += l->q * h[j] * h[k];
+        f[j] += 2 * dy * l->m * h[j];
+    }
+    f[0] += dy * dy * l->p;
+    for (int k = 0; k <= s->r2_degree; k++)
+        f[k] -= dy * dy * s->r2[k];
+    bool above[2] = {conic(l, s->h_end[0], s->r2_end[0]) >= 0,
+                     conic(l, s->h_end[1], s->r2_end[1]) >= 0};
+    for (int n = crossings(f, degree, above, w); n > 0; n--) {
+        const double at = w[n - 1], height = polynomial_value(h, s->h_degree, at);
+        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), PART_SEGMENT + i, at);
+    }
+}
+
+static void cap(const struct line *l, uint32_t part, double h, double r2)
+{
+    const double t = (h - l->ray->o.y) / l->ray->d.y;
+    // The same function as the wall's, so that the rim is met once.
+    if (conic(l, h, r2) < 0)
+        add(l, t, l->dt / fabs(l->ray->d.y), part, 0);
+}
+
+// Toggles along the sorted crossings; b->u turns the profile's normal outward.
+static void alternate(const struct line *l, uint32_t from)
+{
+    bool in = false;
+    for (uint32_t i = from; i < l->out->count; i++) {
+        struct boundary *b = &l->out->at[i];
+        b->crossing = in ? CROSS_EXIT : CROSS_ENTER;
+        if (b->part < PART_SEGMENT) {
+            b->drawn = l->r->caps_drawn;
+            b->u = (l->ray->d.y < 0) == !in ? 1 : -1;
+        } else {
+            const struct vec3 p = ray_at(l->ray, b->t);
+            struct surface_point s;
+            b->u = 1;
+            revolve_surface(l->r, b, p, &s);
+            if ((vec3_dot(s.ng, l->ray->d) < 0) == in)
+                b->u = -1;
+        }
+        in = !in;
+    }
+    if (in) // an odd number: a crossing was lost to rounding at the very rim
+        l->out->count--;
+}
+
+void revolve_intersect(const struct revolve *r, const struct ray *ray,
+                       struct boundary_list *out)
+{
+    struct line l = {.r = r, .ray = ray, .out = out};
+    const struct vec3 o = ray->o, d = ray->d;
+    l.q = d.x * d.x + d.z * d.z;
+    l.m = d.x * o.x + d.z * o.z;
+    l.p = o.x * o.x + o.z * o.z;
+    const double size =
+        fmax(vec3_max_abs(o), fmax(r->r_max, fmax(fabs(r->h_min), fabs(r->h_max))));
+    l.dt = GAMMA(64) * size / sqrt(l.q + d.y * d.y);
+    const bool flat = fabs(d.y) <= FLAT * sqrt(l.q);
+    const uint32_t from = out->count;
+    for (uint32_t i = 0; i < r->count; i++)
+        if (flat)
+            flat_segment(&l, i);
+        else
+            sloped_segment(&l, i);
+    if (!flat && !r->closed && r->count) {
+        const struct revolve_segment *last = &r->segment[r->count - 1];
+        cap(&l, PART_FIRST_CAP, r->segment[0].h_end[0], r->segment[0].r2_end[0]);
+        cap(&l, PART_LAST_CAP, last->h_end[1], last->r2_end[1]);
+    }
+    boundary_list_sort(out, from);
+    alternate(&l, from);
+}
+
+void revolve_surface(const struct revolve *r, const struct boundary *b, struct vec3 p,
+                     struct surface_point *out)
+{
+    const double rho2 = p.x * p.x + p.z * p.z;
+    double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
+    out->p = p;
+    out->uv.u = turn < 0 ? turn + 1 : turn;
+    if (b->part < PART_SEGMENT) {
+        out->ng = out->ns = vec3(0, b->u, 0);
+        out->uv.v = b->part == PART_LAST_CAP;
+        return;
+    }
+    const uint32_t i = b->part - PART_SEGMENT;
+    const struct revolve_segment *s = &r->segment[i];
+    double dh = 0, dr2 = 0;
+    for (int k = s->h_degree; k > 0; k--)
+        dh = dh * b->v + k * s->h[k];
+    for (int k = s->r2_degree; k > 0; k--)
+        dr2 = dr2 * b->v + k * s->r2[k];
+    struct vec3 n = vec3(dh * p.x, -0.5 * dr2, dh * p.z);
+    if (vec3_dot(n, n) == 0)
+        n = vec3(0, 1, 0); // on the axis
+    out->ng = out->ns = vec3_scale(b->u, vec3_normalize(n));
+    out->uv.v = fmin(1, (i + b->v) / r->count);
+}

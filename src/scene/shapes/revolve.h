@@ -1,0 +1,42 @@
+#ifndef SCENE_SHAPES_REVOLVE_H
+#define SCENE_SHAPES_REVOLVE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "math/aabb.h"
+#include "scene/boundary.h"
+#include "scene/shape.h"
+
+// A profile turned about the y axis: segments h(w), r^2(w) for 0 <= w <= 1. The solid is
+// what lies under the profile by the even-odd rule along the radius; where the profile
+// ends away from the axis a flat cap closes the solid, drawn only for sor without `open`.
+//
+// On a ray, points of height h have squared distance from the axis
+// q s^2 + 2 m s + P over Dy^2, s = h - Oy, so a segment is met where one polynomial in w,
+// the same function of (r^2, h) for all segments, changes its sign. Neighbours share
+// their end points bit for bit, so crossings are even in number.
+struct revolve_segment {
+    double h[4], r2[7]; // ascending powers of w
+    int h_degree, r2_degree;
+    double h_end[2], r2_end[2]; // at w = 0 and 1, shared with the neighbours
+};
+
+struct revolve {
+    const struct revolve_segment *segment;
+    uint32_t count;
+    bool closed;     // the profile ends where it began: no caps
+    bool caps_drawn;
+    double h_min, h_max, r_max;
+};
+
+void revolve_prepare(struct revolve *r); // fills bounds from the segments
+struct aabb revolve_bounds(const struct revolve *r);
+bool revolve_inside(const struct revolve *r, struct vec3 p);
+void revolve_intersect(const struct revolve *r, const struct ray *ray,
+                       struct boundary_list *out);
+void revolve_surface(const struct revolve *r, const struct boundary *b, struct vec3 p,
+                     struct surface_point *out);
+
+#endif

@@ -1,0 +1,109 @@
+// torus { major, minor }: around the y axis
+//
+// With the origin moved to the point of the line nearest to the centre, a unit
+// direction and lengths in units of R + r, the quartic has no cubic term:
+// (t^2 + K)^2 = 4 R^2 (A t^2 + 2 B t + C), K = o.o + R^2 - r^2. Its roots are isolated
+// on the chord of the bounding ball (research 4.7).
+#include <math.h>
+
+#include "math/elementary.h"
+#include "math/gamma.h"
+#include "math/polynomial.h"
+#include "scene/args.h"
+#include "scene/shape.h"
+
+struct torus {
+    double major, minor;
+};
+
+static const double pi = 3.14159265358979323846;
+
+static bool build(void *shape, struct args *args)
+{
+    struct torus *s = shape;
+    if (!args_float(args, "major radius", &s->major) ||
+        !args_float(args, "minor radius", &s->minor))
+        return false;
+    s->major = fabs(s->major);
+    s->minor = fabs(s->minor);
+    return true;
+}
+
+static struct aabb bounds(const void *shape)
+{
+    const struct torus *s = shape;
+    const double r = s->major + s->minor;
+    return aabb_pad((struct aabb){vec3(-r, -s->minor, -r), vec3(r, s->minor, r)});
+}
+
+static bool inside(const void *shape, struct vec3 p)
+{
+    const struct torus *s = shape;
+    const double rho = sqrt(p.x * p.x + p.z * p.z) - s->major;
+    return rho * rho + p.y * p.y <= s->minor * s->minor;
+}
+
+static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
+{
+    const struct torus *s = shape;
+    const double size = s->major + s->minor, length = vec3_length(ray->d);
+    if (!(size > 0))
+        return;
+    const struct vec3 u = vec3_scale(1 / length, ray->d);
+    const double shift = -vec3_dot(ray->o, u);
+    const struct vec3 o = vec3_scale(1 / size, vec3_mad(ray->o, shift, u));
+    const double R = s->major / size, r = s->minor / size;
+    const double oo = vec3_dot(o, o), reach = 1 - oo;
+    if (!(reach > 0) || fabs(o.y) > r + fabs(u.y) * 2)
+        return;
+    const double k = oo + (R - r) * (R + r), q = 4 * R * R;
+    const double c[5] = {k * k - q * (o.x * o.x + o.z * o.z),
+                         -2 * q * (o.x * u.x + o.z * u.z),
+                         2 * k - q * (u.x * u.x + u.z * u.z), 0, 1};
+    struct polynomial_root root[4];
+    const double chord = sqrt(reach) * (1 + 0x1p-40) + 0x1p-40;
+    const int n = polynomial_roots(c, 4, -chord, chord, 8, root);
+    for (int i = 0; i < n; i++) {
+        const double t = size * root[i].t + shift;
+        const double dt = size * root[i].dt + GAMMA(8) * (fabs(shift) + size);
+        boundary_list_add(out, t / length, dt / length,
+                          root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
+    }
+}
+
+static void surface(const void *shape, const struct boundary *b, struct vec3 p,
+                    struct surface_point *out)
+{
+    (void)b;
+    const struct torus *s = shape;
+    const double rho = sqrt(p.x * p.x + p.z * p.z);
+    const double k = rho > 0 ? s->major / rho : 0;
+    struct vec3 n = vec3(p.x - k * p.x, p.y, p.z - k * p.z);
+    if (vec3_dot(n, n) == 0)
+        n = vec3(0, 1, 0);
+    out->p = p;
+    out->ng = out->ns = vec3_normalize(n);
+    out->uv.u = 1 - (det_atan2(p.z, p.x) + pi) / (2 * pi);
+    out->uv.v = (det_atan2(p.y, rho - s->major) + pi) / (2 * pi);
+}
+
+static void print(const void *shape, FILE *out)
+{
+    const struct torus *s = shape;
+    fputs("torus { ", out);
+    shape_print_number(out, s->major);
+    fputs(", ", out);
+    shape_print_number(out, s->minor);
+}
+
+const struct shape_ops torus_ops = {
+    .keyword = "torus",
+    .size = sizeof(struct torus),
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV,
+    .build = build,
+    .bounds = bounds,
+    .inside = inside,
+    .intersect = intersect,
+    .surface = surface,
+    .print = print,
+};
