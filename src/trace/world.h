@@ -32,6 +32,8 @@ struct leaf {
     struct aabb bounds;         // world, of the bare shape
     uint32_t surface;           // index into world surfaces
     uint32_t object;            // index into world objects
+    uint32_t node;              // its NODE_LEAF node
+    bool solid;                 // false: a sheet, never inside, whatever `inverse` says
     bool inverted;
     bool drawn; // false: a clip; its boundaries only change states
 };
@@ -46,15 +48,23 @@ struct csg_node {
     uint32_t parent;       // index into world nodes; own index for the root
     uint32_t leaf;         // NODE_LEAF
     uint32_t child_count;
-    uint32_t first_child;  // children are contiguous
+    uint32_t first_child;  // children are contiguous and come after their parent
+    uint32_t base_inside;  // children inside (leaf: 1 if inverted) where no leaf's
+                           // bounds hold the point
     struct aabb bounds;    // S-bounds: clipped by the parents'
 };
+
+// Whether a node is inside when `inside` of its children are (a leaf: when it is 1).
+static inline bool node_is_inside(const struct csg_node *n, uint32_t inside)
+{
+    return n->op == NODE_INTERSECTION ? inside == n->child_count : inside > 0;
+}
 
 // What the BVH holds: one top-level object.
 struct world_object {
     struct aabb bounds; // world; infinite objects are kept out of the BVH
     uint32_t first_leaf, leaf_count;
-    uint32_t root;      // csg node; meaningless when leaf_count == 1
+    uint32_t root, node_count; // its csg nodes
     bool is_csg;        // false: the single leaf stands alone
     bool opaque;        // every leaf is
     unsigned flags;     // visibility of the whole

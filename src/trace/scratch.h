@@ -1,0 +1,42 @@
+#ifndef TRACE_SCRATCH_H
+#define TRACE_SCRATCH_H
+
+#include "scene/boundary.h"
+#include "trace/intersect.h"
+
+// What one thread needs while it traces: nothing is allocated per ray once the lists
+// have grown to their working size.
+struct trace_scratch {
+    struct boundary_list crossings;
+    uint32_t *inside; // children inside, per node of the object at hand
+    uint32_t *before; // the same before the batch, where stamped
+    uint64_t *stamp;  // batch that last touched the node
+    uint64_t batch;
+    uint32_t *leaves; // the leaves whose boxes the ray meets
+    struct trace_stats stats;
+};
+
+// A ray prepared for box tests.
+struct box_ray {
+    struct vec3 o, inv;
+    double t_min, t_max;
+};
+
+struct box_ray box_ray_of(const struct ray *r);
+// Whether the box is met within [t_min, t_max]; *t is where it begins. Conservative: the
+// bounds are grown by the rounding of the slab test (Ize 2013).
+bool box_meets(const struct aabb *b, const struct box_ray *r, double *t);
+
+// Which of an object's surfaces end the search: all drawn ones or opaque ones only.
+enum sweep_mode { SWEEP_CLOSEST, SWEEP_OPAQUE };
+
+// The first drawn surface of a CSG object on t_min < t < t_max by the sweep over batches
+// (doc/architecture.md); false: none.
+bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t object,
+                  const struct ray *ray, enum sweep_mode mode, struct boundary *out);
+
+// All crossings of one leaf with the line, in world terms: inverted leaves turned.
+void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
+                    struct boundary_list *out);
+
+#endif

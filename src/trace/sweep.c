@@ -1,0 +1,255 @@
+// CSG on a ray, the reference: every leaf's crossings, sorted, taken in batches whose
+// error bounds overlap; the expression's state before and after a batch decides which of
+// its boundaries are surfaces of the whole. Roth 1982 with coincidence resolved at once.
+#include <stdlib.h>
+#include <string.h>
+
+#include "trace/accel.h"
+#include "trace/scratch.h"
+
+void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
+                    struct boundary_list *out)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    const uint32_t from = out->count;
+    if (l->transform.identity) {
+        l->ops->intersect(l->shape, ray, out);
+    } else {
+        const struct ray local = transform_inverse_ray(&l->transform, ray);
+        l->ops->intersect(l->shape, &local, out);
+    }
+    for (uint32_t i = from; i < out->count; i++) {
+        struct boundary *b = &out->at[i];
+        b->leaf = leaf;
+        b->drawn = b->drawn && l->drawn;
+        if (l->inverted && b->crossing != CROSS_TOUCH)
+            b->crossing = b->crossing == CROSS_ENTER ? CROSS_EXIT : CROSS_ENTER;
+    }
+}
+
+// ---- collecting ---------------------------------------------------------------------
+
+static uint32_t collect_from_tree(const struct bvh *tree, const struct box_ray *r,
+                                  uint32_t *out)
+{
+    uint32_t stack[2 * BVH_STACK], depth = 0, n = 0;
+    if (!tree->item_count)
+        return 0;
+    stack[depth++] = 0;
+    while (depth) {
+        const struct bvh_node *node = &tree->node[stack[--depth]];
+        for (int k = 0; k < 2; k++) {
+            double t;
+            if (!box_meets(&node->bounds[k], r, &t))
+                continue;
+            if (node->count[k] == 0)
+                stack[depth++] = node->child[k];
+            for (uint32_t i = 0; i < node->count[k]; i++)
+                out[n++] = tree->item[node->child[k] + i];
+        }
+    }
+    return n;
+}
+
+// The leaves whose boxes the ray meets on its way. One whose box lies behind t_min or
+// beyond t_max is in its base state wherever it matters.
+static uint32_t collect(const struct world *w, struct trace_scratch *s, uint32_t object,
+                        const struct ray *ray)
+{
+    const struct world_object *o = &w->object[object];
+    const struct accel *a = w->accel;
+    const struct box_ray r = box_ray_of(ray);
+    if (o->leaf_count < LARGE_OBJECT) {
+        uint32_t n = 0;
+        for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+            double t;
+            if (!aabb_is_finite(w->leaf[i].bounds) || box_meets(&w->leaf[i].bounds, &r, &t))
+                s->leaves[n++] = i;
+        }
+        return n;
+    }
+    uint32_t n = collect_from_tree(&a->leaves[object], &r, s->leaves);
+    memcpy(s->leaves + n, a->unbounded[object],
+           a->unbounded_count[object] * sizeof *s->leaves);
+    return n + a->unbounded_count[object];
+}
+
+// ---- states -------------------------------------------------------------------------
+
+struct sweep {
+    const struct world *w;
+    struct trace_scratch *s;
+    const struct csg_node *node; // of this object, by index from its root
+    uint32_t root;
+};
+
+static bool inside_now(const struct sweep *v, uint32_t n)
+{
+    return node_is_inside(&v->node[n], v->s->inside[n]);
+}
+
+static uint32_t count_before(const struct sweep *v, uint32_t n)
+{
+    return v->s->stamp[n] == v->s->batch ? v->s->before[n] : v->s->inside[n];
+}
+
+static bool inside_before(const struct sweep *v, uint32_t n)
+{
+    return node_is_inside(&v->node[n], count_before(v, n));
+}
+
+static void remember(struct sweep *v, uint32_t n)
+{
+    if (v->s->stamp[n] == v->s->batch)
+        return;
+    v->s->stamp[n] = v->s->batch;
+    v->s->before[n] = v->s->inside[n];
+}
+
+// Sets a leaf's state and counts the change upwards as far as it goes.
+static void set_leaf(struct sweep *v, uint32_t leaf, bool in)
+{
+    uint32_t n = v->w->leaf[leaf].node - v->root;
+    if (v->s->inside[n] == (uint32_t)in)
+        return;
+    remember(v, n);
+    v->s->inside[n] = in;
+    while (n != 0) {
+        const uint32_t up = v->node[n].parent - v->root;
+        const bool was = inside_now(v, up);
+        remember(v, up);
+        v->s->inside[up] += in ? 1u : -1u;
+        const bool is = inside_now(v, up);
+        if (was == is)
+            return;
+        in = is;
+        n = up;
+    }
+}
+
+// Whether the boundary of a leaf is a surface of the whole, given the states around the
+// batch (the rules are in doc/architecture.md).
+static bool survives(const struct sweep *v, const struct boundary *b)
+{
+    uint32_t n = v->w->leaf[b->leaf].node - v->root;
+    bool was = inside_before(v, n), is = inside_now(v, n);
+    if (b->crossing != CROSS_TOUCH && was == is)
+        return false; // entered and left within one batch: nothing there
+    while (n != 0) {
+        const uint32_t up = v->node[n].parent - v->root;
+        const uint32_t before = count_before(v, up), now = v->s->inside[up];
+        const bool up_was = inside_before(v, up), up_is = inside_now(v, up);
+        const enum node_op op = v->node[up].op;
+        if (was != is) {
+            if (op != NODE_UNION && up_was == up_is)
+                return false;
+        } else if (op == NODE_INTERSECTION) {
+            const uint32_t others = v->node[up].child_count - 1;
+            if (before - was != others || now - is != others)
+                return false;
+        } else if (op == NODE_MERGE) {
+            if (before - was != 0 || now - is != 0)
+                return false;
+        }
+        was = up_was;
+        is = up_is;
+        n = up;
+    }
+    return true;
+}
+
+// ---- the sweep -------------------------------------------------------------------------
+
+static int by_t(const void *a, const void *b)
+{
+    const struct boundary *x = a, *y = b;
+    if (x->t != y->t)
+        return x->t < y->t ? -1 : 1;
+    return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
+}
+
+static void sort_crossings(struct boundary_list *l)
+{
+    if (l->count > 32) {
+        qsort(l->at, l->count, sizeof *l->at, by_t);
+        return;
+    }
+    for (uint32_t i = 1; i < l->count; i++) {
+        const struct boundary b = l->at[i];
+        uint32_t j = i;
+        for (; j > 0 && by_t(&l->at[j - 1], &b) > 0; j--)
+            l->at[j] = l->at[j - 1];
+        l->at[j] = b;
+    }
+}
+
+// Gathers the crossings and puts every leaf in its state at t = -infinity.
+static void start(struct sweep *v, uint32_t object, const struct ray *ray)
+{
+    struct trace_scratch *s = v->s;
+    const struct world_object *o = &v->w->object[object];
+    for (uint32_t i = 0; i < o->node_count; i++)
+        s->inside[i] = v->node[i].base_inside;
+    s->crossings.count = 0;
+    s->batch++;
+    const uint32_t n = collect(v->w, s, object, ray);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct leaf *l = &v->w->leaf[s->leaves[i]];
+        const uint32_t from = s->crossings.count;
+        leaf_crossings(v->w, s->leaves[i], ray, &s->crossings);
+        if (!l->solid)
+            continue;
+        bool in;
+        if (s->crossings.count > from)
+            in = s->crossings.at[from].crossing == CROSS_EXIT;
+        else if (l->ops->flags & SHAPE_BOUNDED)
+            continue;
+        else
+            in = l->ops->inside(l->shape, transform_inverse_point(&l->transform, ray->o)) !=
+                 l->inverted;
+        set_leaf(v, s->leaves[i], in);
+    }
+    sort_crossings(&s->crossings);
+    s->stats.leaf_tests += n;
+}
+
+static bool ends_search(const struct sweep *v, const struct boundary *b, enum sweep_mode mode)
+{
+    return mode == SWEEP_CLOSEST || v->w->surface[v->w->leaf[b->leaf].surface].opaque;
+}
+
+bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t object,
+                  const struct ray *ray, enum sweep_mode mode, struct boundary *out)
+{
+    struct sweep v = {w, s, w->node + w->object[object].root, w->object[object].root};
+    start(&v, object, ray);
+    s->stats.csg_tests++;
+    const struct boundary_list *l = &s->crossings;
+    for (uint32_t i = 0, end; i < l->count; i = end) {
+        double reach = l->at[i].t + l->at[i].dt;
+        s->batch++;
+        for (end = i; end < l->count && l->at[end].t - l->at[end].dt <= reach; end++) {
+            const struct boundary *b = &l->at[end];
+            reach = b->t + b->dt > reach ? b->t + b->dt : reach;
+            if (b->crossing != CROSS_TOUCH)
+                set_leaf(&v, b->leaf, b->crossing == CROSS_ENTER);
+        }
+        if (l->at[end - 1].t <= ray->t_min)
+            continue;
+        if (l->at[i].t >= ray->t_max)
+            return false;
+        const struct boundary *found = NULL;
+        for (uint32_t k = i; k < end; k++) {
+            const struct boundary *b = &l->at[k];
+            if (b->drawn && b->t > ray->t_min && b->t < ray->t_max &&
+                (!found || b->leaf > found->leaf) && survives(&v, b) &&
+                ends_search(&v, b, mode))
+                found = b;
+        }
+        if (found) {
+            *out = *found;
+            return true;
+        }
+    }
+    return false;
+}

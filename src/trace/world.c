@@ -1,0 +1,495 @@
+#include "trace/world.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "trace/accel.h"
+
+// What a node takes from the nodes above it, in world space.
+struct context {
+    struct transform world;           // from the space outside the node
+    struct attached_texture texture;  // inherited; NULL: none yet
+    struct attached_texture interior_texture;
+    const struct interior *interior;
+    unsigned flags;                   // OR of the flags above
+    bool inverted, drawn;
+    uint32_t light_group;
+};
+
+// A node waiting to be flattened into its slot. A stack rather than recursion: trees may
+// be thousands of levels deep.
+struct pending {
+    const struct object *object;
+    struct context context;
+    uint32_t node;
+};
+
+struct vector {
+    void *at;
+    uint32_t count, capacity;
+    size_t size;
+};
+
+static void *vector_add(struct vector *v, uint32_t n)
+{
+    if (v->count + n > v->capacity) {
+        uint32_t capacity = v->capacity ? v->capacity : 64;
+        while (capacity < v->count + n)
+            capacity *= 2;
+        v->at = realloc(v->at, capacity * v->size);
+        if (!v->at)
+            abort();
+        v->capacity = capacity;
+    }
+    char *p = (char *)v->at + v->count * v->size;
+    memset(p, 0, n * v->size);
+    v->count += n;
+    return p;
+}
+
+struct build {
+    struct arena *arena;
+    const struct scene *scene;
+    struct vector leaf, node, object, surface, light, group, pending;
+    bool has_transparent;
+};
+
+static void add_top(struct build *b, const struct object *o, const struct context *c);
+
+// ---- lights -------------------------------------------------------------------
+
+static void place_light(struct light *l, const struct transform *t)
+{
+    l->location = transform_point(t, l->location);
+    l->point_at = transform_point(t, l->point_at);
+    l->axis = vec3_normalize(transform_vector(t, l->axis));
+    l->axis1 = transform_vector(t, l->axis1);
+    l->axis2 = transform_vector(t, l->axis2);
+}
+
+static const struct object *placed(struct build *b, const struct object *o,
+                                   const struct transform *t)
+{
+    struct object *copy = object_copy(b->arena, o);
+    object_transform(b->arena, copy, t);
+    return copy;
+}
+
+static void add_light(struct build *b, const struct object *o, const struct context *c)
+{
+    struct light *l = arena_new_struct(b->arena, struct light);
+    const struct transform t = transform_then(&o->transform, &c->world);
+    *l = *o->light;
+    place_light(l, &t);
+    if (l->projected_through)
+        l->projected_through = placed(b, l->projected_through, &t);
+    if (c->light_group == 0)
+        *(const struct light **)vector_add(&b->light, 1) = l;
+    else {
+        struct light_group *g = (struct light_group *)b->group.at + c->light_group - 1;
+        const struct light **more = arena_alloc(b->arena, (g->count + 1) * sizeof *more);
+        if (g->count)
+            memcpy(more, g->light, g->count * sizeof *more);
+        more[g->count++] = l;
+        g->light = more;
+    }
+    if (l->looks_like) {
+        struct object *look = object_copy(b->arena, placed(b, l->looks_like, &t));
+        look->flags |= OBJECT_NO_SHADOW;
+        struct context plain = {.world = transform_identity, .drawn = true,
+                                .light_group = c->light_group};
+        add_top(b, look, &plain);
+    }
+}
+
+// Lights below a node that is flattened whole, in written order.
+static void add_lights_below(struct build *b, const struct object *o, const struct context *c)
+{
+    if (o->kind == OBJECT_LIGHT) {
+        add_light(b, o, c);
+        return;
+    }
+    struct context inner = *c;
+    inner.world = transform_then(&o->transform, &c->world);
+    for (uint32_t i = 0; o->kind == OBJECT_CSG && i < o->child_count; i++)
+        if (o->child[i]->kind == OBJECT_LIGHT)
+            add_light(b, o->child[i], &inner);
+}
+
+// ---- inheritance -----------------------------------------------------------------
+
+static struct attached_texture attach(const struct attached_texture *own,
+                                      const struct attached_texture *inherited,
+                                      const struct transform *world)
+{
+    if (!own->texture)
+        return *inherited;
+    return (struct attached_texture){own->texture, transform_then(&own->transform, world)};
+}
+
+// Every object has an interior of its own, whose identity says which surfaces bound the
+// same medium; children without one share their parent's (spec/lighting.md 4.1).
+static const struct interior *interior_of(struct build *b, const struct object *o,
+                                          const struct context *c, bool hollow)
+{
+    if (!o->interior && c->interior)
+        return c->interior;
+    struct interior *i = arena_new_struct(b->arena, struct interior);
+    if (o->interior)
+        *i = *o->interior;
+    else
+        *i = (struct interior){.dispersion = 1, .dispersion_samples = 7, .old_refraction = 1};
+    i->hollow = hollow;
+    return i;
+}
+
+// The context inside node o, for its children or its shape.
+static struct context enter(struct build *b, const struct object *o, const struct context *c)
+{
+    struct context in = *c;
+    in.texture = attach(&o->texture, &c->texture, &c->world);
+    in.interior_texture = attach(&o->interior_texture, &c->interior_texture, &c->world);
+    unsigned inherited = c->flags & ~(unsigned)(OBJECT_INVERSE | OBJECT_HOLLOW_SET |
+                                                OBJECT_UV_MAPPING | OBJECT_NO_SPLIT);
+    if (o->flags & OBJECT_HOLLOW_SET)
+        inherited &= ~(unsigned)OBJECT_HOLLOW;
+    // A texture mapped by uv stays so for the children that inherit it.
+    if (!o->texture.texture)
+        inherited |= c->flags & OBJECT_UV_MAPPING;
+    in.flags = inherited | o->flags;
+    in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
+    in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
+    in.world = transform_then(&o->transform, &c->world);
+    return in;
+}
+
+// ---- leaves ------------------------------------------------------------------------
+
+static uint32_t add_surface(struct build *b, const struct context *c)
+{
+    const uint32_t index = b->surface.count;
+    struct surface *s = vector_add(&b->surface, 1);
+    const struct attached_texture *t = c->texture.texture ? &c->texture : &b->scene->default_texture;
+    s->texture = t->texture;
+    s->texture_transform = t->transform;
+    s->interior_texture = c->interior_texture.texture;
+    s->interior_texture_transform = c->interior_texture.transform;
+    s->interior = c->interior;
+    s->flags = c->flags;
+    s->light_group = c->light_group;
+    s->opaque = texture_is_opaque(s->texture) &&
+                (!s->interior_texture || texture_is_opaque(s->interior_texture));
+    b->has_transparent |= !s->opaque;
+    return index;
+}
+
+static uint32_t add_leaf(struct build *b, const struct object *o, const struct context *c)
+{
+    const uint32_t index = b->leaf.count;
+    const uint32_t surface = add_surface(b, c);
+    struct leaf *l = vector_add(&b->leaf, 1);
+    l->ops = o->ops;
+    l->shape = o->shape;
+    l->transform = c->world;
+    l->surface = surface;
+    l->object = b->object.count;
+    l->solid = shape_is_solid(o->ops, o->shape);
+    l->inverted = l->solid && c->inverted;
+    l->drawn = c->drawn;
+    if (!l->transform.identity && o->ops->absorb) {
+        void *copy = arena_alloc(b->arena, o->ops->size);
+        memcpy(copy, o->shape, o->ops->size);
+        if (o->ops->absorb(copy, &l->transform)) {
+            l->shape = copy;
+            l->transform = transform_identity;
+        }
+    }
+    l->bounds = o->ops->bounds(l->shape);
+    if (!l->transform.identity && !aabb_is_empty(l->bounds))
+        l->bounds = aabb_pad(aabb_transform(l->bounds, &l->transform));
+    return index;
+}
+
+static struct aabb drawn_bounds(const struct leaf *l)
+{
+    struct aabb s = shape_surface_bounds(l->ops, l->shape);
+    if (!l->drawn)
+        return aabb_empty();
+    return l->transform.identity || aabb_is_empty(s)
+               ? s
+               : aabb_pad(aabb_transform(s, &l->transform));
+}
+
+// ---- expressions ---------------------------------------------------------------------
+
+static enum node_op op_of(const struct object *o, bool inverted)
+{
+    switch (o->op) {
+    case CSG_UNION: return inverted ? NODE_INTERSECTION : NODE_UNION;
+    case CSG_MERGE: return inverted ? NODE_INTERSECTION : NODE_MERGE;
+    default: return inverted ? NODE_MERGE : NODE_INTERSECTION;
+    }
+}
+
+static struct csg_node *node_at(struct build *b, uint32_t i)
+{
+    return (struct csg_node *)b->node.at + i;
+}
+
+static uint32_t add_children(struct build *b, uint32_t parent, enum node_op op, uint32_t count)
+{
+    const uint32_t first = b->node.count;
+    vector_add(&b->node, count);
+    struct csg_node *n = node_at(b, parent);
+    n->op = op;
+    n->first_child = first;
+    n->child_count = count;
+    for (uint32_t i = 0; i < count; i++)
+        node_at(b, first + i)->parent = parent;
+    return first;
+}
+
+static void later(struct build *b, const struct object *o, const struct context *c,
+                  uint32_t node)
+{
+    struct pending *p = vector_add(&b->pending, 1);
+    *p = (struct pending){o, *c, node};
+}
+
+// A clipped node is the intersection of the node and its clips, which are not drawn.
+// Clips hold for an inverted node too, as they are (spec/shapes.md 1.6).
+static void flatten_clipped(struct build *b, const struct pending *p)
+{
+    const struct object *o = p->object;
+    const uint32_t first =
+        add_children(b, p->node, NODE_INTERSECTION, o->clip_count + 1);
+    struct context clip = p->context;
+    clip.inverted = clip.drawn = false;
+    for (uint32_t i = o->clip_count; i-- > 0;)
+        later(b, o->clip[i], &clip, first + 1 + i);
+    struct object *bare = object_copy(b->arena, o);
+    bare->clip_count = 0;
+    later(b, bare, &p->context, first);
+}
+
+static void flatten_csg(struct build *b, const struct object *o, const struct context *in,
+                        uint32_t node)
+{
+    uint32_t solid = 0;
+    for (uint32_t i = 0; i < o->child_count; i++)
+        solid += o->child[i]->kind != OBJECT_LIGHT;
+    uint32_t at = add_children(b, node, op_of(o, in->inverted), solid) + solid;
+    for (uint32_t i = o->child_count; i-- > 0;) { // the stack turns the order round again
+        if (o->child[i]->kind == OBJECT_LIGHT)
+            continue;
+        struct context c = *in;
+        if (o->op == CSG_DIFFERENCE && i > 0)
+            c.inverted = !c.inverted;
+        later(b, o->child[i], &c, --at);
+    }
+}
+
+static void flatten(struct build *b, uint32_t root, const struct object *o,
+                    const struct context *c)
+{
+    later(b, o, c, root);
+    while (b->pending.count) {
+        const struct pending p = ((struct pending *)b->pending.at)[--b->pending.count];
+        if (p.object->clip_count) {
+            flatten_clipped(b, &p);
+            continue;
+        }
+        const struct context in = enter(b, p.object, &p.context);
+        if (p.object->kind == OBJECT_CSG) {
+            add_lights_below(b, p.object, &p.context);
+            flatten_csg(b, p.object, &in, p.node);
+        } else {
+            const uint32_t leaf = add_leaf(b, p.object, &in);
+            struct csg_node *n = node_at(b, p.node);
+            n->op = NODE_LEAF;
+            n->leaf = leaf;
+            ((struct leaf *)b->leaf.at)[leaf].node = p.node;
+        }
+    }
+}
+
+// ---- S-bounds ----------------------------------------------------------------------
+// Bottom up: where the node may be inside, and where it may have drawn surfaces
+// (Cameron & Yap 1992). Children come after their parents in the array.
+
+struct boxes {
+    struct aabb inside, surface;
+};
+
+static void intersect_boxes(const struct csg_node *n, struct boxes *box, struct boxes *out,
+                            struct aabb *suffix)
+{
+    out->inside = aabb_infinite();
+    out->surface = aabb_empty();
+    suffix[n->child_count] = aabb_infinite();
+    for (uint32_t i = n->child_count; i-- > 0;)
+        suffix[i] = aabb_meet(suffix[i + 1], box[n->first_child + i].inside);
+    for (uint32_t i = 0; i < n->child_count; i++) {
+        const struct boxes *c = &box[n->first_child + i];
+        const struct aabb others = aabb_meet(out->inside, suffix[i + 1]);
+        out->surface = aabb_join(out->surface, aabb_meet(c->surface, others));
+        out->inside = aabb_meet(out->inside, c->inside);
+    }
+}
+
+static struct aabb bound_nodes(struct build *b, uint32_t root)
+{
+    const uint32_t count = b->node.count;
+    struct boxes *box = malloc((count + 1) * sizeof *box);
+    struct aabb *suffix = malloc((count + 2) * sizeof *suffix);
+    if (!box || !suffix)
+        abort();
+    for (uint32_t i = count; i-- > root;) {
+        struct csg_node *n = node_at(b, i);
+        if (n->op == NODE_LEAF) {
+            const struct leaf *l = (struct leaf *)b->leaf.at + n->leaf;
+            box[i].inside = l->inverted ? aabb_infinite() : l->solid ? l->bounds : aabb_empty();
+            box[i].surface = drawn_bounds(l);
+            n->base_inside = l->inverted;
+        } else if (n->op == NODE_INTERSECTION) {
+            intersect_boxes(n, box, &box[i], suffix);
+        } else {
+            box[i] = (struct boxes){aabb_empty(), aabb_empty()};
+            for (uint32_t k = 0; k < n->child_count; k++) {
+                box[i].inside = aabb_join(box[i].inside, box[n->first_child + k].inside);
+                box[i].surface = aabb_join(box[i].surface, box[n->first_child + k].surface);
+            }
+        }
+        n->bounds = box[i].surface;
+        if (n->op != NODE_LEAF) { // inside where no leaf's box holds the point
+            n->base_inside = 0;
+            for (uint32_t k = 0; k < n->child_count; k++) {
+                const struct csg_node *c = node_at(b, n->first_child + k);
+                n->base_inside += node_is_inside(c, c->base_inside);
+            }
+        }
+    }
+    const struct aabb surface = box[root].surface;
+    free(box);
+    free(suffix);
+    return surface;
+}
+
+// ---- top level ------------------------------------------------------------------------
+
+static bool splits(const struct object *o)
+{
+    return o->kind == OBJECT_CSG && o->op == CSG_UNION && !o->clip_count &&
+           !(o->flags & (OBJECT_NO_SPLIT | OBJECT_INVERSE));
+}
+
+static void add_object(struct build *b, const struct object *o, const struct context *c)
+{
+    const uint32_t first_leaf = b->leaf.count, first_surface = b->surface.count;
+    const uint32_t root = b->node.count;
+    vector_add(&b->node, 1);
+    node_at(b, root)->parent = root;
+    flatten(b, root, o, c);
+    if (b->leaf.count == first_leaf) {
+        b->node.count = root;
+        return;
+    }
+    const struct aabb bounds = bound_nodes(b, root);
+    struct world_object *w = vector_add(&b->object, 1);
+    w->bounds = bounds;
+    w->first_leaf = first_leaf;
+    w->leaf_count = b->leaf.count - first_leaf;
+    w->root = root;
+    w->node_count = b->node.count - root;
+    w->is_csg = node_at(b, root)->op != NODE_LEAF;
+    w->opaque = true;
+    for (uint32_t i = first_surface; i < b->surface.count; i++)
+        w->opaque &= ((struct surface *)b->surface.at)[i].opaque;
+    w->flags = o->flags | c->flags;
+    w->source = o;
+    if (o->kind == OBJECT_CSG && o->bound_count) {
+        w->bound = o->bound;
+        w->bound_count = o->bound_count;
+        w->bound_transform = c->world;
+    }
+}
+
+static struct context group_context(struct build *b, const struct object *o,
+                                    const struct context *c)
+{
+    struct context in = *c;
+    if (!o->group_light_count)
+        return in;
+    struct light_group *g = vector_add(&b->group, 1);
+    g->global_lights = o->group_global_lights;
+    in.light_group = b->group.count;
+    for (uint32_t i = 0; i < o->group_light_count; i++) {
+        const struct object light = {.kind = OBJECT_LIGHT, .light = o->group_light[i],
+                                     .transform = o->transform};
+        add_light(b, &light, &in);
+    }
+    return in;
+}
+
+static void add_top(struct build *b, const struct object *o, const struct context *c)
+{
+    const struct context here = group_context(b, o, c);
+    if (o->kind == OBJECT_LIGHT) {
+        add_light(b, o, &here);
+    } else if (splits(o)) {
+        const struct context in = enter(b, o, &here);
+        for (uint32_t i = 0; i < o->child_count; i++)
+            add_top(b, o->child[i], &in);
+    } else {
+        add_object(b, o, &here);
+    }
+}
+
+static void *keep(struct arena *a, struct vector *v)
+{
+    void *p = arena_alloc_aligned(a, v->count * v->size + 1, 64);
+    if (v->count)
+        memcpy(p, v->at, v->count * v->size);
+    free(v->at);
+    return p;
+}
+
+struct world *world_build(struct arena *a, const struct scene *scene)
+{
+    struct build b = {.arena = a, .scene = scene};
+    b.leaf.size = sizeof(struct leaf);
+    b.node.size = sizeof(struct csg_node);
+    b.object.size = sizeof(struct world_object);
+    b.surface.size = sizeof(struct surface);
+    b.light.size = sizeof(struct light *);
+    b.group.size = sizeof(struct light_group);
+    b.pending.size = sizeof(struct pending);
+    const struct context top = {.world = transform_identity, .drawn = true};
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        add_top(&b, scene->object[i], &top);
+
+    struct world *w = arena_new_struct(a, struct world);
+    w->arena = a;
+    w->scene = scene;
+    w->leaf_count = b.leaf.count;
+    w->node_count = b.node.count;
+    w->object_count = b.object.count;
+    w->surface_count = b.surface.count;
+    w->light_count = b.light.count;
+    w->light_group_count = b.group.count;
+    w->has_transparent = b.has_transparent;
+    w->leaf = keep(a, &b.leaf);
+    w->node = keep(a, &b.node);
+    w->object = keep(a, &b.object);
+    w->surface = keep(a, &b.surface);
+    w->light = keep(a, &b.light);
+    w->light_group = keep(a, &b.group);
+    free(b.pending.at);
+    w->bounds = aabb_empty();
+    for (uint32_t i = 0; i < w->object_count; i++)
+        if (aabb_is_finite(w->object[i].bounds))
+            w->bounds = aabb_join(w->bounds, w->object[i].bounds);
+    w->accel = accel_build(a, w);
+    return w;
+}
