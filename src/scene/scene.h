@@ -6,6 +6,7 @@
 
 #include "math/color.h"
 #include "scene/camera.h"
+#include "scene/effects.h"
 #include "scene/light.h"
 #include "scene/object.h"
 #include "scene/texture.h"
@@ -46,6 +47,10 @@ struct settings {
     struct rgb ambient_light, irid_wavelength;
     int noise_generator, number_of_waves;
     bool radiosity; // the scene has a radiosity{} block
+    double mm_per_unit;
+    struct radiosity_settings radiosity_settings;
+    struct photon_settings photons;
+    struct subsurface_settings subsurface;
 };
 
 // Everything the language described; const while rendering.
@@ -60,6 +65,8 @@ struct scene {
     uint32_t fog_count;
     const struct rainbow *const *rainbow;
     uint32_t rainbow_count;
+    const struct media *const *media; // filling the whole scene
+    uint32_t media_count;
     const struct object *const *object; // top level, in written order, lights too
     uint32_t object_count;
     struct attached_texture default_texture;

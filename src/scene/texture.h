@@ -8,6 +8,7 @@
 #include "scene/pattern.h"
 
 struct arena;
+struct media;
 
 // ---- maps ---------------------------------------------------------------
 // Entries in written order; keys are single precision (spec/textures 3.3).
@@ -92,6 +93,7 @@ struct finish {
     struct rgb reflection_min, reflection_max;
     float reflection_falloff, reflection_exponent, reflection_metallic; // exponent as 1/e
     bool fresnel, conserve_energy, has_subsurface;
+    struct rgb subsurface_translucency, subsurface_anisotropy;
     // obsolete items that move to the interior; < 0: not given
     float old_ior, old_caustics, old_refraction;
 };
@@ -160,6 +162,8 @@ struct interior {
     double fade_distance, fade_power;
     float old_refraction; // 1
     bool hollow;          // filled when the world is compiled
+    const struct media *const *media; // scene/effects.h; they add up
+    uint32_t media_count;
 };
 
 #endif

@@ -1,0 +1,202 @@
+#include "eval/build.h"
+
+#include <string.h>
+
+// The readers that shapes use (scene/args.h). Numbers and vectors written out are
+// taken straight from the AST: a mesh has millions of them.
+
+static bool expected(struct args *a, const char *role, const char *type)
+{
+    diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, role, type);
+    args_fail(a);
+    return false;
+}
+
+static const struct ast *number_item(struct args *a, const char *role, const char *type)
+{
+    if (a->at && ast_is_number(a->at))
+        return args_next(a);
+    expected(a, role, type);
+    return NULL;
+}
+
+static bool checked(struct args *a, bool ok)
+{
+    if (!ok)
+        args_fail(a);
+    return ok;
+}
+
+bool args_float(struct args *a, const char *role, double *out)
+{
+    const struct ast *n = number_item(a, role, "float");
+    if (!n)
+        return false;
+    if (n->kind == AST_NUMBER) {
+        *out = n->number;
+        return true;
+    }
+    return checked(a, eval_float(a->b->e, n, out));
+}
+
+bool args_int(struct args *a, const char *role, long *out)
+{
+    double v;
+    if (!args_float(a, role, &v))
+        return false;
+    if (!(v > -2147483649.0 && v < 2147483648.0)) {
+        args_error(a, args_span(a), "value is too large for an integer");
+        return false;
+    }
+    *out = (long)v;
+    return true;
+}
+
+// The components of a vector of n plain numbers (a sign is allowed).
+static bool literal_vector(const struct ast *n, double *out, size_t count)
+{
+    if (n->kind != AST_VECTOR)
+        return false;
+    const struct ast *c = n->list;
+    for (size_t i = 0; i < count; i++, c = c->next) {
+        if (!c)
+            return false;
+        if (c->kind == AST_NUMBER)
+            out[i] = c->number;
+        else if (c->kind == AST_UNARY && c->op == '-' && c->left->kind == AST_NUMBER)
+            out[i] = -c->left->number;
+        else
+            return false;
+    }
+    return !c;
+}
+
+bool args_vec2(struct args *a, const char *role, struct vec2 *out)
+{
+    double v[2];
+    const struct ast *n = number_item(a, role, "uv vector");
+    if (!n)
+        return false;
+    if (literal_vector(n, v, 2)) {
+        *out = (struct vec2){v[0], v[1]};
+        return true;
+    }
+    return checked(a, eval_vec2(a->b->e, n, out));
+}
+
+bool args_vec3(struct args *a, const char *role, struct vec3 *out)
+{
+    double v[3];
+    const struct ast *n = number_item(a, role, "vector");
+    if (!n)
+        return false;
+    if (literal_vector(n, v, 3)) {
+        *out = vec3(v[0], v[1], v[2]);
+        return true;
+    }
+    return checked(a, eval_vec3(a->b->e, n, out));
+}
+
+bool args_vec4(struct args *a, const char *role, double out[4])
+{
+    const struct ast *n = number_item(a, role, "4-D vector");
+    return n && checked(a, eval_vec4(a->b->e, n, out));
+}
+
+bool args_string(struct args *a, const char *role, const char **out)
+{
+    const struct ast *n = a->at;
+    bool text = n && (n->kind == AST_STRING || n->kind == AST_CALL ||
+                      (n->kind == AST_VALUE && n->value && n->value->kind == VALUE_STRING));
+    if (!text)
+        return expected(a, role, "string");
+    args_next(a);
+    return checked(a, eval_string(a->b->e, n, out));
+}
+
+bool args_floats(struct args *a, const char *role, double *out, size_t n)
+{
+    const struct ast *v = a->at;
+    size_t count = 0;
+    if (!v || v->kind != AST_VECTOR)
+        return expected(a, role, "list of numbers in < >");
+    for (const struct ast *c = v->list; c; c = c->next)
+        count++;
+    if (count != n) {
+        char want[48];
+        snprintf(want, sizeof want, "%zu numbers in < >, not %zu", n, count);
+        return expected(a, role, want);
+    }
+    args_next(a);
+    for (const struct ast *c = v->list; c; c = c->next, out++)
+        if (!checked(a, eval_float(a->b->e, c, out)))
+            return false;
+    return true;
+}
+
+bool args_at_number(struct args *a)
+{
+    return a->at && ast_is_number(a->at);
+}
+
+bool args_at_vector(struct args *a)
+{
+    const struct ast *n = a->at;
+    double v[5];
+    int width;
+    if (!n || !ast_is_number(n))
+        return false;
+    if (n->kind == AST_NUMBER || n->kind == AST_VECTOR)
+        return n->kind == AST_VECTOR;
+    return eval_number(a->b->e, n, 1, v, &width) && width > 1;
+}
+
+bool args_word(struct args *a, const char *word)
+{
+    enum word w = args_at_word(a);
+    if (w == WORD_NONE || strcmp(word_text(w), word) != 0)
+        return false;
+    args_next(a);
+    return true;
+}
+
+struct args *args_block(struct args *a, const char *word)
+{
+    enum word w = args_at_block(a);
+    if (w == WORD_NONE || strcmp(word_text(w), word) != 0)
+        return NULL;
+    struct args *inner = arena_new_struct(a->b->e->parse, struct args);
+    *inner = args_of(a->b, args_next(a), a);
+    return inner;
+}
+
+const struct texture *args_texture(struct args *a)
+{
+    return args_at_block(a) == WORD_texture ? build_texture(a, args_next(a)) : NULL;
+}
+
+bool args_end(struct args *a)
+{
+    const struct ast *n = a->at;
+    return !n || n->kind == AST_BLOCK || n->kind == AST_WORD;
+}
+
+struct arena *args_arena(struct args *a)
+{
+    return a->b->arena;
+}
+
+struct diag_sink *args_diags(struct args *a)
+{
+    return a->b->e->diags;
+}
+
+struct span args_where(struct args *a)
+{
+    return args_span(a);
+}
+
+const char *args_owner(struct args *a)
+{
+    return a->name;
+}
