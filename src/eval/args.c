@@ -106,8 +106,9 @@ bool args_vec4(struct args *a, const char *role, double out[4])
 bool args_string(struct args *a, const char *role, const char **out)
 {
     const struct ast *n = a->at;
-    bool text = n && (n->kind == AST_STRING || n->kind == AST_CALL ||
-                      (n->kind == AST_VALUE && n->value && n->value->kind == VALUE_STRING));
+    bool text =
+        n && (n->kind == AST_STRING || n->kind == AST_CALL ||
+              (n->kind == AST_VALUE && n->value && n->value->kind == VALUE_STRING));
     if (!text)
         return expected(a, role, "string");
     args_next(a);
@@ -134,10 +135,7 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
     return true;
 }
 
-bool args_at_number(struct args *a)
-{
-    return a->at && ast_is_number(a->at);
-}
+bool args_at_number(struct args *a) { return a->at && ast_is_number(a->at); }
 
 bool args_at_vector(struct args *a)
 {
@@ -181,22 +179,10 @@ bool args_end(struct args *a)
     return !n || n->kind == AST_BLOCK || n->kind == AST_WORD;
 }
 
-struct arena *args_arena(struct args *a)
-{
-    return a->b->arena;
-}
+struct arena *args_arena(struct args *a) { return a->b->arena; }
 
-struct diag_sink *args_diags(struct args *a)
-{
-    return a->b->e->diags;
-}
+struct diag_sink *args_diags(struct args *a) { return a->b->e->diags; }
 
-struct span args_where(struct args *a)
-{
-    return args_span(a);
-}
+struct span args_where(struct args *a) { return args_span(a); }
 
-const char *args_owner(struct args *a)
-{
-    return a->name;
-}
+const char *args_owner(struct args *a) { return a->name; }

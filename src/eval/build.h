@@ -68,7 +68,7 @@ const struct value *args_at_value(const struct args *a, enum value_kind kind);
 const struct value *args_take_value(struct args *a, enum value_kind kind);
 // Reports and passes over an item that has no place here, and what belongs to it.
 void args_unknown(struct args *a, const enum word *known, size_t count);
-void args_skip(struct args *a);    // to the next word or block
+void args_skip(struct args *a);      // to the next word or block
 void args_not_built(struct args *a); // the next item: one error, passed over
 void args_not_rendered(struct args *a, enum word w, struct span where);
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out);
@@ -83,14 +83,16 @@ struct span args_span(const struct args *a); // of the next item or the end
 
 // ---- tables of simple items ------------------------------------------------
 enum field_kind {
-    FIELD_FLOAT,      // float
-    FIELD_DOUBLE,     // double
-    FIELD_INT,        // int
-    FIELD_SWITCH,     // bool, optional value
-    FIELD_FLAG,       // bool, no value
+    FIELD_FLOAT,       // float
+    FIELD_DOUBLE,      // double
+    FIELD_INT,         // int
+    FIELD_SWITCH,      // bool, optional value
+    FIELD_FLAG,        // bool, no value
     FIELD_NUMBER_BOOL, // bool, value required
-    FIELD_VEC3, FIELD_UNIT, // vector; normalised
-    FIELD_RGB, FIELD_COLOR,
+    FIELD_VEC3,
+    FIELD_UNIT, // vector; normalised
+    FIELD_RGB,
+    FIELD_COLOR,
     FIELD_RECIPROCAL, // float, stored as 1/f; 0 stays 0
     FIELD_METALLIC,   // float, optional value, 1
     FIELD_STRING,     // read and dropped

@@ -13,8 +13,9 @@ static const struct field fog_fields[] = {
     {WORD_lambda, FIELD_FLOAT, AT(turbulence.lambda), 0, 0},
     {WORD_turb_depth, FIELD_DOUBLE, AT(turb_depth), 0, 0},
 };
-static const enum word fog_words[] = {WORD_fog_type, WORD_turbulence, WORD_color, WORD_rgb,
-                                      WORD_rotate, WORD_scale, WORD_translate};
+static const enum word fog_words[] = {WORD_fog_type, WORD_turbulence, WORD_color,
+                                      WORD_rgb,      WORD_rotate,     WORD_scale,
+                                      WORD_translate};
 
 static bool fog_item(struct args *a, struct fog *f)
 {
@@ -50,7 +51,8 @@ const struct fog *build_fog(struct args *a, const struct ast *block)
                            .turbulence = {vec3(0, 0, 0), 6, 2, 0.5f},
                            .turb_depth = 0.5};
     while (in.at)
-        if (!fields_read(&in, fog_fields, ARRAY_COUNT(fog_fields), f) && !fog_item(&in, f))
+        if (!fields_read(&in, fog_fields, ARRAY_COUNT(fog_fields), f) &&
+            !fog_item(&in, f))
             fields_unknown(&in, fog_fields, ARRAY_COUNT(fog_fields), fog_words,
                            ARRAY_COUNT(fog_words));
     return in.failed ? NULL : f;
@@ -76,7 +78,9 @@ const struct rainbow *build_rainbow(struct args *a, const struct ast *block)
     const struct value *id = args_take_value(&in, VALUE_RAINBOW);
     struct rainbow *r = arena_new_struct(a->b->arena, struct rainbow);
     *r = id ? *(const struct rainbow *)id->data
-            : (struct rainbow){.distance = far, .up = vec3(0, 1, 0), .arc_angle = 360,
+            : (struct rainbow){.distance = far,
+                               .up = vec3(0, 1, 0),
+                               .arc_angle = 360,
                                .falloff_angle = unset};
     if (id)
         r->angle += r->width / 2;
@@ -108,8 +112,8 @@ static void sky_move(struct builder *b, struct pointer_list *l, const struct tra
 const struct sky_sphere *build_sky_sphere(struct args *a, const struct ast *block)
 {
     static const struct pigment bare;
-    static const enum word known[] = {WORD_pigment, WORD_emission, WORD_rotate, WORD_scale,
-                                      WORD_translate, WORD_transform};
+    static const enum word known[] = {WORD_pigment, WORD_emission,  WORD_rotate,
+                                      WORD_scale,   WORD_translate, WORD_transform};
     struct args in = args_of(a->b, block, a);
     const struct value *id = args_take_value(&in, VALUE_SKY_SPHERE);
     struct sky_sphere *s = arena_new_struct(a->b->arena, struct sky_sphere);
@@ -136,7 +140,8 @@ const struct sky_sphere *build_sky_sphere(struct args *a, const struct ast *bloc
     }
     if (!in.failed && l.count == 0)
         args_error(&in, block->where, "at least one pigment is needed");
-    const struct pigment **p = arena_new_array(a->b->arena, const struct pigment *, l.count);
+    const struct pigment **p =
+        arena_new_array(a->b->arena, const struct pigment *, l.count);
     for (uint32_t i = 0; i < l.count; i++)
         p[i] = l.at[i];
     s->pigment = p;

@@ -30,10 +30,11 @@ static const struct field camera_fields[] = {
     {WORD_variance, FIELD_DOUBLE, AT(camera.variance), 0, 1},
 };
 static const enum word other_words[] = {
-    WORD_up, WORD_right, WORD_look_at, WORD_angle, WORD_focal_point, WORD_blur_samples,
-    WORD_normal, WORD_bokeh, WORD_translate, WORD_rotate, WORD_scale, WORD_transform,
-    WORD_perspective, WORD_orthographic, WORD_fisheye, WORD_panoramic, WORD_spherical,
-    WORD_cylinder, WORD_omnimax, WORD_ultra_wide_angle};
+    WORD_up,          WORD_right,        WORD_look_at, WORD_angle,
+    WORD_focal_point, WORD_blur_samples, WORD_normal,  WORD_bokeh,
+    WORD_translate,   WORD_rotate,       WORD_scale,   WORD_transform,
+    WORD_perspective, WORD_orthographic, WORD_fisheye, WORD_panoramic,
+    WORD_spherical,   WORD_cylinder,     WORD_omnimax, WORD_ultra_wide_angle};
 
 static bool kind_item(struct args *a, struct camera_state *c)
 {
@@ -83,7 +84,8 @@ static void blur_samples(struct args *a, struct camera *c)
     c->blur_samples_min = two ? (int)first : 0;
     c->blur_samples = two ? (int)second : (int)first;
     if (c->blur_samples < 1 || c->blur_samples_min > c->blur_samples)
-        args_error(a, where, "blur_samples: the maximum must be at least 1 and the minimum");
+        args_error(a, where,
+                   "blur_samples: the maximum must be at least 1 and the minimum");
 }
 
 static void bokeh(struct args *a)
@@ -140,7 +142,8 @@ static bool item(struct args *a, struct camera_state *c)
 static void look_at(struct args *a, struct camera_state *s)
 {
     struct camera *c = &s->camera;
-    double d = vec3_length(c->direction), u = vec3_length(c->up), r = vec3_length(c->right);
+    double d = vec3_length(c->direction), u = vec3_length(c->up),
+           r = vec3_length(c->right);
     bool left_handed = vec3_dot(vec3_cross(c->up, c->direction), c->right) > 0;
     struct vec3 to = vec3_sub(s->look_at, c->location);
     if (vec3_length(to) == 0) {
@@ -183,7 +186,8 @@ static void combine(struct args *a, struct camera_state *s)
         look_at(a, s);
     }
     if (c->kind == CAMERA_ORTHOGRAPHIC && (!s->has_up_right || s->has_angle)) {
-        double k = vec3_length(vec3_sub(s->look_at, c->location)) / vec3_length(c->direction);
+        double k =
+            vec3_length(vec3_sub(s->look_at, c->location)) / vec3_length(c->direction);
         c->right = vec3_scale(k, c->right);
         c->up = vec3_scale(k, c->up);
     }

@@ -34,7 +34,8 @@ static struct object *children(struct args *a, enum csg_op op, uint32_t least)
     }
     if (l.count < least && !a->failed)
         args_warning(a, args_span(a), "at least two objects are expected");
-    const struct object **child = arena_new_array(a->b->arena, const struct object *, l.count);
+    const struct object **child =
+        arena_new_array(a->b->arena, const struct object *, l.count);
     for (uint32_t i = 0; i < l.count; i++)
         child[i] = l.at[i];
     return object_new_csg(a->b->arena, op, child, l.count, a->owner->where);
@@ -64,14 +65,15 @@ struct object *build_light_group(struct args *a, const struct ast *block)
     struct pointer_list l = {0};
     struct transform t;
     collect_lights(o, a->b->arena, &l);
-    const struct light **light = arena_new_array(a->b->arena, const struct light *, l.count + 1);
+    const struct light **light =
+        arena_new_array(a->b->arena, const struct light *, l.count + 1);
     for (uint32_t i = 0; i < l.count; i++)
         light[i] = l.at[i];
     o->group_light = light; // not NULL even without lights: it is a group
     o->group_light_count = l.count;
     while (in.at) {
-        static const enum word known[] = {WORD_global_lights, WORD_photons, WORD_translate,
-                                          WORD_rotate, WORD_scale};
+        static const enum word known[] = {WORD_global_lights, WORD_photons,
+                                          WORD_translate, WORD_rotate, WORD_scale};
         if (build_trans(&in, &t))
             object_move(a->b, o, &t);
         else if (args_take(&in, WORD_global_lights))

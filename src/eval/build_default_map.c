@@ -4,7 +4,10 @@
 
 // The colours of a pattern that has no map (spec/textures 8.4).
 
-#define COLOR(r, g, b) {r, g, b, 0, 0}
+#define COLOR(r, g, b)                                                                   \
+    {                                                                                    \
+        r, g, b, 0, 0                                                                    \
+    }
 #define MAP(name)                                                                        \
     static const struct color_map name##_map = {ARRAY_COUNT(name##_key), name##_key,     \
                                                 name##_color}
@@ -32,8 +35,8 @@ static const struct rgbft wood_color[] = {COLOR(0.666f, 0.312f, 0.2f),
                                           COLOR(0.4f, 0.1333f, 0.066f)};
 MAP(wood);
 static const float mandel_key[] = {0.001f, 0.001f, 0.012f, 0.015f, 0.1f};
-static const struct rgbft mandel_color[] = {COLOR(0, 0, 0), COLOR(0, 1, 1), COLOR(1, 1, 0),
-                                            COLOR(1, 0, 1), COLOR(0, 1, 1)};
+static const struct rgbft mandel_color[] = {
+    COLOR(0, 0, 0), COLOR(0, 1, 1), COLOR(1, 1, 0), COLOR(1, 0, 1), COLOR(0, 1, 1)};
 MAP(mandel);
 static const float radial_key[] = {0, 0.333f, 0.666f, 1};
 static const struct rgbft radial_color[] = {COLOR(0, 1, 1), COLOR(1, 1, 0),

@@ -33,7 +33,8 @@ static bool read_pair(struct args *a, int *first, int *second, double low, doubl
     args_optional(a, &w);
     if (v < low || v > high)
         diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, word_text((enum word)n->word), v,
-                low, high), args_fail(a);
+                low, high),
+            args_fail(a);
     *first = (int)v;
     *second = (int)w;
     return true;
@@ -93,9 +94,9 @@ static const struct field photon_fields[] = {
     {WORD_max_trace_level, FIELD_INT, AT(max_trace_level), 0, 0},
     {WORD_adc_bailout, FIELD_DOUBLE, AT(adc_bailout), 0, 0},
 };
-static const enum word photon_words[] = {WORD_gather, WORD_radius, WORD_media,
-                                         WORD_expand_thresholds, WORD_load_file,
-                                         WORD_save_file};
+static const enum word photon_words[] = {WORD_gather,    WORD_radius,
+                                         WORD_media,     WORD_expand_thresholds,
+                                         WORD_load_file, WORD_save_file};
 
 static bool photon_item(struct args *a, struct photon_settings *p)
 {
@@ -120,8 +121,12 @@ static bool photon_item(struct args *a, struct photon_settings *p)
         if (args_float(a, "expand_thresholds", &v))
             p->expand_min = (int)v;
         return true;
-    case WORD_load_file: args_next(a); return args_string(a, "file", &p->load_file) || true;
-    case WORD_save_file: args_next(a); return args_string(a, "file", &p->save_file) || true;
+    case WORD_load_file:
+        args_next(a);
+        return args_string(a, "file", &p->load_file) || true;
+    case WORD_save_file:
+        args_next(a);
+        return args_string(a, "file", &p->save_file) || true;
     default: return false;
     }
 }

@@ -29,8 +29,8 @@ static const struct field irid_fields[] = {
     {WORD_thickness, FIELD_FLOAT, AT(irid_thickness), 0, 0},
 };
 static const enum word other_words[] = {
-    WORD_diffuse, WORD_phong, WORD_specular, WORD_roughness, WORD_reflection,
-    WORD_irid, WORD_subsurface, WORD_ior, WORD_caustics, WORD_refraction};
+    WORD_diffuse, WORD_phong,      WORD_specular, WORD_roughness, WORD_reflection,
+    WORD_irid,    WORD_subsurface, WORD_ior,      WORD_caustics,  WORD_refraction};
 
 // Which of the three were written with `albedo`: scaled when the block ends.
 struct albedo {
@@ -85,7 +85,8 @@ static void reflection_block(struct args *a, struct finish *f)
     }
     while (in.at)
         if (!fields_read(&in, reflection_fields, ARRAY_COUNT(reflection_fields), f))
-            fields_unknown(&in, reflection_fields, ARRAY_COUNT(reflection_fields), NULL, 0);
+            fields_unknown(&in, reflection_fields, ARRAY_COUNT(reflection_fields), NULL,
+                           0);
     if (f->fresnel && !two)
         f->reflection_min = none;
 }

@@ -19,7 +19,7 @@ static const struct field media_fields[] = {
     {WORD_collect, FIELD_SWITCH, AT(collect), 0, 0},
 };
 static const enum word media_words[] = {WORD_scattering, WORD_density, WORD_samples,
-                                        WORD_translate, WORD_rotate, WORD_scale};
+                                        WORD_translate,  WORD_rotate,  WORD_scale};
 
 static void scattering(struct args *a, struct media *m)
 {
@@ -47,14 +47,17 @@ static void samples(struct args *a, struct media *m)
     high = low;
     args_optional(a, &high);
     if (low < 1 || high < low)
-        args_error(a, where, "samples must be at least 1, the second not below the first");
+        args_error(a, where,
+                   "samples must be at least 1, the second not below the first");
     m->samples_min = (int)low;
     m->samples_max = (int)high;
 }
 
-static void set_densities(struct builder *b, struct media *m, const struct pointer_list *l)
+static void set_densities(struct builder *b, struct media *m,
+                          const struct pointer_list *l)
 {
-    const struct pigment **d = arena_new_array(b->arena, const struct pigment *, l->count);
+    const struct pigment **d =
+        arena_new_array(b->arena, const struct pigment *, l->count);
     for (uint32_t i = 0; i < l->count; i++)
         d[i] = l->at[i];
     m->density = d;
@@ -85,10 +88,17 @@ static void density(struct args *a, struct pointer_list *l)
         pointer_list_add(a->b->arena, l, d);
 }
 
-static const struct media media_defaults = {
-    .method = 3, .intervals = 1, .samples_min = 10, .samples_max = 10, .confidence = 0.9f,
-    .variance = 1.0f / 128, .ratio = 0.9f, .extinction = 1, .aa_level = 4,
-    .aa_threshold = 0.1f, .collect = true};
+static const struct media media_defaults = {.method = 3,
+                                            .intervals = 1,
+                                            .samples_min = 10,
+                                            .samples_max = 10,
+                                            .confidence = 0.9f,
+                                            .variance = 1.0f / 128,
+                                            .ratio = 0.9f,
+                                            .extinction = 1,
+                                            .aa_level = 4,
+                                            .aa_threshold = 0.1f,
+                                            .collect = true};
 
 const struct media *build_media(struct args *a, const struct ast *block)
 {
@@ -143,7 +153,8 @@ static const struct field interior_fields[] = {
 
 static void add_media(struct builder *b, struct interior *i, const struct media *m)
 {
-    const struct media **all = arena_new_array(b->arena, const struct media *, i->media_count + 1);
+    const struct media **all =
+        arena_new_array(b->arena, const struct media *, i->media_count + 1);
     for (uint32_t k = 0; k < i->media_count; k++)
         all[k] = i->media[k];
     all[i->media_count++] = m;
@@ -202,8 +213,9 @@ static void add_texture(struct args *a, struct attached_texture *at)
         return;
     if (at->texture) {
         const struct texture *below =
-            at->transform.identity ? at->texture
-                                   : texture_transform(a->b->arena, at->texture, &at->transform);
+            at->transform.identity
+                ? at->texture
+                : texture_transform(a->b->arena, at->texture, &at->transform);
         top = build_layer(a, block->where, below, top);
     }
     at->texture = top;
@@ -219,8 +231,9 @@ static void move(struct attached_texture *at, const struct transform *t)
 struct material build_material(struct args *a, const struct ast *block,
                                struct material start)
 {
-    static const enum word known[] = {WORD_texture, WORD_interior_texture, WORD_interior,
-                                      WORD_translate, WORD_rotate, WORD_scale};
+    static const enum word known[] = {WORD_texture,  WORD_interior_texture,
+                                      WORD_interior, WORD_translate,
+                                      WORD_rotate,   WORD_scale};
     struct args in = args_of(a->b, block, a);
     const struct value *id = args_take_value(&in, VALUE_MATERIAL);
     struct material m = id ? *(const struct material *)id->data : start;

@@ -157,10 +157,7 @@ void args_not_rendered(struct args *a, enum word w, struct span where)
     diag_at(args_diags(a), DIAG_NOT_RENDERED, where, word_text(w));
 }
 
-bool args_at_color(struct args *a)
-{
-    return a->at && ast_is_color_start(a->at);
-}
+bool args_at_color(struct args *a) { return a->at && ast_is_color_start(a->at); }
 
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out)
 {
@@ -206,7 +203,8 @@ static bool field_in_range(struct args *a, const struct field *f, struct span wh
 {
     if ((f->min == 0 && f->max == 0) || (v >= f->min && v <= f->max))
         return true;
-    diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, word_text(f->word), v, f->min, f->max);
+    diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, word_text(f->word), v, f->min,
+            f->max);
     args_fail(a);
     return false;
 }
@@ -267,7 +265,10 @@ bool fields_read(struct args *a, const struct field *f, size_t n, void *into)
         a->failed = false;
         args_next(a);
         switch (f[i].kind) {
-        case FIELD_FLOAT: case FIELD_DOUBLE: case FIELD_INT: case FIELD_RECIPROCAL:
+        case FIELD_FLOAT:
+        case FIELD_DOUBLE:
+        case FIELD_INT:
+        case FIELD_RECIPROCAL:
         case FIELD_NUMBER_BOOL: read_number(a, &f[i], at); break;
         default: read_other(a, &f[i], at); break;
         }

@@ -23,17 +23,20 @@ static const struct field cone_fields[] = {
     {WORD_tightness, FIELD_DOUBLE, AT(tightness), 0, 0},
 };
 static const enum word other_words[] = {
-    WORD_spotlight, WORD_cylinder, WORD_point_at, WORD_area_light, WORD_looks_like,
-    WORD_projected_through, WORD_color_map, WORD_photons, WORD_radius, WORD_falloff,
-    WORD_tightness, WORD_translate, WORD_rotate, WORD_scale, WORD_transform};
+    WORD_spotlight,  WORD_cylinder,   WORD_point_at,
+    WORD_area_light, WORD_looks_like, WORD_projected_through,
+    WORD_color_map,  WORD_photons,    WORD_radius,
+    WORD_falloff,    WORD_tightness,  WORD_translate,
+    WORD_rotate,     WORD_scale,      WORD_transform};
 
 static void area_light(struct args *a, struct light *l)
 {
     struct span where = args_span(a);
     long n = 1, m = 1;
     l->area = true;
-    if (!args_vec3(a, "first axis", &l->axis1) || !args_vec3(a, "second axis", &l->axis2) ||
-        !args_int(a, "first size", &n) || !args_int(a, "second size", &m)) {
+    if (!args_vec3(a, "first axis", &l->axis1) ||
+        !args_vec3(a, "second axis", &l->axis2) || !args_int(a, "first size", &n) ||
+        !args_int(a, "second size", &m)) {
         args_skip(a);
         return;
     }
@@ -71,10 +74,12 @@ static bool direction_item(struct args *a, struct light *l)
 {
     enum word w = args_at_word(a);
     bool cone = l->kind != LIGHT_POINT;
-    if (w != WORD_point_at && w != WORD_radius && w != WORD_falloff && w != WORD_tightness)
+    if (w != WORD_point_at && w != WORD_radius && w != WORD_falloff &&
+        w != WORD_tightness)
         return false;
     if (!(cone || (w == WORD_point_at && l->parallel))) {
-        args_error(a, args_span(a), w == WORD_point_at
+        args_error(a, args_span(a),
+                   w == WORD_point_at
                        ? "point_at needs spotlight, cylinder or parallel before it"
                        : "this needs spotlight or cylinder before it");
         args_next(a);
@@ -119,7 +124,8 @@ static bool block_item(struct args *a, struct light *l)
     case WORD_projected_through:
         l->projected_through = build_one_object(a, args_next(a), NULL);
         return true;
-    case WORD_color_map: case WORD_colour_map: spectrum(a, l); return true;
+    case WORD_color_map:
+    case WORD_colour_map: spectrum(a, l); return true;
     case WORD_photons: light_photons(a); return true;
     default: return false;
     }

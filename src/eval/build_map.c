@@ -165,12 +165,12 @@ static bool read_entries(struct args *in, enum body_kind kind, bool average,
     return count_ok(in, e->count);
 }
 
-
 static struct pigment_map *finish_map(struct args *a, const struct entries *e)
 {
     struct arena *arena = a->b->arena;
     struct pigment_map *m = arena_new_struct(arena, struct pigment_map);
-    const struct pigment **item = arena_new_array(arena, const struct pigment *, e->count);
+    const struct pigment **item =
+        arena_new_array(arena, const struct pigment *, e->count);
     for (uint32_t i = 0; i < e->count; i++)
         item[i] = e->item[i];
     m->count = e->count;
@@ -203,7 +203,8 @@ const struct normal_map *build_normal_map(struct args *a, const struct ast *bloc
     if (!read_entries(&in, BODY_NORMAL, average, &e))
         return NULL;
     struct normal_map *m = arena_new_struct(a->b->arena, struct normal_map);
-    const struct normal **item = arena_new_array(a->b->arena, const struct normal *, e.count);
+    const struct normal **item =
+        arena_new_array(a->b->arena, const struct normal *, e.count);
     for (uint32_t i = 0; i < e.count; i++)
         item[i] = e.item[i];
     m->count = e.count;

@@ -22,7 +22,8 @@ static const struct texture *settled(struct builder *b, struct attached_texture 
     return at->texture;
 }
 
-static void add_texture(struct args *a, struct attached_texture *at, const struct ast *block)
+static void add_texture(struct args *a, struct attached_texture *at,
+                        const struct ast *block)
 {
     const struct texture *below = settled(a->b, at), *top = build_texture(a, block);
     if (top)
@@ -85,8 +86,6 @@ struct pointer_list build_object_list(struct args *a)
     return l;
 }
 
-
-
 static void clip_or_bound(struct args *a, struct object *o, bool clip)
 {
     const struct object *const **list = clip ? &o->clip : &o->bound;
@@ -94,7 +93,8 @@ static void clip_or_bound(struct args *a, struct object *o, bool clip)
     struct args in = args_of(a->b, args_next(a), a);
     if (args_take(&in, clip ? WORD_bounded_by : WORD_clipped_by)) {
         if (*count)
-            args_error(&in, args_span(&in), "the list is filled already, it cannot be shared");
+            args_error(&in, args_span(&in),
+                       "the list is filled already, it cannot be shared");
         *list = clip ? o->bound : o->clip;
         *count = clip ? o->bound_count : o->clip_count;
         if (in.at)
@@ -135,7 +135,8 @@ static void object_photons(struct args *a)
         {WORD_target, FIELD_SWITCH, offsetof(struct photon_target, target), 0, 0},
         {WORD_refraction, FIELD_SWITCH, offsetof(struct photon_target, refraction), 0, 0},
         {WORD_reflection, FIELD_SWITCH, offsetof(struct photon_target, reflection), 0, 0},
-        {WORD_pass_through, FIELD_SWITCH, offsetof(struct photon_target, pass_through), 0, 0},
+        {WORD_pass_through, FIELD_SWITCH, offsetof(struct photon_target, pass_through), 0,
+         0},
         {WORD_collect, FIELD_SWITCH, offsetof(struct photon_target, collect), 0, 0},
     };
     struct photon_target t = {0};
@@ -163,10 +164,12 @@ static bool block_modifier(struct args *a, struct object *o)
     case WORD_interior_texture:
         add_texture(a, &o->interior_texture, args_next(a));
         return true;
-    case WORD_pigment: case WORD_normal: case WORD_finish:
-        change_layer(a, &o->texture);
+    case WORD_pigment:
+    case WORD_normal:
+    case WORD_finish: change_layer(a, &o->texture); return true;
+    case WORD_interior:
+        o->interior = build_interior(a, args_next(a), o->interior);
         return true;
-    case WORD_interior: o->interior = build_interior(a, args_next(a), o->interior); return true;
     case WORD_material: material(a, o); return true;
     case WORD_clipped_by: clip_or_bound(a, o, true); return true;
     case WORD_bounded_by: clip_or_bound(a, o, false); return true;
@@ -202,8 +205,9 @@ static bool switch_modifier(struct args *a, struct object *o)
     for (size_t i = 0; i < ARRAY_COUNT(switches); i++) {
         if (switches[i].word != w)
             continue;
-        unsigned needs = w == WORD_sturm ? SHAPE_STURM
-                         : w == WORD_hierarchy ? SHAPE_HIERARCHY : 0;
+        unsigned needs = w == WORD_sturm       ? SHAPE_STURM
+                         : w == WORD_hierarchy ? SHAPE_HIERARCHY
+                                               : 0;
         if (needs && !(o->kind == OBJECT_SHAPE && o->ops->flags & needs))
             wrong_owner(a, word_text(w));
         args_next(a);
@@ -258,13 +262,35 @@ static bool word_modifier(struct args *a, struct object *o)
     return true;
 }
 
-static const enum word modifier_words[] = {
-    WORD_translate, WORD_rotate, WORD_scale, WORD_matrix, WORD_transform, WORD_texture,
-    WORD_pigment, WORD_normal, WORD_finish, WORD_interior, WORD_interior_texture,
-    WORD_material, WORD_clipped_by, WORD_bounded_by, WORD_photons, WORD_radiosity,
-    WORD_no_image, WORD_no_reflection, WORD_no_radiosity, WORD_no_shadow,
-    WORD_double_illuminate, WORD_hollow, WORD_sturm, WORD_hierarchy, WORD_inverse,
-    WORD_uv_mapping, WORD_cutaway_textures, WORD_split_union, WORD_open};
+static const enum word modifier_words[] = {WORD_translate,
+                                           WORD_rotate,
+                                           WORD_scale,
+                                           WORD_matrix,
+                                           WORD_transform,
+                                           WORD_texture,
+                                           WORD_pigment,
+                                           WORD_normal,
+                                           WORD_finish,
+                                           WORD_interior,
+                                           WORD_interior_texture,
+                                           WORD_material,
+                                           WORD_clipped_by,
+                                           WORD_bounded_by,
+                                           WORD_photons,
+                                           WORD_radiosity,
+                                           WORD_no_image,
+                                           WORD_no_reflection,
+                                           WORD_no_radiosity,
+                                           WORD_no_shadow,
+                                           WORD_double_illuminate,
+                                           WORD_hollow,
+                                           WORD_sturm,
+                                           WORD_hierarchy,
+                                           WORD_inverse,
+                                           WORD_uv_mapping,
+                                           WORD_cutaway_textures,
+                                           WORD_split_union,
+                                           WORD_open};
 
 void build_modifiers(struct args *a, struct object *o)
 {

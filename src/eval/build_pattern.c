@@ -19,7 +19,6 @@ static long read_int(struct args *a, const char *role, long low, long high)
     return v;
 }
 
-
 static void julia(struct args *a, struct pattern *p)
 {
     struct vec2 c;
@@ -67,10 +66,11 @@ static const void *list_block(struct args *a, struct body *body)
     switch (body->kind) {
     case BODY_PIGMENT:
         return args_at_block(a) == WORD_pigment
-                   ? build_pigment(a, args_next(a), d->pigment) : NULL;
+                   ? build_pigment(a, args_next(a), d->pigment)
+                   : NULL;
     case BODY_DENSITY:
-        return args_at_block(a) == WORD_density
-                   ? build_pigment(a, args_next(a), &bare) : NULL;
+        return args_at_block(a) == WORD_density ? build_pigment(a, args_next(a), &bare)
+                                                : NULL;
     case BODY_NORMAL:
         return args_at_block(a) == WORD_normal ? build_normal(a, args_next(a), d->normal)
                                                : NULL;
@@ -192,20 +192,17 @@ static void pigment_pattern(struct args *a, struct pattern *p)
 
 static void set_kind(struct args *a, struct body *body, const struct pattern_ops *ops)
 {
-    (void)a;
-    if (body->pigment && !body->pigment->pattern.ops && !body->pigment->colors)
-        body->pigment->map = NULL;
     pattern_set_kind(body->pattern, ops);
-    if (body->pigment && (body->pigment->kind == PIGMENT_NONE ||
-                          body->pigment->kind == PIGMENT_SOLID ||
-                          body->pigment->kind == PIGMENT_IMAGE ||
-                          body->pigment->kind == PIGMENT_UV))
+    body->pattern->defaults = a->b->pattern_defaults;
+    if (body->pigment &&
+        (body->pigment->kind == PIGMENT_NONE || body->pigment->kind == PIGMENT_SOLID ||
+         body->pigment->kind == PIGMENT_IMAGE || body->pigment->kind == PIGMENT_UV))
         body->pigment->kind = PIGMENT_COLORS;
     if (body->pigment && color_map_is_default(body->pigment->colors))
         body->pigment->colors = NULL;
-    if (body->normal && (body->normal->kind == NORMAL_UV ||
-                         body->normal->kind == NORMAL_AVERAGE ||
-                         body->normal->kind == NORMAL_BUMP_MAP))
+    if (body->normal &&
+        (body->normal->kind == NORMAL_UV || body->normal->kind == NORMAL_AVERAGE ||
+         body->normal->kind == NORMAL_BUMP_MAP))
         body->normal->kind = NORMAL_PATTERN;
     if (body->texture)
         body->texture->kind = TEXTURE_MAP;
@@ -219,7 +216,8 @@ static void arguments(struct args *a, struct body *body, enum word w)
         if (args_vec3(a, "direction", &p->vector))
             p->vector = vec3_normalize(p->vector);
         break;
-    case WORD_spiral1: case WORD_spiral2:
+    case WORD_spiral1:
+    case WORD_spiral2:
         p->integer[0] = (int)read_int(a, "number of arms", -32768, 32767);
         break;
     case WORD_mandel: p->integer[0] = (int)read_int(a, "iterations", 1, 1 << 30); break;
@@ -251,8 +249,9 @@ bool word_is_pattern(const struct builder *b, enum word w)
 {
     static const enum word others[] = {
         WORD_image_map, WORD_bump_map, WORD_image_pattern, WORD_density_file,
-        WORD_crackle, WORD_facets, WORD_mandel, WORD_julia, WORD_magnet, WORD_pavement,
-        WORD_tiling, WORD_average, WORD_uv_mapping};
+        WORD_crackle,   WORD_facets,   WORD_mandel,        WORD_julia,
+        WORD_magnet,    WORD_pavement, WORD_tiling,        WORD_average,
+        WORD_uv_mapping};
     if (w == WORD_NONE)
         return false;
     if (b->pattern[w])
@@ -314,8 +313,7 @@ static void classic(struct args *a, struct pattern *p, enum word w)
 {
     struct turbulence *t = arena_new_struct(a->b->arena, struct turbulence);
     double v;
-    *t = p->turbulence ? *p->turbulence
-                       : (struct turbulence){vec3(0, 0, 0), 6, 2, 0.5f};
+    *t = p->turbulence ? *p->turbulence : (struct turbulence){vec3(0, 0, 0), 6, 2, 0.5f};
     args_next(a);
     if (w == WORD_turbulence)
         args_vec3(a, "turbulence", &t->amount);
@@ -371,7 +369,8 @@ static const struct {
 static bool is_fractal(const struct pattern *p)
 {
     const char *k = p->ops ? p->ops->keyword : "";
-    return strcmp(k, "mandel") == 0 || strcmp(k, "julia") == 0 || strcmp(k, "magnet") == 0;
+    return strcmp(k, "mandel") == 0 || strcmp(k, "julia") == 0 ||
+           strcmp(k, "magnet") == 0;
 }
 
 static bool own_parameter(struct args *a, struct pattern *p)
@@ -408,11 +407,12 @@ static bool own_parameter(struct args *a, struct pattern *p)
 static bool map_allowed(struct args *a, struct body *body, enum body_kind kind,
                         bool with_average)
 {
-    const char *why = body->kind != kind      ? "this map has no place here"
-                      : body->list            ? "a map cannot follow a list of entries"
-                      : body->plain           ? "a plain colour takes no map"
+    const char *why = body->kind != kind ? "this map has no place here"
+                      : body->list       ? "a map cannot follow a list of entries"
+                      : body->plain      ? "a plain colour takes no map"
                       : body->average && !with_average
-                          ? "this map cannot be used with average" : NULL;
+                          ? "this map cannot be used with average"
+                          : NULL;
     if (!why)
         return true;
     args_error(a, a->at->where, why);
@@ -422,11 +422,10 @@ static bool map_allowed(struct args *a, struct body *body, enum body_kind kind,
 
 static bool map(struct args *a, struct body *body)
 {
-    struct span where = args_span(a);
     enum body_kind kind = body->kind;
-    (void)where;
     switch (args_at_block(a)) {
-    case WORD_color_map: case WORD_colour_map: {
+    case WORD_color_map:
+    case WORD_colour_map: {
         bool density = kind == BODY_DENSITY;
         if (!map_allowed(a, body, density ? BODY_DENSITY : BODY_PIGMENT, false))
             return true;
@@ -435,7 +434,8 @@ static bool map(struct args *a, struct body *body)
         body->pigment->kind = PIGMENT_COLORS;
         break;
     }
-    case WORD_pigment_map: case WORD_density_map: {
+    case WORD_pigment_map:
+    case WORD_density_map: {
         bool density = args_at_block(a) == WORD_density_map;
         if (!map_allowed(a, body, density ? BODY_DENSITY : BODY_PIGMENT, true))
             return true;
@@ -469,14 +469,16 @@ static bool map(struct args *a, struct body *body)
 const enum word *pattern_modifier_words(size_t *count)
 {
     static const enum word words[] = {
-        WORD_translate, WORD_rotate, WORD_scale, WORD_matrix, WORD_transform,
-        WORD_turbulence, WORD_octaves, WORD_omega, WORD_lambda, WORD_warp,
-        WORD_frequency, WORD_phase, WORD_noise_generator, WORD_ramp_wave,
-        WORD_triangle_wave, WORD_sine_wave, WORD_scallop_wave, WORD_cubic_wave,
-        WORD_poly_wave, WORD_color_map, WORD_pigment_map, WORD_normal_map,
-        WORD_slope_map, WORD_texture_map, WORD_quick_color, WORD_agate, WORD_bozo,
-        WORD_granite, WORD_gradient, WORD_marble, WORD_wood, WORD_crackle,
-        WORD_checker, WORD_brick, WORD_bumps, WORD_wrinkles, WORD_image_map};
+        WORD_translate,       WORD_rotate,     WORD_scale,         WORD_matrix,
+        WORD_transform,       WORD_turbulence, WORD_octaves,       WORD_omega,
+        WORD_lambda,          WORD_warp,       WORD_frequency,     WORD_phase,
+        WORD_noise_generator, WORD_ramp_wave,  WORD_triangle_wave, WORD_sine_wave,
+        WORD_scallop_wave,    WORD_cubic_wave, WORD_poly_wave,     WORD_color_map,
+        WORD_pigment_map,     WORD_normal_map, WORD_slope_map,     WORD_texture_map,
+        WORD_quick_color,     WORD_agate,      WORD_bozo,          WORD_granite,
+        WORD_gradient,        WORD_marble,     WORD_wood,          WORD_crackle,
+        WORD_checker,         WORD_brick,      WORD_bumps,         WORD_wrinkles,
+        WORD_image_map};
     *count = ARRAY_COUNT(words);
     return words;
 }
@@ -491,9 +493,10 @@ bool build_pattern_modifier(struct args *a, struct body *body)
         return true;
     }
     switch (w) {
-    case WORD_turbulence: case WORD_octaves: case WORD_omega: case WORD_lambda:
-        classic(a, p, w);
-        return true;
+    case WORD_turbulence:
+    case WORD_octaves:
+    case WORD_omega:
+    case WORD_lambda: classic(a, p, w); return true;
     case WORD_ramp_wave: wave(a, p, WAVE_RAMP); return true;
     case WORD_triangle_wave: wave(a, p, WAVE_TRIANGLE); return true;
     case WORD_sine_wave: wave(a, p, WAVE_SINE); return true;

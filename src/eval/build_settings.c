@@ -11,9 +11,9 @@ static const struct field fields[] = {
     {WORD_mm_per_unit, FIELD_DOUBLE, AT(mm_per_unit), 0, 0},
 };
 static const enum word other_words[] = {
-    WORD_assumed_gamma, WORD_max_trace_level, WORD_noise_generator, WORD_charset,
-    WORD_subsurface, WORD_photons, WORD_radiosity, WORD_max_intersections,
-    WORD_hf_gray_16};
+    WORD_assumed_gamma, WORD_max_trace_level,   WORD_noise_generator,
+    WORD_charset,       WORD_subsurface,        WORD_photons,
+    WORD_radiosity,     WORD_max_intersections, WORD_hf_gray_16};
 
 static void assumed_gamma(struct args *a, struct settings *s)
 {
@@ -102,10 +102,22 @@ static bool word_item(struct args *a, struct settings *s)
     enum word w = args_at_word(a);
     double v;
     switch (w) {
-    case WORD_assumed_gamma: args_next(a); assumed_gamma(a, s); break;
-    case WORD_max_trace_level: args_next(a); max_trace_level(a, s); break;
-    case WORD_noise_generator: args_next(a); noise_generator(a, s); break;
-    case WORD_charset: args_next(a); charset(a); break;
+    case WORD_assumed_gamma:
+        args_next(a);
+        assumed_gamma(a, s);
+        break;
+    case WORD_max_trace_level:
+        args_next(a);
+        max_trace_level(a, s);
+        break;
+    case WORD_noise_generator:
+        args_next(a);
+        noise_generator(a, s);
+        break;
+    case WORD_charset:
+        args_next(a);
+        charset(a);
+        break;
     case WORD_max_intersections:
         args_warning(a, args_span(a), "max_intersections has no effect");
         args_next(a);

@@ -69,9 +69,9 @@ static void moved(struct args *a, struct texture *x, const struct transform *t)
 
 static void plain_items(struct args *a, struct texture *x)
 {
-    static const enum word known[] = {
-        WORD_pigment, WORD_normal, WORD_finish, WORD_translate, WORD_rotate, WORD_scale,
-        WORD_matrix, WORD_transform, WORD_no_bump_scale};
+    static const enum word known[] = {WORD_pigment,   WORD_normal,    WORD_finish,
+                                      WORD_translate, WORD_rotate,    WORD_scale,
+                                      WORD_matrix,    WORD_transform, WORD_no_bump_scale};
     struct texture_layer *own = NULL;
     struct transform t;
     bool keep = false;
@@ -127,7 +127,8 @@ static void tiles(struct args *a, struct texture *x)
         args_unknown(&in, known, ARRAY_COUNT(known));
     if (!entry[0] || !entry[1]) {
         if (!in.failed)
-            args_error(&in, args_span(&in), "two textures with tile2 between are expected");
+            args_error(&in, args_span(&in),
+                       "two textures with tile2 between are expected");
         return;
     }
     const struct pattern_ops *ops = a->b->pattern[WORD_checker];
@@ -214,7 +215,8 @@ const struct texture *build_layer(struct args *a, struct span where,
     }
     struct texture *x = arena_new_struct(a->b->arena, struct texture);
     uint32_t n = bottom->layer_count, m = top->layer_count;
-    struct texture_layer *layer = arena_new_array(a->b->arena, struct texture_layer, n + m);
+    struct texture_layer *layer =
+        arena_new_array(a->b->arena, struct texture_layer, n + m);
     memcpy(layer, bottom->layer, n * sizeof *layer);
     memcpy(layer + n, top->layer, m * sizeof *layer);
     *x = *bottom;

@@ -28,12 +28,13 @@ static void matrix(struct args *a, struct transform *out)
     for (int i = 0; i < 12; i++)
         rows[i / 3][i % 3] = m[i];
     for (int j = 0; j < 3; j++) {
-        if (fabs(rows[0][j]) < zero && fabs(rows[1][j]) < zero && fabs(rows[2][j]) < zero) {
+        if (fabs(rows[0][j]) < zero && fabs(rows[1][j]) < zero &&
+            fabs(rows[2][j]) < zero) {
             args_warning(a, where, "a column of the matrix is 0, its diagonal becomes 1");
             rows[j][j] = 1;
         }
     }
-    if (!transform_matrix(rows, out)) {
+    if (!transform_matrix((const double(*)[3])rows, out)) {
         args_error(a, where, "the matrix is singular");
         *out = transform_identity;
     }
@@ -84,8 +85,8 @@ bool build_trans(struct args *a, struct transform *out)
 
 bool build_transform_block(struct args *a, struct transform *out)
 {
-    static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
-                                      WORD_matrix, WORD_transform, WORD_inverse};
+    static const enum word known[] = {WORD_translate, WORD_rotate,    WORD_scale,
+                                      WORD_matrix,    WORD_transform, WORD_inverse};
     struct transform t;
     bool inverse = false;
     *out = transform_identity;

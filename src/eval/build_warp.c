@@ -3,10 +3,10 @@
 // warp { } (spec/textures 4).
 
 static const enum word warp_words[] = {
-    WORD_repeat, WORD_black_hole, WORD_turbulence, WORD_planar, WORD_cylindrical,
-    WORD_spherical, WORD_toroidal, WORD_cubic, WORD_offset, WORD_flip, WORD_strength,
-    WORD_falloff, WORD_inverse, WORD_type, WORD_orientation, WORD_dist_exp,
-    WORD_major_radius, WORD_octaves, WORD_omega, WORD_lambda};
+    WORD_repeat,    WORD_black_hole,   WORD_turbulence, WORD_planar, WORD_cylindrical,
+    WORD_spherical, WORD_toroidal,     WORD_cubic,      WORD_offset, WORD_flip,
+    WORD_strength,  WORD_falloff,      WORD_inverse,    WORD_type,   WORD_orientation,
+    WORD_dist_exp,  WORD_major_radius, WORD_octaves,    WORD_omega,  WORD_lambda};
 
 #define AT(member) offsetof(struct warp, member)
 
@@ -116,7 +116,10 @@ bool build_warp(struct args *a, struct pattern *p)
     case WORD_cylindrical: mapping(&in, w, WARP_CYLINDRICAL); break;
     case WORD_spherical: mapping(&in, w, WARP_SPHERICAL); break;
     case WORD_toroidal: mapping(&in, w, WARP_TOROIDAL); break;
-    case WORD_cubic: w->kind = WARP_CUBIC; read_fields(&in, w, NULL, 0); break;
+    case WORD_cubic:
+        w->kind = WARP_CUBIC;
+        read_fields(&in, w, NULL, 0);
+        break;
     default: args_error(&in, args_span(&in), "a kind of warp is expected"); return true;
     }
     if (!in.failed)

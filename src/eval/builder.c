@@ -8,14 +8,44 @@
 
 enum { ROLE_NONE, ROLE_OBJECT, ROLE_BLOCK };
 
-static const enum word object_words[] = {
-    WORD_bicubic_patch, WORD_blob, WORD_box, WORD_cone, WORD_cylinder, WORD_disc,
-    WORD_height_field, WORD_isosurface, WORD_julia_fractal, WORD_lathe, WORD_mesh,
-    WORD_mesh2, WORD_ovus, WORD_parametric, WORD_plane, WORD_quadric, WORD_cubic,
-    WORD_quartic, WORD_poly, WORD_polynomial, WORD_polygon, WORD_prism,
-    WORD_smooth_triangle, WORD_sor, WORD_sphere, WORD_sphere_sweep, WORD_superellipsoid,
-    WORD_text, WORD_torus, WORD_triangle, WORD_union, WORD_merge, WORD_intersection,
-    WORD_difference, WORD_composite, WORD_light_source, WORD_light_group, WORD_object};
+static const enum word object_words[] = {WORD_bicubic_patch,
+                                         WORD_blob,
+                                         WORD_box,
+                                         WORD_cone,
+                                         WORD_cylinder,
+                                         WORD_disc,
+                                         WORD_height_field,
+                                         WORD_isosurface,
+                                         WORD_julia_fractal,
+                                         WORD_lathe,
+                                         WORD_mesh,
+                                         WORD_mesh2,
+                                         WORD_ovus,
+                                         WORD_parametric,
+                                         WORD_plane,
+                                         WORD_quadric,
+                                         WORD_cubic,
+                                         WORD_quartic,
+                                         WORD_poly,
+                                         WORD_polynomial,
+                                         WORD_polygon,
+                                         WORD_prism,
+                                         WORD_smooth_triangle,
+                                         WORD_sor,
+                                         WORD_sphere,
+                                         WORD_sphere_sweep,
+                                         WORD_superellipsoid,
+                                         WORD_text,
+                                         WORD_torus,
+                                         WORD_triangle,
+                                         WORD_union,
+                                         WORD_merge,
+                                         WORD_intersection,
+                                         WORD_difference,
+                                         WORD_composite,
+                                         WORD_light_source,
+                                         WORD_light_group,
+                                         WORD_object};
 
 bool builder_is_object_word(enum word w)
 {
@@ -28,10 +58,11 @@ bool builder_is_object_word(enum word w)
 bool builder_is_block_word(enum word w)
 {
     static const enum word words[] = {
-        WORD_texture, WORD_pigment, WORD_normal, WORD_finish, WORD_interior, WORD_media,
-        WORD_density, WORD_material, WORD_transform, WORD_color_map, WORD_colour_map,
-        WORD_pigment_map, WORD_normal_map, WORD_slope_map, WORD_texture_map,
-        WORD_density_map, WORD_camera, WORD_fog, WORD_rainbow, WORD_sky_sphere};
+        WORD_texture,    WORD_pigment,   WORD_normal,      WORD_finish,
+        WORD_interior,   WORD_media,     WORD_density,     WORD_material,
+        WORD_transform,  WORD_color_map, WORD_colour_map,  WORD_pigment_map,
+        WORD_normal_map, WORD_slope_map, WORD_texture_map, WORD_density_map,
+        WORD_camera,     WORD_fog,       WORD_rainbow,     WORD_sky_sphere};
     for (size_t i = 0; w && i < ARRAY_COUNT(words); i++)
         if (words[i] == w)
             return true;
@@ -76,15 +107,29 @@ static void default_settings(struct settings *s)
     s->noise_generator = 2;
     s->number_of_waves = 10;
     s->mm_per_unit = 10;
-    s->radiosity_settings = (struct radiosity_settings){
-        .pretrace_start = 0.08, .pretrace_end = 0.04, .error_bound = 1.8,
-        .low_error_factor = 0.5, .minimum_reuse = 0.015, .maximum_reuse = 0.2,
-        .adc_bailout = 0.01, .brightness = 1, .max_sample = -1, .count = 35,
-        .count_directions = 1600, .nearest_count = 5, .recursion_limit = 2};
-    s->photons = (struct photon_settings){
-        .spacing = 1, .gather_min = 20, .gather_max = 100, .radius = {-1, 1, -1, 1},
-        .media_factor = 1, .jitter = 0.4, .autostop = 0.5, .expand_increase = 0.2,
-        .expand_min = 35, .adc_bailout = -1};
+    s->radiosity_settings = (struct radiosity_settings){.pretrace_start = 0.08,
+                                                        .pretrace_end = 0.04,
+                                                        .error_bound = 1.8,
+                                                        .low_error_factor = 0.5,
+                                                        .minimum_reuse = 0.015,
+                                                        .maximum_reuse = 0.2,
+                                                        .adc_bailout = 0.01,
+                                                        .brightness = 1,
+                                                        .max_sample = -1,
+                                                        .count = 35,
+                                                        .count_directions = 1600,
+                                                        .nearest_count = 5,
+                                                        .recursion_limit = 2};
+    s->photons = (struct photon_settings){.spacing = 1,
+                                          .gather_min = 20,
+                                          .gather_max = 100,
+                                          .radius = {-1, 1, -1, 1},
+                                          .media_factor = 1,
+                                          .jitter = 0.4,
+                                          .autostop = 0.5,
+                                          .expand_increase = 0.2,
+                                          .expand_min = 35,
+                                          .adc_bailout = -1};
 }
 
 struct builder *builder_new(struct eval *e)
@@ -149,8 +194,8 @@ static const struct value *material(struct builder *b, struct args *a,
 static const struct value *map(struct builder *b, struct args *a, const struct ast *n)
 {
     switch (n->word) {
-    case WORD_color_map: case WORD_colour_map:
-        return make(b, VALUE_COLOR_MAP, build_color_map(a, n));
+    case WORD_color_map:
+    case WORD_colour_map: return make(b, VALUE_COLOR_MAP, build_color_map(a, n));
     case WORD_pigment_map:
         return make(b, VALUE_PIGMENT_MAP, build_pigment_map(a, n, false, false));
     case WORD_density_map:
@@ -163,7 +208,8 @@ static const struct value *map(struct builder *b, struct args *a, const struct a
     }
 }
 
-static const struct value *value_of(struct builder *b, struct args *a, const struct ast *n)
+static const struct value *value_of(struct builder *b, struct args *a,
+                                    const struct ast *n)
 {
     static const struct pigment white = {.kind = PIGMENT_SOLID, .color = {1, 1, 1, 0, 0}};
     const struct texture_layer *d = b->default_texture->layer;
@@ -242,10 +288,12 @@ static bool block_statement(struct builder *b, struct args *a, const struct ast 
     case WORD_background: return build_background(a, n);
     case WORD_global_settings: return build_settings(a, n);
     case WORD_default: return builder_defaults(b, n->list);
-    case WORD_max_trace_level: case WORD_max_intersections: return build_old_setting(a);
+    case WORD_max_trace_level:
+    case WORD_max_intersections: return build_old_setting(a);
     default: break;
     }
-    diag_at(b->e->diags, DIAG_UNKNOWN_ITEM, n->where, word_text((enum word)n->word), "scene");
+    diag_at(b->e->diags, DIAG_UNKNOWN_ITEM, n->where, word_text((enum word)n->word),
+            "scene");
     return false;
 }
 
@@ -300,8 +348,8 @@ static bool default_block(struct builder *b, struct args *a, struct texture_laye
 
 bool builder_defaults(struct builder *b, const struct ast *items)
 {
-    static const enum word known[] = {WORD_texture, WORD_pigment, WORD_normal, WORD_finish,
-                                      WORD_radiosity, WORD_camera};
+    static const enum word known[] = {WORD_texture, WORD_pigment,   WORD_normal,
+                                      WORD_finish,  WORD_radiosity, WORD_camera};
     struct args a = args_list(b, items, NULL, "default", NULL);
     while (a.at) {
         struct texture_layer top = b->default_texture->layer[0];
@@ -332,7 +380,8 @@ bool builder_finish(struct builder *b)
     s->rainbow_count = b->rainbows.count;
     s->media = (const struct media *const *)b->medias.at;
     s->media_count = b->medias.count;
-    s->default_texture = (struct attached_texture){b->default_texture, transform_identity};
+    s->default_texture =
+        (struct attached_texture){b->default_texture, transform_identity};
     // The rules of the old and the new language for what shows through the sky.
     if (s->settings.version < 370) {
         s->background.filter = 0;

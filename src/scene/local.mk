@@ -1,5 +1,5 @@
 liblambert_a_SOURCES += \
-	%D%/args.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/light.h \
+	%D%/args.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/effects.h %D%/light.h \
 	%D%/object.c %D%/object.h %D%/object_print.c \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shapes.def %D%/texture.h \
 	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/cone.c %D%/shapes/cone.h \

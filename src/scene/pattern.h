@@ -8,6 +8,7 @@
 #include "math/transform.h"
 #include "math/vec.h"
 
+struct arena;
 struct object;
 struct pigment;
 struct image_map;
@@ -43,11 +44,13 @@ struct warp {
     double dist_exp, major_radius, distance; // distance: planar
 };
 
-// What a pattern may ask about the place it is evaluated at, beyond the point.
+// What a pattern may ask about the place it is evaluated at, beyond the point. All in
+// world space, whatever transforms the texture is under.
 struct pattern_context {
     struct vec3 p_world; // the intersection point
     struct vec3 normal;  // the layer's perturbed unit normal; zero: no surface
     struct vec3 ray_d;   // unit direction of the ray; zero: none
+    struct vec2 uv;      // for pigments inside patterns (pigment_pattern)
 };
 
 // A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists
@@ -57,8 +60,21 @@ struct pattern_ops {
     enum wave wave;       // wave type that the keyword sets
     float frequency;      // 1, or 0 for list and bitmap patterns
     int list;             // >0: takes that many list entries (checker 2)
+    bool own_turbulence;  // the classic turbulence acts inside value, not as a warp
+    void (*init)(struct pattern *p); // defaults of its parameters; NULL: all zero
     double (*value)(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c);
+    // As a normal: n changed by this pattern's own rule (spec/textures 11.3). NULL:
+    // by differences of the value (11.2).
+    struct vec3 (*perturb)(const struct pattern *p, float amount, struct vec3 n,
+                           struct vec3 at);
+};
+
+// What the whole scene decides, known only at the end of parsing; all patterns of a
+// scene point at the same one.
+struct pattern_defaults {
+    int noise_generator; // 1..3
+    int number_of_waves;
 };
 
 // A pattern with its parameters. What a kind does not use stays zero.
@@ -67,7 +83,8 @@ struct pattern {
     enum wave wave;
     float exponent; // WAVE_POLY
     float frequency, phase;
-    int noise_generator; // 1..3; resolved when built
+    int noise_generator; // 1..3; 0: as `defaults` say
+    const struct pattern_defaults *defaults; // NULL: generator 2, 10 waves
     const struct warp *warps;             // front first
     const struct turbulence *turbulence;  // the classic element, always last; NULL: none
     // parameters, by pattern
@@ -96,7 +113,28 @@ struct pattern {
 double pattern_value(const struct pattern *p, struct vec3 at,
                      const struct pattern_context *c);
 struct vec3 pattern_warp(const struct pattern *p, struct vec3 at);
+// The same at a point that pattern_warp gave.
+double pattern_value_at(const struct pattern *p, struct vec3 warped,
+                        const struct pattern_context *c);
+// A normal on its way to the pattern's space and back: through its transforms alone,
+// normalised as the language does (spec/textures 11.1).
+struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length);
+struct vec3 pattern_normal_out(const struct pattern *p, struct vec3 n);
+static inline int pattern_noise_generator(const struct pattern *p)
+{
+    return p->noise_generator ? p->noise_generator
+           : p->defaults      ? p->defaults->noise_generator
+                              : 2;
+}
+
 const struct pattern_ops *pattern_find(const char *keyword, size_t len);
+// As a pattern keyword does (spec/textures 3.1): the kind and its parameters change,
+// wave type and frequency where the kind says so; warps and the rest stay. A pattern
+// that had no kind gets frequency 1.
+void pattern_set_kind(struct pattern *p, const struct pattern_ops *ops);
+// Adds what was written next; lists are shared with copies and never modified.
+void pattern_add_transform(struct arena *a, struct pattern *p, const struct transform *t);
+void pattern_add_warp(struct arena *a, struct pattern *p, const struct warp *w);
 
 #define PATTERN(name) extern const struct pattern_ops name##_pattern_ops;
 #include "scene/patterns.def"
