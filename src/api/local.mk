@@ -4,3 +4,6 @@ liblambert_a_SOURCES += \
 	%D%/picture.c %D%/render.c
 lambertincludedir = $(includedir)/lambert
 lambertinclude_HEADERS = include/lambert/lambert.h
+liblambert_a_CPPFLAGS += -DLAMBERT_VERSION='"$(PACKAGE_VERSION)"' \
+	-DLAMBERT_INCLUDE_DIR='"$(pkgdatadir)/include"' \
+	-DPOVRAY_INCLUDE_DIR='"$(povray_includes)"'

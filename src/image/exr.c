@@ -67,22 +67,34 @@ static int channel_index(const char *name)
     return name[0] && !name[1] && at ? (int)(at - "RGBA") : -1;
 }
 
-static void bind(exr_coding_channel_info_t *c, int count, const struct image *im, int y,
-                 bool writing)
+static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct image *im,
+                         int y)
 {
     for (int i = 0; i < count; i++) {
-        int k = channel_index(c[i].channel_name);
-        if (k < 0 || k >= im->channels)
-            continue; // stays unbound: skipped by the library
-        uint8_t *p = (uint8_t *)(image_at(im, 0, y) + k);
         c[i].user_bytes_per_element = 4;
         c[i].user_data_type = EXR_PIXEL_FLOAT;
         c[i].user_pixel_stride = im->channels * 4;
         c[i].user_line_stride = im->width * im->channels * 4;
-        if (writing)
-            c[i].encode_from_ptr = p;
-        else
-            c[i].decode_to_ptr = p;
+        c[i].encode_from_ptr =
+            (const uint8_t *)(image_at(im, 0, y) + channel_index(c[i].channel_name));
+    }
+}
+
+// Into one plane per channel: the library's short cut for three interleaved channels
+// (3.1.5) stores them in the wrong order.
+static void bind_decoder(exr_coding_channel_info_t *c, int count, float *planes,
+                         int channels, int width, int height, int y)
+{
+    for (int i = 0; i < count; i++) {
+        int k = channel_index(c[i].channel_name);
+        if (k < 0 || k >= channels)
+            continue; // stays unbound: skipped by the library
+        size_t at = ((size_t)k * (size_t)height + (size_t)y) * (size_t)width;
+        c[i].user_bytes_per_element = 4;
+        c[i].user_data_type = EXR_PIXEL_FLOAT;
+        c[i].user_pixel_stride = 4;
+        c[i].user_line_stride = width * 4;
+        c[i].decode_to_ptr = (uint8_t *)(planes + at);
     }
 }
 
@@ -117,7 +129,7 @@ static exr_result_t write_chunks(exr_context_t f, int part, const struct image *
                   : exr_encoding_initialize(f, part, &chunk, &e);
         if (r)
             break;
-        bind(e.channels, e.channel_count, im, y, true);
+        bind_encoder(e.channels, e.channel_count, im, y);
         if (!y)
             r = exr_encoding_choose_default_routines(f, part, &e);
         if (!r)
@@ -171,7 +183,8 @@ bool exr_encode(const struct image *im, const struct image_write_options *o,
     return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
 }
 
-static exr_result_t read_chunks(exr_context_t f, struct image *im, int first)
+static exr_result_t read_chunks(exr_context_t f, const struct image *im, float *planes,
+                                int first)
 {
     exr_decode_pipeline_t d = EXR_DECODE_PIPELINE_INITIALIZER;
     int lines = 1;
@@ -184,7 +197,8 @@ static exr_result_t read_chunks(exr_context_t f, struct image *im, int first)
                   : exr_decoding_initialize(f, 0, &chunk, &d);
         if (r)
             break;
-        bind(d.channels, d.channel_count, im, y, false);
+        bind_decoder(d.channels, d.channel_count, planes, im->channels, im->width,
+                     im->height, y);
         if (!y)
             r = exr_decoding_choose_default_routines(f, 0, &d);
         if (!r)
@@ -211,12 +225,13 @@ static exr_result_t read_layout(exr_context_t f, struct layout *l)
     return r;
 }
 
-static void spread_grey(struct image *im)
+static void interleave(struct image *im, const float *planes, bool grey)
 {
     size_t n = (size_t)im->width * (size_t)im->height;
     for (size_t i = 0; i < n; i++) {
         float *p = im->pixel + i * (size_t)im->channels;
-        p[1] = p[2] = p[0];
+        for (int k = 0; k < im->channels; k++)
+            p[k] = planes[(grey && k < 3 ? 0 : (size_t)k) * n + i];
     }
 }
 
@@ -237,12 +252,13 @@ static bool read_opened(exr_context_t f, struct image *im, struct codec_error e)
     if (!image_init(im, box.max.x - box.min.x + 1, box.max.y - box.min.y + 1,
                     l.alpha ? 4 : 3))
         return codec_fail(e, "out of memory");
-    r = read_chunks(f, im, box.min.y);
-    if (r)
-        return codec_fail(e, "%s", exr_get_error_code_as_string(r));
-    if (!l.color)
-        spread_grey(im);
-    return true;
+    float *planes = calloc((size_t)im->width * (size_t)im->height,
+                           (size_t)im->channels * sizeof *planes);
+    r = planes ? read_chunks(f, im, planes, box.min.y) : EXR_ERR_OUT_OF_MEMORY;
+    if (!r)
+        interleave(im, planes, !l.color);
+    free(planes);
+    return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
 }
 
 bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec_error e)

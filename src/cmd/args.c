@@ -1,0 +1,302 @@
+// The command line: GNU options, POV-Ray switches, INI keywords, files.
+#include "cmd/cmd.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool text_same(const char *a, const char *b, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        char x = a[i], y = b[i];
+        if (x >= 'A' && x <= 'Z')
+            x = (char)(x + 32);
+        if (y >= 'A' && y <= 'Z')
+            y = (char)(y + 32);
+        if (x != y)
+            return false;
+    }
+    return true;
+}
+
+static bool starts_on(const char *value)
+{
+    return value[0] == '1' || text_same(value, "on", 2) || text_same(value, "true", 4) ||
+           text_same(value, "yes", 3);
+}
+
+int args_set(struct cmd *c, const struct lambert_option *o, const char *value)
+{
+    if (strcmp(o->group, "unbuilt") == 0 &&
+        (o->kind != LAMBERT_OPTION_FLAG || starts_on(value)))
+        cmd_warn(c, "'%s' is not built yet and has no effect",
+                 o->keyword ? o->keyword : o->name);
+    if (lambert_option_set(c->ctx, o->name, value) != LAMBERT_OK)
+        return cmd_fail(CMD_USAGE, "%s", lambert_error(c->ctx));
+    return CMD_OK;
+}
+
+const struct lambert_option *args_find_keyword(const char *keyword, size_t len)
+{
+    const struct lambert_option *o;
+    for (size_t i = 0; (o = lambert_option_at(i)); i++)
+        if (o->keyword && strlen(o->keyword) == len &&
+            text_same(o->keyword, keyword, len))
+            return o;
+    return NULL;
+}
+
+static int set_named(struct cmd *c, const char *name, const char *value)
+{
+    return args_set(c, lambert_option_find(name), value);
+}
+
+// +F[type][bits][g], the parts behind the type in any order.
+static int set_format(struct cmd *c, const char *switch_text, const char *rest, bool on)
+{
+    int code = set_named(c, "write", on ? "on" : "off");
+    if (*rest && strchr("tTcCjJbBhH", *rest))
+        return cmd_fail(CMD_USAGE,
+                        "'%s': only the file types N (PNG), E (EXR) and P (PPM) "
+                        "are built",
+                        switch_text);
+    if (*rest && strchr("nNeEpPsS", *rest) && !code) {
+        char type[2] = {*rest++, 0};
+        code = set_named(c, "type", type);
+    }
+    while (*rest && !code) {
+        if (*rest == 'g' || *rest == 'G') {
+            code = set_named(c, "grey", "on");
+            rest++;
+        } else if (*rest >= '0' && *rest <= '9') {
+            char bits[4] = {0};
+            size_t n = strspn(rest, "0123456789");
+            memcpy(bits, rest, n < 3 ? n : 3);
+            rest += n;
+            code = set_named(c, "bits", bits);
+        } else {
+            return cmd_fail(CMD_USAGE,
+                            "'%s' is no option: after +F come a file type, a "
+                            "number of bits and g",
+                            switch_text);
+        }
+    }
+    return code;
+}
+
+// The longest name that is a prefix of the text. A name with a value fits only when
+// something follows it, a name without only when nothing does.
+static const struct lambert_option *find_switch(const char *text, const char **rest)
+{
+    const struct lambert_option *o, *best = NULL;
+    size_t best_len = 0, len = strlen(text);
+    for (size_t i = 0; (o = lambert_option_at(i)); i++) {
+        size_t n = o->pov ? strlen(o->pov) : 0;
+        bool valued = o->kind != LAMBERT_OPTION_FLAG;
+        if (n <= best_len || n > len || !text_same(text, o->pov, n) ||
+            valued != (n < len))
+            continue;
+        best = o;
+        best_len = n;
+    }
+    *rest = text + best_len;
+    return best;
+}
+
+static char *unquoted(const char *text)
+{
+    size_t n = strlen(text);
+    if (n >= 2 && (text[0] == '"' || text[0] == '\'') && text[n - 1] == text[0])
+        return text_format("%.*s", (int)(n - 2), text + 1);
+    return text_format("%s", text);
+}
+
+int args_switch(struct cmd *c, const char *arg)
+{
+    const char *rest;
+    bool on = arg[0] == '+';
+    const struct lambert_option *o = find_switch(arg + 1, &rest);
+    if (!o && (arg[1] == 'F' || arg[1] == 'f'))
+        return set_format(c, arg, arg + 2, on);
+    if (!o && (arg[1] == 'A' || arg[1] == 'a'))
+        return cmd_fail(CMD_USAGE, "'%s' is no option; a threshold is written +A0.3",
+                        arg);
+    if (!o)
+        return cmd_fail(CMD_USAGE, "'%s' is no option; --help=all lists them", arg);
+    if (o->kind == LAMBERT_OPTION_FLAG)
+        return args_set(c, o, on ? "on" : "off");
+    if (o->turns) {
+        int code = set_named(c, o->turns, on ? "on" : "off");
+        if (code)
+            return code;
+    }
+    char *value = unquoted(rest);
+    int code = args_set(c, o, value);
+    free(value);
+    return code;
+}
+
+int args_keyword(struct cmd *c, const char *keyword, const char *value)
+{
+    size_t len = strlen(keyword);
+    const struct lambert_option *o = args_find_keyword(keyword, len);
+    if (!o)
+        return cmd_fail(CMD_USAGE, "'%s' is no INI keyword", keyword);
+    if (strcmp(o->name, "include-ini") == 0)
+        return ini_read(c, value, NULL, 1);
+    if (strcmp(o->name, "type") == 0 && value[0] && strchr("tTcCjJbBhH", value[0]) &&
+        !value[1])
+        return cmd_fail(CMD_USAGE,
+                        "%s=%s: only the file types N (PNG), E (EXR) and P "
+                        "(PPM) are built",
+                        keyword, value);
+    return args_set(c, o, value);
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t n = strlen(text), m = strlen(end);
+    return n >= m && text_same(text + n - m, end, m);
+}
+
+int args_file(struct cmd *c, const char *name)
+{
+    size_t n = strlen(name);
+    const char *bracket = strrchr(name, '[');
+    if (n > 1 && name[n - 1] == '/')
+        return set_named(c, "library-path", name);
+    if (bracket && name[n - 1] == ']' && access(name, F_OK) != 0) {
+        char *file = text_format("%.*s", (int)(bracket - name), name);
+        char *section = text_format("%.*s", (int)(name + n - 2 - bracket), bracket + 1);
+        int code = ini_read(c, file, section, 0);
+        free(file);
+        free(section);
+        return code;
+    }
+    if (ends_with(name, ".ini"))
+        return ini_read(c, name, NULL, 0);
+    c->file[c->file_count++] = name;
+    return set_named(c, "input", name);
+}
+
+static int unknown_long(const char *name, size_t len)
+{
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)len, name);
+    const char *near = lambert_option_suggest(word);
+    if (near)
+        return cmd_fail(CMD_USAGE, "no option '--%s'; did you mean '--%s'?", word, near);
+    return cmd_fail(CMD_USAGE, "no option '--%s'; --help=all lists them", word);
+}
+
+static const struct lambert_option *find_long(const char *name, size_t len)
+{
+    const struct lambert_option *o;
+    for (size_t i = 0; (o = lambert_option_at(i)); i++)
+        if (strlen(o->name) == len && memcmp(o->name, name, len) == 0 &&
+            strcmp(o->group, "internal") != 0)
+            return o;
+    return NULL;
+}
+
+// *at: index of the argument; moved on when the value is the next one.
+static int parse_valued(struct cmd *c, const struct lambert_option *o, const char *value,
+                        int *at, int argc, char **argv)
+{
+    char first[32];
+    if (value)
+        return args_set(c, o, value);
+    switch (o->kind) {
+    case LAMBERT_OPTION_FLAG: return args_set(c, o, "on");
+    case LAMBERT_OPTION_ACTION: return args_set(c, o, "on");
+    default: break;
+    }
+    if (o->value && o->value[0] == '[') {
+        snprintf(first, sizeof first, "%.*s", (int)strcspn(o->choices, "|"), o->choices);
+        return args_set(c, o, first);
+    }
+    if (*at + 1 >= argc)
+        return cmd_fail(CMD_USAGE, "--%s needs a value: %s", o->name, o->value);
+    return args_set(c, o, argv[++*at]);
+}
+
+static int parse_long(struct cmd *c, int *at, int argc, char **argv)
+{
+    const char *name = argv[*at] + 2;
+    size_t len = strcspn(name, "=");
+    const char *value = name[len] ? name + len + 1 : NULL;
+    const struct lambert_option *o = find_long(name, len);
+    if (!o && strncmp(name, "no-", 3) == 0 && !value) {
+        o = find_long(name + 3, len - 3);
+        if (o && o->kind == LAMBERT_OPTION_FLAG)
+            return args_set(c, o, "off");
+        o = NULL;
+    }
+    if (!o)
+        return unknown_long(name, len);
+    return parse_valued(c, o, value, at, argc, argv);
+}
+
+static const struct lambert_option *find_letter(const char *arg)
+{
+    const struct lambert_option *o;
+    if (arg[0] != '-' || !arg[1] || arg[2])
+        return NULL;
+    if (arg[1] == '?')
+        return lambert_option_find("help");
+    for (size_t i = 0; (o = lambert_option_at(i)); i++)
+        if (o->letter && o->letter[0] == arg[1])
+            return o;
+    return NULL;
+}
+
+// NAME=VALUE with a name that could be a keyword.
+static bool is_keyword(const char *arg)
+{
+    size_t n = strcspn(arg, "=");
+    return arg[n] && n == strspn(arg, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_"
+                                      "abcdefghijklmnopqrstuvwxyz");
+}
+
+static int parse_keyword(struct cmd *c, const char *arg)
+{
+    size_t n = strcspn(arg, "=");
+    char *keyword = text_format("%.*s", (int)n, arg);
+    char *value = unquoted(arg + n + 1);
+    int code = args_keyword(c, keyword, value);
+    free(keyword);
+    free(value);
+    return code;
+}
+
+static int parse_one(struct cmd *c, int *at, int argc, char **argv)
+{
+    const char *arg = argv[*at];
+    const struct lambert_option *letter = find_letter(arg);
+    if (strncmp(arg, "--", 2) == 0)
+        return parse_long(c, at, argc, argv);
+    if (letter)
+        return parse_valued(c, letter, NULL, at, argc, argv);
+    if ((arg[0] == '+' || arg[0] == '-') && arg[1])
+        return args_switch(c, arg);
+    if (is_keyword(arg) && access(arg, F_OK) != 0)
+        return parse_keyword(c, arg);
+    return args_file(c, arg);
+}
+
+int args_parse(struct cmd *c, int argc, char **argv)
+{
+    bool only_files = false;
+    for (int i = 1; i < argc; i++) {
+        int code = CMD_OK;
+        if (!only_files && strcmp(argv[i], "--") == 0)
+            only_files = true;
+        else if (only_files)
+            code = args_file(c, argv[i]);
+        else
+            code = parse_one(c, &i, argc, argv);
+        if (code)
+            return code;
+    }
+    return CMD_OK;
+}

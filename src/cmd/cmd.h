@@ -1,0 +1,91 @@
+#ifndef CMD_CMD_H
+#define CMD_CMD_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "lambert/lambert.h"
+
+// The command. It knows the renderer through its public interface alone.
+
+enum exit_code {
+    CMD_OK = 0,
+    CMD_FAILED = 1,      // errors in the scene, or a comparison out of tolerance
+    CMD_INTERRUPTED = 2, // the part that was done is written
+    CMD_USAGE = 64,
+    CMD_NO_INPUT = 66,
+    CMD_NO_OUTPUT = 73,
+    CMD_IO = 74,
+};
+
+enum stage { STAGE_START, STAGE_RENDER, STAGE_WRITE };
+
+struct progress {
+    double start, shown_at;
+    unsigned shown_percent;
+    bool terminal, on;
+};
+
+struct cmd {
+    struct lambert_context *ctx;
+    const char *program; // how the command was called, for messages
+    const char **file;   // bare file names that are no INI files, in order
+    size_t file_count;
+    volatile int stage; // enum stage; what a signal means depends on it
+    volatile bool interrupted;
+    bool quiet, verbose;
+    unsigned warnings;
+    struct progress progress;
+};
+
+// Prints "lambert: ..." and returns the code, so that it can stand after `return`.
+int cmd_fail(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+void cmd_warn(struct cmd *c, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+double cmd_seconds(void);
+int cmd_exit_code(enum lambert_status status);
+
+// args.c, ini.c: CMD_OK or an exit code after a message.
+int args_parse(struct cmd *c, int argc, char **argv);
+int args_switch(struct cmd *c, const char *arg);                         // +X -X
+int args_keyword(struct cmd *c, const char *keyword, const char *value); // INI
+int args_file(struct cmd *c, const char *name);
+int args_set(struct cmd *c, const struct lambert_option *o, const char *value);
+const struct lambert_option *args_find_keyword(const char *keyword, size_t len);
+bool text_same(const char *a, const char *b, size_t n); // ASCII, case ignored
+int ini_read(struct cmd *c, const char *path, const char *section, int depth);
+
+// help.c
+int help_print(FILE *out, bool all);
+int man_print(FILE *out);
+int completion_print(FILE *out);
+
+// output.c: the name of the picture file, to be freed. frame < 0: no animation.
+char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
+char *scene_base(const char *scene); // without folder and extension, to be freed
+char *text_format(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+
+// progress.c
+void progress_begin(struct cmd *c);
+bool progress_show(void *cmd, uint32_t done, uint32_t total);
+void progress_end(struct cmd *c);
+void stats_print(struct cmd *c, FILE *out, bool json, const char *picture);
+
+// render.c, compare.c, scenes.c
+int cmd_render(struct cmd *c);
+int cmd_compare(struct cmd *c);
+int compare_scenes(struct cmd *c);
+
+// process.c: runs a program in `folder` with its output in a log file. Seconds it
+// took; negative when it was stopped at the limit.
+struct process {
+    const char *const *argv;
+    const char *folder; // NULL: here
+    const char *log;    // NULL: dropped
+    double limit;
+    int status; // of waitpid
+};
+double process_run(struct process *p);
+
+#endif

@@ -1,0 +1,153 @@
+// The lambert command.
+#include "cmd/cmd.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+int cmd_fail(int code, const char *fmt, ...)
+{
+    va_list ap;
+    va_start(ap, fmt);
+    fputs("lambert: ", stderr);
+    vfprintf(stderr, fmt, ap);
+    fputc('\n', stderr);
+    va_end(ap);
+    return code;
+}
+
+void cmd_warn(struct cmd *c, const char *fmt, ...)
+{
+    va_list ap;
+    va_start(ap, fmt);
+    fputs("lambert: warning: ", stderr);
+    vfprintf(stderr, fmt, ap);
+    fputc('\n', stderr);
+    va_end(ap);
+    c->warnings++;
+}
+
+static void on_message(void *user, const struct lambert_message *m)
+{
+    struct cmd *c = user;
+    if (m->kind == LAMBERT_SCENE_TEXT && c->quiet)
+        return;
+    if (c->stage == STAGE_RENDER)
+        progress_end(c);
+    fputs(m->rendered, stderr);
+}
+
+// Waits for signals in a thread of its own, so that nothing global is needed. The
+// first stops after the tiles in hand, the second at once.
+static void *watch_signals(void *user)
+{
+    struct cmd *c = user;
+    sigset_t set;
+    int signal;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    while (sigwait(&set, &signal) == 0) {
+        if (c->interrupted || c->stage == STAGE_START)
+            _exit(CMD_INTERRUPTED);
+        c->interrupted = true;
+        lambert_cancel(c->ctx);
+    }
+    return NULL;
+}
+
+static void start_watch(struct cmd *c)
+{
+    sigset_t set;
+    pthread_t thread;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set, NULL);
+    if (pthread_create(&thread, NULL, watch_signals, c) == 0)
+        pthread_detach(thread);
+    else
+        pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+}
+
+// What is already in the environment counts less than anything said on the line.
+static int read_environment(struct cmd *c)
+{
+    const char *ini = getenv("POVINI");
+    if (ini && access(ini, R_OK) == 0)
+        return ini_read(c, ini, NULL, 0);
+    if (!ini && access("povray.ini", R_OK) == 0)
+        return ini_read(c, "povray.ini", NULL, 0);
+    return CMD_OK;
+}
+
+static void add_library_paths(struct cmd *c, const char *list)
+{
+    while (list && *list) {
+        size_t n = strcspn(list, ":");
+        char *folder = text_format("%.*s", (int)n, list);
+        if (n)
+            lambert_option_set(c->ctx, "library-path", folder);
+        free(folder);
+        list += n + (list[n] == ':');
+    }
+}
+
+static void settle_color(struct cmd *c)
+{
+    const char *term = getenv("TERM"), *no = getenv("NO_COLOR");
+    bool can = isatty(STDERR_FILENO) && term && strcmp(term, "dumb") != 0 && !(no && *no);
+    if (strcmp(lambert_option_text(c->ctx, "color"), "auto") == 0)
+        lambert_option_set(c->ctx, "color", can ? "always" : "never");
+}
+
+static bool asked(struct cmd *c, const char *name)
+{
+    return lambert_option_is_set(c->ctx, name);
+}
+
+static int run(struct cmd *c, int argc, char **argv)
+{
+    bool compare = argc > 1 && strcmp(argv[1], "compare") == 0;
+    int code = compare ? CMD_OK : read_environment(c);
+    if (!code)
+        code = args_parse(c, argc - compare, argv + compare);
+    if (code)
+        return code;
+    if (asked(c, "help"))
+        return help_print(stdout,
+                          strcmp(lambert_option_text(c->ctx, "help"), "all") == 0);
+    if (asked(c, "version"))
+        return printf("lambert %s\n", lambert_version()) < 0 ? CMD_IO : CMD_OK;
+    if (asked(c, "man"))
+        return man_print(stdout);
+    if (asked(c, "completion"))
+        return completion_print(stdout);
+    add_library_paths(c, getenv("LAMBERT_PATH"));
+    add_library_paths(c, getenv("POVINC"));
+    settle_color(c);
+    c->quiet = lambert_option_number(c->ctx, "quiet") != 0;
+    c->verbose = lambert_option_number(c->ctx, "verbose") != 0;
+    start_watch(c);
+    return compare ? cmd_compare(c) : cmd_render(c);
+}
+
+int main(int argc, char **argv)
+{
+    struct cmd c = {.ctx = lambert_context_new(), .program = argv[0]};
+    c.file = calloc((size_t)argc + 64, sizeof *c.file);
+    if (!c.ctx || !c.file)
+        return cmd_fail(CMD_FAILED, "out of memory");
+    lambert_set_message_function(c.ctx, on_message, &c);
+    lambert_set_progress_function(c.ctx, progress_show, &c);
+    int code = run(&c, argc, argv);
+    if (fflush(stdout) != 0 || ferror(stdout))
+        code = code ? code : cmd_fail(CMD_IO, "cannot write to standard output");
+    if (!code && c.warnings && lambert_option_number(c.ctx, "werror"))
+        code = CMD_FAILED;
+    // The signal thread may still look at the context: the process ends here anyway.
+    free(c.file);
+    return code;
+}

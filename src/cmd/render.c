@@ -1,0 +1,232 @@
+// `lambert SCENE`: one picture, or the frames of an animation.
+#include "cmd/cmd.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+int cmd_exit_code(enum lambert_status status)
+{
+    switch (status) {
+    case LAMBERT_OK: return CMD_OK;
+    case LAMBERT_CANCELLED: return CMD_INTERRUPTED;
+    case LAMBERT_ERROR_OPTION: return CMD_USAGE;
+    case LAMBERT_ERROR_INPUT: return CMD_NO_INPUT;
+    case LAMBERT_ERROR_OUTPUT: return CMD_NO_OUTPUT;
+    case LAMBERT_ERROR_SCENE:
+    case LAMBERT_ERROR_ARGUMENT:
+    case LAMBERT_ERROR_MEMORY: break;
+    }
+    return CMD_FAILED;
+}
+
+static int report(struct cmd *c, enum lambert_status status)
+{
+    return cmd_fail(cmd_exit_code(status), "%s", lambert_error(c->ctx));
+}
+
+// Said before hours of rendering, not after.
+static int check_output(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (strcmp(path, "-") == 0)
+        return CMD_OK;
+    char *folder =
+        slash ? text_format("%.*s", (int)(slash - path + 1), path) : text_format(".");
+    bool exists = access(path, F_OK) == 0;
+    bool ok = access(folder, W_OK) == 0 || (exists && access(path, W_OK) == 0);
+    free(folder);
+    return ok ? CMD_OK : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s'", path);
+}
+
+static int write_picture(struct cmd *c, const struct lambert_image *image,
+                         const char *path)
+{
+    enum lambert_status status = lambert_image_write(c->ctx, image, path);
+    if (status == LAMBERT_OK)
+        return CMD_OK;
+    return cmd_fail(strcmp(path, "-") == 0 ? CMD_IO : CMD_NO_OUTPUT, "%s",
+                    lambert_error(c->ctx));
+}
+
+static void say_done(struct cmd *c, const char *path, bool whole)
+{
+    struct lambert_stats s;
+    lambert_get_stats(c->ctx, &s);
+    const char *name = !path                    ? "nothing written"
+                       : strcmp(path, "-") == 0 ? "standard output"
+                                                : path;
+    if (!whole)
+        fprintf(stderr,
+                "lambert: interrupted; %u of %u tiles are done, the rest is empty: %s\n",
+                s.tiles_done, s.tiles_total, name);
+    else if (!c->quiet)
+        fprintf(stderr, "%s: %d x %d, %.2f s\n", name,
+                (int)lambert_option_number(c->ctx, "width"),
+                (int)lambert_option_number(c->ctx, "height"),
+                s.parse_seconds + s.build_seconds + s.trace_seconds);
+}
+
+static void say_stats(struct cmd *c, const char *path)
+{
+    const char *form = lambert_option_text(c->ctx, "stats");
+    bool json = form && strcmp(form, "json") == 0;
+    if (form || c->verbose)
+        stats_print(c, json ? stdout : stderr, json, path);
+}
+
+static int render_to(struct cmd *c, const char *scene, const char *path)
+{
+    struct lambert_image *image;
+    if (c->verbose)
+        fprintf(stderr, "lambert: reading %s\n", scene);
+    enum lambert_status status = lambert_load_file(c->ctx, scene);
+    if (status != LAMBERT_OK)
+        return report(c, status);
+    c->stage = STAGE_RENDER;
+    progress_begin(c);
+    status = lambert_render(c->ctx, &image);
+    progress_end(c);
+    c->stage = STAGE_WRITE;
+    if (!image)
+        return report(c, status);
+    int code = path ? write_picture(c, image, path) : CMD_OK;
+    lambert_image_free(image);
+    if (code)
+        return code;
+    say_done(c, path, status == LAMBERT_OK);
+    say_stats(c, path);
+    c->stage = STAGE_START;
+    return cmd_exit_code(status);
+}
+
+// frame < 0: a single picture.
+static int render_frame(struct cmd *c, const char *scene, long frame, int digits)
+{
+    int code = CMD_OK;
+    if (!lambert_option_number(c->ctx, "write"))
+        return render_to(c, scene, NULL);
+    char *path = output_name(c, scene, frame, digits, &code);
+    if (!code)
+        code = check_output(path);
+    if (!code)
+        code = render_to(c, scene, path);
+    free(path);
+    return code;
+}
+
+struct animation {
+    long first, last, begin, end, step;
+    double clock_first, clock_last, delta;
+};
+
+static double number(struct cmd *c, const char *name)
+{
+    return lambert_option_number(c->ctx, name);
+}
+
+// A frame of a subset: below 1 a fraction of all (spec/language 7.4).
+static long subset(double v, long fallback, const struct animation *a)
+{
+    if (v <= 0)
+        return fallback;
+    return v < 1 ? (long)((double)(a->last - a->first + 1) * v) : (long)v;
+}
+
+static struct animation animation_of(struct cmd *c)
+{
+    struct animation a = {
+        .first = (long)number(c, "first-frame"),
+        .last = (long)number(c, "last-frame"),
+        .step = (long)number(c, "frame-step"),
+        .clock_first = number(c, "first-clock"),
+        .clock_last = number(c, "last-clock"),
+    };
+    bool cyclic = number(c, "cyclic") != 0;
+    long intervals = a.last - a.first + (cyclic ? 1 : 0);
+    a.delta = intervals ? (a.clock_last - a.clock_first) / (double)intervals : 0;
+    a.begin = subset(number(c, "start-frame"), a.first, &a);
+    a.end = subset(number(c, "end-frame"), a.last, &a);
+    if (a.begin < a.first)
+        a.begin = a.first;
+    if (a.end < a.begin)
+        a.end = a.begin;
+    if (cyclic) // what POV-Ray calls the last frame from here on
+        a.last++;
+    return a;
+}
+
+static void set_number(struct cmd *c, const char *name, double v)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", v);
+    lambert_option_set(c->ctx, name, text);
+}
+
+static int render_animation(struct cmd *c, const char *scene)
+{
+    struct animation a = animation_of(c);
+    char digits[32];
+    int width = snprintf(digits, sizeof digits, "%ld", a.last), code = CMD_OK;
+    if (a.last < a.first)
+        return cmd_fail(CMD_USAGE, "the last frame (%ld) comes before the first (%ld)",
+                        a.last, a.first);
+    set_number(c, "frame-initial", (double)a.first);
+    set_number(c, "frame-final", (double)a.last);
+    set_number(c, "frame-initial-clock", a.clock_first);
+    set_number(c, "frame-final-clock", a.clock_last);
+    set_number(c, "frame-clock-delta", a.delta);
+    for (long n = a.begin; n <= a.end && !code; n += a.step) {
+        set_number(c, "frame", (double)n);
+        set_number(c, "clock", a.clock_first + (double)(n - a.first) * a.delta);
+        code = render_frame(c, scene, n, width);
+        if (!code && c->interrupted)
+            code = CMD_INTERRUPTED;
+    }
+    return code;
+}
+
+// POV-Ray adds the extension when it is missing.
+static char *find_scene(const char *name)
+{
+    char *with_extension = text_format("%s.pov", name);
+    bool plain = strcmp(name, "-") == 0 || access(name, F_OK) == 0;
+    if (!plain && access(with_extension, F_OK) == 0)
+        return with_extension;
+    free(with_extension);
+    return text_format("%s", name);
+}
+
+static int dump(struct cmd *c, const char *scene)
+{
+    enum lambert_status status;
+    if (number(c, "dump-tokens"))
+        status = lambert_dump_tokens(c->ctx, scene, stdout);
+    else if (number(c, "dump-ast"))
+        status = lambert_dump_ast(c->ctx, scene, stdout);
+    else
+        status = lambert_dump_csg(c->ctx, scene, stdout);
+    return status == LAMBERT_OK ? CMD_OK : report(c, status);
+}
+
+int cmd_render(struct cmd *c)
+{
+    const char *name = lambert_option_text(c->ctx, "input");
+    if (!name)
+        return cmd_fail(CMD_USAGE, "no scene given; try 'lambert --help'");
+    if (c->file_count > 1)
+        return cmd_fail(CMD_USAGE, "one scene at a time: '%s' and '%s'", c->file[0],
+                        c->file[1]);
+    char *scene = find_scene(name);
+    int code;
+    double first = number(c, "first-frame"), last = number(c, "last-frame");
+    if (number(c, "dump-tokens") || number(c, "dump-ast") || number(c, "dump-csg"))
+        code = dump(c, scene);
+    else if (first != last || (last != 0 && last != 1))
+        code = render_animation(c, scene);
+    else
+        code = render_frame(c, scene, -1, 0);
+    free(scene);
+    return code;
+}

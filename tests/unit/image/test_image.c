@@ -1,0 +1,294 @@
+#include "test.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "image/codec.h"
+#include "image/image.h"
+
+static const struct transfer srgb = {TRANSFER_SRGB, 0};
+static const struct transfer none = {TRANSFER_NONE, 0};
+
+// Values a half float holds exactly, some outside 0..1.
+static struct image sample(int channels)
+{
+    struct image im;
+    assert_true(image_init(&im, 37, 23, channels));
+    for (int y = 0; y < im.height; y++)
+        for (int x = 0; x < im.width; x++)
+            for (int k = 0; k < channels; k++)
+                image_at(&im, x, y)[k] =
+                    k == 3 ? 1 : (float)((x * 3 + y * 5 + k * 7) % 80 - 8) / 64;
+    return im;
+}
+
+static struct image_write_options options(enum image_type type, int bits)
+{
+    return (struct image_write_options){.type = type, .bits = bits, .transfer = srgb};
+}
+
+static void write_file(const struct image *im, const char *path,
+                       struct image_write_options o)
+{
+    char error[256] = "";
+    if (!image_write(im, path, &o, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static void read_file(struct image *im, const char *path, struct transfer t)
+{
+    char error[256] = "";
+    if (!image_read(im, path, t, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static char *contents(const char *path, size_t *n)
+{
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    char *text = calloc(1, 1 << 20);
+    *n = fread(text, 1, 1 << 20, f);
+    fclose(f);
+    return text;
+}
+
+// spec/lighting.md 3.4: the values POV-Ray writes for these.
+static void quantisation_table(void **state)
+{
+    (void)state;
+    static const float linear[] = {.075f, .225f, .375f, .525f,
+                                   .675f, .825f, .975f, 1.125f};
+    static const unsigned want8[] = {77, 130, 165, 192, 214, 234, 252, 255};
+    static const unsigned want16[] = {0x4db4, 0x82fc, 0xa565, 0xc067,
+                                      0xd733, 0xeb31, 0xfd29, 0xffff};
+    struct image im;
+    assert_true(image_init(&im, 8, 1, 3));
+    for (int x = 0; x < 8; x++)
+        for (int k = 0; k < 3; k++)
+            image_at(&im, x, 0)[k] = linear[x];
+    uint16_t got[24];
+    struct image_write_options o = options(IMAGE_PNG, 8);
+    quantize_row(&im, 0, &o, got);
+    for (int x = 0; x < 8; x++)
+        assert_int_equal(got[3 * x], want8[x]);
+    o.bits = 16;
+    quantize_row(&im, 0, &o, got);
+    for (int x = 0; x < 8; x++)
+        assert_int_equal(got[3 * x], want16[x]);
+    image_free(&im);
+}
+
+static void unmanaged_numbers_stay(void **state)
+{
+    (void)state;
+    struct image im;
+    assert_true(image_init(&im, 1, 1, 3));
+    im.pixel[0] = 0.5f, im.pixel[1] = -1, im.pixel[2] = NAN;
+    struct image_write_options o = options(IMAGE_PNG, 8);
+    uint16_t got[3];
+    o.unmanaged = true;
+    quantize_row(&im, 0, &o, got);
+    assert_int_equal(got[0], 128);
+    assert_int_equal(got[1], 0);
+    assert_int_equal(got[2], 0);
+    // A working space equal to the file's encoding changes nothing either.
+    o.unmanaged = false;
+    o.working = srgb;
+    quantize_row(&im, 0, &o, got);
+    assert_int_equal(got[0], 128);
+    image_free(&im);
+}
+
+static void alpha_rules(void **state)
+{
+    (void)state;
+    static const float pixel[3][4] = {
+        {0.25f, 0.25f, 0.25f, 0.5f},  // plain 0.5
+        {0.75f, 0.75f, 0.75f, 0.25f}, // brighter than its alpha: alpha rises
+        {0, 0, 0, 0},
+    };
+    static const unsigned want[3][4] = {{128, 128, 128, 128}, {255, 255, 255, 191}, {0}};
+    struct image im;
+    assert_true(image_init(&im, 3, 1, 4));
+    memcpy(im.pixel, pixel, sizeof pixel);
+    struct image_write_options o = options(IMAGE_PNG, 8);
+    o.alpha = true;
+    o.transfer = none;
+    uint16_t got[12];
+    quantize_row(&im, 0, &o, got);
+    for (int i = 0; i < 12; i++)
+        assert_int_equal(got[i], want[i / 4][i % 4]);
+    image_free(&im);
+}
+
+static void curves_are_inverse(void **state)
+{
+    (void)state;
+    const struct transfer all[] = {srgb, none, {TRANSFER_POWER, 2.2}};
+    for (int t = 0; t < 3; t++)
+        for (int i = 0; i <= 1000; i++)
+            assert_near(transfer_decode(all[t], transfer_encode(all[t], i / 1000.0)),
+                        i / 1000.0, 1e-7); // the two sRGB pieces meet that well
+    assert_near(transfer_encode(srgb, 0.5), 0.735356983052449, 1e-14);
+}
+
+static void exr_round_trip(void **state)
+{
+    (void)state;
+    for (int bits = 16; bits <= 32; bits += 16)
+        for (int channels = 3; channels <= 4; channels++) {
+            struct image im = sample(channels), back;
+            struct image_write_options o = options(IMAGE_EXR, bits);
+            o.alpha = channels == 4;
+            write_file(&im, "t_image.exr", o);
+            read_file(&back, "t_image.exr", none);
+            assert_int_equal(back.width, im.width);
+            assert_int_equal(back.height, im.height);
+            assert_int_equal(back.channels, channels);
+            assert_memory_equal(back.pixel, im.pixel,
+                                sizeof(float) * 37 * 23 * (size_t)channels);
+            image_free(&im);
+            image_free(&back);
+        }
+    unlink("t_image.exr");
+}
+
+static void check_integer(enum image_type type, const char *path, int bits, int channels,
+                          bool grey)
+{
+    struct image im = sample(channels), back;
+    struct image_write_options o = options(type, bits);
+    o.alpha = channels == 4;
+    o.grey = grey;
+    o.transfer = none;
+    write_file(&im, path, o);
+    read_file(&back, path, none);
+    assert_int_equal(back.channels, type == IMAGE_PNG ? channels : 3);
+    double step = 1.0 / ((1 << bits) - 1);
+    for (int y = 0; y < 23; y++)
+        for (int x = 0; x < 37; x++) {
+            const float *p = image_at(&im, x, y), *q = image_at(&back, x, y);
+            double level =
+                0.297 * (double)p[0] + 0.589 * (double)p[1] + 0.114 * (double)p[2];
+            for (int k = 0; k < 3; k++) {
+                double want = grey ? level : (double)p[k];
+                want = want < 0 ? 0 : want > 1 ? 1 : want;
+                assert_near((double)q[k], want, 0.5 * step + 1e-6);
+            }
+        }
+    image_free(&im);
+    image_free(&back);
+    unlink(path);
+}
+
+static void integer_round_trips(void **state)
+{
+    (void)state;
+    for (int bits = 8; bits <= 16; bits += 8)
+        for (int grey = 0; grey < 2; grey++) {
+            check_integer(IMAGE_PNG, "t_image.png", bits, 3, grey);
+            check_integer(IMAGE_PNG, "t_image.png", bits, 4, grey);
+            check_integer(IMAGE_PPM, "t_image.ppm", bits, 3, grey);
+        }
+}
+
+static void same_picture_same_bytes(void **state)
+{
+    (void)state;
+    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM};
+    static const char *const key[] = {"Software"}, *const text[] = {"lambert"};
+    struct image im = sample(4);
+    for (int i = 0; i < 3; i++) {
+        struct image_write_options o = options(types[i], 8);
+        o.alpha = true;
+        o.metadata = (struct image_metadata){key, text, 1};
+        size_t n[2];
+        char *bytes[2];
+        for (int k = 0; k < 2; k++) {
+            write_file(&im, "t_same", o);
+            bytes[k] = contents("t_same", &n[k]);
+        }
+        assert_int_equal(n[0], n[1]);
+        assert_memory_equal(bytes[0], bytes[1], n[0]);
+        free(bytes[0]);
+        free(bytes[1]);
+    }
+    image_free(&im);
+    unlink("t_same");
+}
+
+// A folder that takes no new file: the old picture stays. Root may write anywhere, so
+// the failure is a folder in the way of the file.
+static void old_file_survives_failure(void **state)
+{
+    (void)state;
+    struct image im = sample(3);
+    char error[256] = "";
+    struct image_write_options o = options(IMAGE_PNG, 8);
+    assert_false(image_write(&im, "no-such-folder/t.png", &o, error, sizeof error));
+    assert_non_null(strstr(error, "no-such-folder/t.png"));
+    write_file(&im, "t_old.png", o);
+    size_t before, after;
+    char *old = contents("t_old.png", &before);
+    o.type = IMAGE_UNKNOWN;
+    assert_false(image_write(&im, "t_old.png", &o, error, sizeof error));
+    char *now = contents("t_old.png", &after);
+    assert_int_equal(before, after);
+    assert_memory_equal(old, now, before);
+    free(old);
+    free(now);
+    image_free(&im);
+    unlink("t_old.png");
+}
+
+static void damaged_files_are_refused(void **state)
+{
+    (void)state;
+    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM};
+    struct image im = sample(3), back;
+    char error[256];
+    for (int i = 0; i < 3; i++) {
+        size_t n;
+        write_file(&im, "t_cut", options(types[i], 8));
+        char *bytes = contents("t_cut", &n);
+        FILE *f = fopen("t_cut", "wb");
+        fwrite(bytes, 1, n / 2, f);
+        fclose(f);
+        free(bytes);
+        error[0] = 0;
+        assert_false(image_read(&back, "t_cut", none, error, sizeof error));
+        assert_true(error[0]);
+        assert_null(back.pixel);
+    }
+    image_free(&im);
+    unlink("t_cut");
+    assert_false(image_read(&back, "t_none", none, error, sizeof error));
+}
+
+static void types_by_name(void **state)
+{
+    (void)state;
+    assert_int_equal(image_type_of("a.png"), IMAGE_PNG);
+    assert_int_equal(image_type_of("dir.exr/a.EXR"), IMAGE_EXR);
+    assert_int_equal(image_type_of("a.ppm"), IMAGE_PPM);
+    assert_int_equal(image_type_of("a.jpeg"), IMAGE_UNKNOWN);
+    assert_int_equal(image_type_of("png"), IMAGE_UNKNOWN);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quantisation_table),
+        cmocka_unit_test(unmanaged_numbers_stay),
+        cmocka_unit_test(alpha_rules),
+        cmocka_unit_test(curves_are_inverse),
+        cmocka_unit_test(exr_round_trip),
+        cmocka_unit_test(integer_round_trips),
+        cmocka_unit_test(same_picture_same_bytes),
+        cmocka_unit_test(old_file_survives_failure),
+        cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(types_by_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
