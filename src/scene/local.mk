@@ -10,3 +10,28 @@ liblambert_a_SOURCES += \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \
 	%D%/shapes/sor.c %D%/shapes/sphere.c %D%/shapes/sphere.h %D%/shapes/superellipsoid.c \
 	%D%/shapes/text.c %D%/shapes/torus.c %D%/shapes/triangle.c %D%/shapes/triangle.h
+# textures
+liblambert_a_SOURCES += \
+	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_tables.h %D%/normal.c \
+	%D%/pattern.c %D%/pattern_math.h %D%/pigment.c %D%/surface_eval.h %D%/texture.c \
+	%D%/warp.c
+liblambert_a_SOURCES += \
+	%D%/patterns/agate.c %D%/patterns/aoi.c %D%/patterns/boxed.c %D%/patterns/bozo.c \
+	%D%/patterns/brick.c %D%/patterns/bumps.c %D%/patterns/cells.c \
+	%D%/patterns/checker.c %D%/patterns/cubic.c %D%/patterns/cylindrical.c \
+	%D%/patterns/dents.c %D%/patterns/function.c %D%/patterns/gradient.c \
+	%D%/patterns/granite.c %D%/patterns/hexagon.c %D%/patterns/leopard.c \
+	%D%/patterns/marble.c %D%/patterns/object.c %D%/patterns/onion.c \
+	%D%/patterns/pigment_pattern.c %D%/patterns/planar.c %D%/patterns/quilted.c \
+	%D%/patterns/radial.c %D%/patterns/ripples.c %D%/patterns/slope.c \
+	%D%/patterns/spherical.c %D%/patterns/spiral.h %D%/patterns/spiral1.c \
+	%D%/patterns/spiral2.c %D%/patterns/spotted.c %D%/patterns/square.c \
+	%D%/patterns/triangular.c %D%/patterns/waves.c %D%/patterns/wood.c \
+	%D%/patterns/wrinkles.c
+# The noise tables are computed, not written down.
+noinst_PROGRAMS += gen_noise_tables
+gen_noise_tables_SOURCES = %D%/gen_noise_tables.c %D%/noise_tables.h
+nodist_liblambert_a_SOURCES += %D%/noise_tables.c
+CLEANFILES += %D%/noise_tables.c
+%D%/noise_tables.c: gen_noise_tables$(EXEEXT)
+	$(AM_V_GEN)$(MKDIR_P) %D% && ./gen_noise_tables$(EXEEXT) >$@.tmp && mv $@.tmp $@

@@ -132,23 +132,38 @@ const struct texture *texture_transform(struct arena *a, const struct texture *x
                                         const struct transform *t);
 
 // ---- evaluation (scene/surface.c) ---------------------------------------
-// Where a texture is evaluated: all vectors in the texture's outer space.
+// Where a texture is evaluated. p and normal are in the texture's outer space (the
+// space outside texture_transform); the rest is in world space.
 struct texture_point {
     struct vec3 p;
     struct vec2 uv;
-    struct vec3 normal; // unit, towards the ray, before this layer's perturbation
-    struct vec3 ray_d;
-    bool uv_mapping; // the object flag: pigments and normals take (u,v,0)
+    // Towards the ray, before this layer's perturbation. The world's unit normal
+    // through transform_inverse_normal, NOT normalised again (no_bump_scale and the
+    // amount of a bump depend on its length only as the language defines).
+    struct vec3 normal;
+    struct vec3 ray_d;   // world, unit; zero: none
+    struct vec3 p_world; // world, for slope with point_at
+    // What slope and aoi see: the world's normal of the layer after normal_perturb;
+    // zero: no surface.
+    struct vec3 normal_seen;
+    bool uv_mapping; // the object flag: textures take (u,v,0)
 };
 
 // False: the pigment gave no colour here (image_map `once` outside).
 bool pigment_color(const struct pigment *p, const struct texture_point *at,
                    struct rgbft *out);
+// The perturbed unit normal in the texture's outer space (to the world by
+// transform_normal, then normalise).
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at);
 // The entries of a MAP/AVERAGE/MATERIAL texture that count at this point, with
 // their weights (sum 1); returns how many (at most max).
 int texture_select(const struct texture *x, const struct texture_point *at,
                    const struct texture **entry, double *weight, int max);
+// The point as the entries that texture_select gave see it, and a normal of theirs on
+// its way back out.
+struct texture_point texture_entry_point(const struct texture *x,
+                                         const struct texture_point *at);
+struct vec3 texture_entry_normal(const struct texture *x, struct vec3 n);
 // Whether the texture can never let light through (spec/lighting.md 7.1).
 bool texture_is_opaque(const struct texture *x);
 

@@ -1,0 +1,244 @@
+// Noise and turbulence (spec/textures 1 and 2).
+
+#include "scene/noise.h"
+
+#include <stdbool.h>
+
+#include "scene/noise_tables.h"
+
+// Below an integer by less than this, a negative coordinate belongs to the cell above.
+#define NOISE_EDGE 1e-10
+// Past this a coordinate has no fraction and is near the end of the integers.
+#define NOISE_FAR 4611686018427387904.0
+
+struct lattice {
+    unsigned x, y, z;    // cell, 0..4095
+    double fx, fy, fz;   // place in it
+};
+
+static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
+
+static inline double split(double v, unsigned *cell)
+{
+    if (!(fabs(v) < NOISE_FAR))
+        v = 0;
+    int64_t t = (int64_t)(v - (v < 0 ? 1 - NOISE_EDGE : 0));
+    *cell = (unsigned)(t + 10000) & 4095;
+    return v - (double)t;
+}
+
+static inline struct lattice lattice_of(struct vec3 p)
+{
+    struct lattice l;
+    l.fx = split(p.x, &l.x);
+    l.fy = split(p.y, &l.y);
+    l.fz = split(p.z, &l.z);
+    return l;
+}
+
+static inline double smooth(double u) { return u * u * (3 - 2 * u); }
+
+// The table entries of a corner of the cell.
+static inline const double *corner(unsigned hash_xy, unsigned z)
+{
+    return noise_value_table + (noise_hash_table[hash_xy ^ z] & 255);
+}
+
+static inline double blend(const double *t, double w, double dx, double dy, double dz)
+{
+    return w * (t[0] * 0.5 + t[1] * dx + t[2] * dy + t[3] * dz);
+}
+
+static inline double value_sum(struct vec3 p)
+{
+    const struct lattice l = lattice_of(p);
+    const double sx = smooth(l.fx), sy = smooth(l.fy), sz = smooth(l.fz);
+    const double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
+    const double jx = l.fx - 1, jy = l.fy - 1, jz = l.fz - 1;
+    const unsigned h0 = noise_hash_table[l.x], h1 = noise_hash_table[l.x + 1];
+    const unsigned h00 = noise_hash_table[h0 ^ l.y];
+    const unsigned h10 = noise_hash_table[h1 ^ l.y];
+    const unsigned h01 = noise_hash_table[h0 ^ (l.y + 1)];
+    const unsigned h11 = noise_hash_table[h1 ^ (l.y + 1)];
+    const unsigned z0 = l.z, z1 = l.z + 1;
+    const double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
+
+    double sum = blend(corner(h00, z0), w00 * tz, l.fx, l.fy, l.fz);
+    sum += blend(corner(h10, z0), w10 * tz, jx, l.fy, l.fz);
+    sum += blend(corner(h01, z0), w01 * tz, l.fx, jy, l.fz);
+    sum += blend(corner(h11, z0), w11 * tz, jx, jy, l.fz);
+    sum += blend(corner(h00, z1), w00 * sz, l.fx, l.fy, jz);
+    sum += blend(corner(h10, z1), w10 * sz, jx, l.fy, jz);
+    sum += blend(corner(h01, z1), w01 * sz, l.fx, jy, jz);
+    sum += blend(corner(h11, z1), w11 * sz, jx, jy, jz);
+    return sum;
+}
+
+static inline void add_corner(struct vec3 *sum, const double *t, double w, double dx,
+                              double dy, double dz)
+{
+    sum->x += blend(t, w, dx, dy, dz);
+    sum->y += blend(t + 4, w, dx, dy, dz);
+    sum->z += blend(t + 8, w, dx, dy, dz);
+}
+
+struct vec3 noise_vector(struct vec3 p)
+{
+    const struct lattice l = lattice_of(p);
+    const double sx = smooth(l.fx), sy = smooth(l.fy), sz = smooth(l.fz);
+    const double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
+    const double jx = l.fx - 1, jy = l.fy - 1, jz = l.fz - 1;
+    const unsigned h0 = noise_hash_table[l.x], h1 = noise_hash_table[l.x + 1];
+    const unsigned h00 = noise_hash_table[h0 ^ l.y];
+    const unsigned h10 = noise_hash_table[h1 ^ l.y];
+    const unsigned h01 = noise_hash_table[h0 ^ (l.y + 1)];
+    const unsigned h11 = noise_hash_table[h1 ^ (l.y + 1)];
+    const unsigned z0 = l.z, z1 = l.z + 1;
+    const double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
+
+    // This order of corners is not the one of value_sum: the last bit depends on it.
+    struct vec3 sum = {0, 0, 0};
+    add_corner(&sum, corner(h00, z0), w00 * tz, l.fx, l.fy, l.fz);
+    add_corner(&sum, corner(h10, z0), w10 * tz, jx, l.fy, l.fz);
+    add_corner(&sum, corner(h11, z0), w11 * tz, jx, jy, l.fz);
+    add_corner(&sum, corner(h01, z0), w01 * tz, l.fx, jy, l.fz);
+    add_corner(&sum, corner(h01, z1), w01 * sz, l.fx, jy, jz);
+    add_corner(&sum, corner(h11, z1), w11 * sz, jx, jy, jz);
+    add_corner(&sum, corner(h10, z1), w10 * sz, jx, l.fy, jz);
+    add_corner(&sum, corner(h00, z1), w00 * sz, l.fx, l.fy, jz);
+    return sum;
+}
+
+// Perlin, "An Image Synthesizer", 1985, with the table sizes of the scene language.
+struct period {
+    unsigned i0, i1;
+    double r0, r1;
+};
+
+static inline struct period period_of(double v)
+{
+    struct period s;
+    if (!(fabs(v) < NOISE_FAR / 4))
+        v = 0;
+    double t = v + 10000000.023157213, whole = floor(t);
+    s.i0 = (unsigned)(int64_t)whole & (NOISE_GRADIENT_PERIOD - 1);
+    s.i1 = (s.i0 + 1) & (NOISE_GRADIENT_PERIOD - 1);
+    s.r0 = t - whole;
+    s.r1 = s.r0 - 1;
+    return s;
+}
+
+static inline double slope_at(unsigned i, double x, double y, double z)
+{
+    const double *g = noise_gradient[i];
+    return x * g[0] + y * g[1] + z * g[2];
+}
+
+static inline double lerp(double t, double a, double b) { return a + t * (b - a); }
+
+static double gradient_noise(struct vec3 p)
+{
+    const struct period x = period_of(p.x), y = period_of(p.y), z = period_of(p.z);
+    const uint16_t *q = noise_permutation;
+    const unsigned i = q[x.i0], j = q[x.i1];
+    const unsigned b00 = q[i + y.i0], b10 = q[j + y.i0];
+    const unsigned b01 = q[i + y.i1], b11 = q[j + y.i1];
+    const double sx = smooth(x.r0), sy = smooth(y.r0), sz = smooth(z.r0);
+    double a = lerp(sx, slope_at(b00 + z.i0, x.r0, y.r0, z.r0),
+                    slope_at(b10 + z.i0, x.r1, y.r0, z.r0));
+    double b = lerp(sx, slope_at(b01 + z.i0, x.r0, y.r1, z.r0),
+                    slope_at(b11 + z.i0, x.r1, y.r1, z.r0));
+    double c = lerp(sy, a, b);
+    a = lerp(sx, slope_at(b00 + z.i1, x.r0, y.r0, z.r1),
+             slope_at(b10 + z.i1, x.r1, y.r0, z.r1));
+    b = lerp(sx, slope_at(b01 + z.i1, x.r0, y.r1, z.r1),
+             slope_at(b11 + z.i1, x.r1, y.r1, z.r1));
+    return lerp(sz, c, lerp(sy, a, b));
+}
+
+double noise_value(struct vec3 p, int generator)
+{
+    if (generator == NOISE_RANGE_CORRECTED)
+        return clamp01((value_sum(p) + 1.05242) * 0.48985582);
+    if (generator == NOISE_PERLIN)
+        return clamp01(0.5 * (1.59 * gradient_noise(p) + 0.985));
+    return clamp01(value_sum(p) + 0.5);
+}
+
+double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,
+                        int generator)
+{
+    const bool signed_noise =
+        generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
+    double sum = noise_value(p, generator);
+    if (signed_noise)
+        sum = clamp01(2 * sum - 0.5); // later octaves are not clamped
+    double l = lambda, o = omega;
+    for (int i = 2; i <= octaves; i++) {
+        double n = noise_value(vec3_scale(l, p), generator);
+        sum += o * (signed_noise ? 2 * n - 0.5 : n);
+        l *= lambda;
+        o *= omega;
+    }
+    return sum;
+}
+
+struct vec3 noise_dturbulence(struct vec3 p, double lambda, double omega, int octaves)
+{
+    struct vec3 sum = noise_vector(p);
+    double l = lambda, o = omega;
+    for (int i = 2; i <= octaves; i++) {
+        sum = vec3_mad(sum, o, noise_vector(vec3_scale(l, p)));
+        l *= lambda;
+        o *= omega;
+    }
+    return sum;
+}
+
+unsigned noise_hash(int64_t x, int64_t y, int64_t z)
+{
+    const unsigned hx = noise_hash_table[x & 4095];
+    const unsigned hy = noise_hash_table[hx ^ (unsigned)(y & 4095)];
+    return noise_hash_table[hy ^ (unsigned)(z & 4095)];
+}
+
+double noise_random(unsigned index)
+{
+    return noise_random_table[index % NOISE_RANDOM_COUNT] * 0x1p-32;
+}
+
+static int64_t cell_number(double v)
+{
+    return fabs(v) < NOISE_FAR ? (int64_t)v : 0;
+}
+
+unsigned noise_cell_hash(double x, double y, double z)
+{
+    return noise_hash(cell_number(x), cell_number(y), cell_number(z));
+}
+
+struct vec3 noise_cell_point(double x, double y, double z)
+{
+    const unsigned n = noise_cell_hash(x, y, z);
+    return vec3(x + noise_random(n), y + noise_random(n + 1), z + noise_random(n + 2));
+}
+
+struct vec3 noise_wave_source(int i)
+{
+    if (i < NOISE_WAVE_COUNT) {
+        const double *w = noise_wave_table[i];
+        return vec3(w[0], w[1], w[2]);
+    }
+    return vec3_normalize(noise_vector(vec3(i, 0, 0)));
+}
+
+double noise_wave_frequency(int i)
+{
+    if (i < NOISE_WAVE_COUNT)
+        return noise_wave_table[i][3];
+    uint32_t s = NOISE_WAVE_SEED;
+    unsigned drawn = 0;
+    for (int k = 0; k <= i; k++)
+        drawn = noise_draw(&s);
+    return drawn * NOISE_WAVE_STEP + 0.01;
+}

@@ -1,0 +1,31 @@
+#ifndef SCENE_NOISE_H
+#define SCENE_NOISE_H
+
+#include <stdint.h>
+
+#include "math/vec.h"
+
+// Lattice noise of the scene language (spec/textures 1, 2). Same bits everywhere.
+
+enum noise_generator { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERLIN = 3 };
+
+// What noise_value and noise_turbulence make of a generator that is out of range: 1.
+double noise_value(struct vec3 p, int generator);
+struct vec3 noise_vector(struct vec3 p);
+double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,
+                        int generator);
+struct vec3 noise_dturbulence(struct vec3 p, double lambda, double omega, int octaves);
+
+// Hash of a lattice cell (spec 1.2), 0..4095.
+unsigned noise_hash(int64_t x, int64_t y, int64_t z);
+// Entry of the random table (spec 1.5), in [0, 1); the index is taken modulo its size.
+double noise_random(unsigned index);
+// The random point of a cell (spec 1.5); x, y, z are whole numbers.
+struct vec3 noise_cell_point(double x, double y, double z);
+unsigned noise_cell_hash(double x, double y, double z);
+
+// Source and frequency of wave i of `waves` and `ripples` (spec 1.6).
+struct vec3 noise_wave_source(int i);
+double noise_wave_frequency(int i);
+
+#endif

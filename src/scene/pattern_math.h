@@ -1,0 +1,70 @@
+#ifndef SCENE_PATTERN_MATH_H
+#define SCENE_PATTERN_MATH_H
+
+#include <float.h>
+
+#include "math/elementary.h"
+#include "math/vec.h"
+#include "scene/noise.h"
+#include "scene/pattern.h"
+
+// The small functions that the formulas of spec/textures are written in (section 0).
+
+#define PATTERN_PI 3.14159265358979323846
+#define PATTERN_EDGE 1e-10 // EPS of the specification: part of the pictures
+
+static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
+
+// a modulo p, never negative.
+static inline double fold(double a, double p) { return a - p * floor(a / p); }
+
+// One period of a sine per unit; rounded as the reference does.
+static inline double cycloidal(double v)
+{
+    if (v >= 0)
+        return det_sin((v - floor(v)) * 50000.0 / 50000.0 * (2 * PATTERN_PI));
+    return -det_sin(-(v + floor(-v)) * 50000.0 / 50000.0 * (2 * PATTERN_PI));
+}
+
+static inline double triangle_wave(double v)
+{
+    double f = v >= 0 ? v - floor(v) : v + 1 + floor(fabs(v));
+    return f < 0.5 ? 2 * f : 2 * (1 - f);
+}
+
+// 1 at the centre, 0 from radius 1 on.
+static inline double fade_out(double r) { return r < 0 ? 1 : r > 1 ? 0 : 1 - r; }
+
+// A value above 1 wraps; one below 0 is left for pattern_value.
+static inline double wrap_above_one(double v) { return v > 1 ? fmod(v, 1) : v; }
+
+static inline double pattern_noise(const struct pattern *p, struct vec3 at)
+{
+    return noise_value(at, pattern_noise_generator(p));
+}
+
+// Turbulence of the classic element; 0 without one.
+static inline double pattern_turbulence(const struct pattern *p, struct vec3 at)
+{
+    const struct turbulence *t = p->turbulence;
+    return t ? noise_turbulence(at, t->lambda, t->omega, t->octaves,
+                                pattern_noise_generator(p))
+             : 0;
+}
+
+static inline int pattern_wave_count(const struct pattern *p)
+{
+    int n = p->defaults ? p->defaults->number_of_waves : 10;
+    return n < 1 ? 1 : n;
+}
+
+// Angle of (x, z) from the x axis, 0..2pi (spec/textures 4.3); length of (x, z) given.
+static inline double azimuth(double x, double z, double length)
+{
+    if (z == 0)
+        return x > 0 ? 0 : PATTERN_PI;
+    double a = det_acos(x / length);
+    return z < 0 ? 2 * PATTERN_PI - a : a;
+}
+
+#endif

@@ -1,0 +1,21 @@
+// pigment_pattern { P }: the grey of a pigment
+
+#include "scene/pattern_math.h"
+#include "scene/texture.h"
+
+static double value(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c)
+{
+    const struct texture_point inner = {.p = at,
+                                        .uv = c->uv,
+                                        .ray_d = c->ray_d,
+                                        .p_world = c->p_world,
+                                        .normal_seen = c->normal};
+    struct rgbft color;
+    if (!p->pigment || !pigment_color(p->pigment, &inner, &color))
+        return 0;
+    return (float)(0.297 * color.r + 0.589 * color.g + 0.114 * color.b);
+}
+
+const struct pattern_ops pigment_pattern_pattern_ops = {
+    .keyword = "pigment_pattern", .frequency = 1, .value = value};

@@ -1,0 +1,14 @@
+// planar: 1 on the xz plane, 0 from distance 1 on
+
+#include "scene/pattern_math.h"
+
+static double value(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c)
+{
+    (void)p;
+    (void)c;
+    return fade_out(fabs(at.y));
+}
+
+const struct pattern_ops planar_pattern_ops = {
+    .keyword = "planar", .frequency = 1, .value = value};

@@ -1,0 +1,14 @@
+// spherical: 1 at the origin, 0 from radius 1 on
+
+#include "scene/pattern_math.h"
+
+static double value(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c)
+{
+    (void)p;
+    (void)c;
+    return fade_out(vec3_length(at));
+}
+
+const struct pattern_ops spherical_pattern_ops = {
+    .keyword = "spherical", .frequency = 1, .value = value};

@@ -1,0 +1,14 @@
+// spiral1 N: N arms around the z axis
+
+#include "scene/patterns/spiral.h"
+
+static double value(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c)
+{
+    (void)c;
+    double radius;
+    return spiral_value(p, at, &radius);
+}
+
+const struct pattern_ops spiral1_pattern_ops = {
+    .keyword = "spiral1", .wave = WAVE_TRIANGLE, .frequency = 1, .value = value};

@@ -1,0 +1,29 @@
+// triangular: six kinds of triangles around each corner, spec/textures 5.5
+
+#include "scene/pattern_math.h"
+
+#define ROOT3 1.7320508075688772
+
+static double value(const struct pattern *p, struct vec3 at,
+                    const struct pattern_context *c)
+{
+    (void)p;
+    (void)c;
+    double x = fold(at.x, 3), z = fold(at.z, ROOT3);
+    const int a = (int)floor(x);
+    x -= a;
+    const bool upper = z >= ROOT3 / 2;
+    if (upper)
+        z = ROOT3 - z;
+    const double k = 1 - x;
+    int r = 1;
+    if (x != 0 && k != 0) {
+        const bool left = z / x < ROOT3, right = z / k < ROOT3;
+        r = left && right ? 0 : right ? 1 : left ? 3 : 1;
+    }
+    r = r % 2 == 1 ? (r + 2 * a) % 6 : (6 + r - 2 * a) % 6;
+    return upper ? 5 - r : r;
+}
+
+const struct pattern_ops triangular_pattern_ops = {
+    .keyword = "triangular", .frequency = 0, .list = 6, .value = value};
