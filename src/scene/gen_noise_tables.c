@@ -93,7 +93,7 @@ static void print_integers(const char *type, const char *name, const char *size,
 // Matsumoto and Nishimura, "Mersenne Twister", 1998: MT19937, seed 5489.
 static void print_random(void)
 {
-    static uint32_t mt[624];
+    uint32_t mt[624];
     mt[0] = 5489;
     for (uint32_t i = 1; i < 624; i++)
         mt[i] = 1812433253u * (mt[i - 1] ^ mt[i - 1] >> 30) + i;
@@ -133,7 +133,7 @@ static void print_waves(const struct tables *t)
 
 int main(void)
 {
-    static struct tables t;
+    struct tables t;
     make_hash(&t);
     make_values(&t);
     make_gradients(&t);

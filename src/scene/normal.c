@@ -82,6 +82,8 @@ static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 pl
     case NORMAL_AVERAGE: v = by_average(n->map, v, q, at); break;
     case NORMAL_PATTERN:
     case NORMAL_SLOPES:
+        if (!p->ops)
+            break; // flat: an entry of a normal list that was not given
         v = p->ops->perturb ? p->ops->perturb(p, n->amount, v, q)
                             : by_differences(n, v, q, at);
         break;
