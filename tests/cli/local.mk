@@ -1,1 +1,1 @@
-# tests of cli
+EXTRA_DIST += %D%/common.sh %D%/files.sh %D%/interrupt.sh %D%/options.sh

@@ -1,0 +1,49 @@
+#!/bin/sh
+# Where pictures go, exit codes, standard input and output, comparison.
+. "${top_srcdir:-.}/tests/cli/common.sh"
+small='+W32 +H24 -q'
+
+made() { rm -f "$1" && want=$1 && shift && exits 0 "$lambert" $small "$@" && test -s "$want"; }
+check "named after the scene" made sphere.png sphere.pov
+check "the extension is added" made x.png sphere.pov -o x
+check "type from the name" made x.exr sphere.pov -o x.exr
+check "another extension stays" made x.5.png sphere.pov +Ox.5
+check "type from the switch" made x.png.ppm sphere.pov +FP +Ox.png
+mkdir d
+check "a folder" made d/sphere.png sphere.pov -o d
+check "scene without .pov" made sphere.png sphere
+check "frames are numbered" made sphere03.png sphere.pov +KFI3 +KFF10 +SF3 +EF3
+to_stdout() { exits 0 "$lambert" $small - -o - +FP <sphere.pov && size_ppm out 32 24; }
+check "standard input to standard output" to_stdout
+nothing() { rm -f sphere.png; exits 0 "$lambert" $small sphere.pov -F && test ! -e sphere.png; }
+check "-F writes nothing" nothing
+
+check "no scene" exits 64 "$lambert"
+check "missing scene" exits 66 "$lambert" nowhere.pov
+check "missing INI file" exits 66 "$lambert" nowhere.ini
+check "folder that is not there" exits 73 "$lambert" sphere.pov -o nowhere/x.png
+check "unknown file type" exits 64 "$lambert" sphere.pov -o x.jpg
+echo 'sphere { 0, 1 pigmnt { rgb 1 } }' >bad.pov
+gcc_style() { exits 1 "$lambert" bad.pov --diagnostics=gcc && has err '^bad.pov:1:[0-9]*: error: '; }
+check "errors of the scene" gcc_style
+check "no picture then" test ! -e bad.png
+json_style() { exits 1 "$lambert" bad.pov --diagnostics=json && has err '"line":1'; }
+check "errors as JSON" json_style
+
+same() { exits 0 "$lambert" compare a.png b.png && has out 'off by more than 8/255: 0.000 %'; }
+"$lambert" $small sphere.pov -o a.png
+"$lambert" $small sphere.pov -o b.png +WT2
+check "threads do not change the bytes" cmp a.png b.png
+check "equal pictures" same
+"$lambert" $small sphere.pov -o c.png +Q0
+differ() { exits 1 "$lambert" compare a.png c.png --out heat && test -s heat/heat.png; }
+check "different pictures, with a heat map" differ
+check "tolerance" exits 0 "$lambert" compare a.png c.png --tolerance 100
+check "a picture that is missing" exits 66 "$lambert" compare a.png nowhere.png
+stats() { exits 0 "$lambert" $small sphere.pov --stats=json && has out '^{"v":1,.*"pixels":768,.*}$'; }
+check "counts as JSON" stats
+
+part() { exits 0 "$lambert" $small sphere.pov +SC9 +EC16 +SR0.5 +FP -o part.ppm && size_ppm part.ppm 32 24; }
+check "a part keeps the size" part
+check "a part beyond the end" exits 64 "$lambert" $small sphere.pov +SC20 +EC10
+finish
