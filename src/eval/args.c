@@ -186,3 +186,75 @@ struct diag_sink *args_diags(struct args *a) { return a->b->e->diags; }
 struct span args_where(struct args *a) { return args_span(a); }
 
 const char *args_owner(struct args *a) { return a->name; }
+
+void args_reject(struct args *a, const char *message)
+{
+    args_error(a, a->owner ? a->owner->where : args_span(a), message);
+}
+
+void args_warn(struct args *a, const char *message)
+{
+    args_warning(a, a->owner ? a->owner->where : args_span(a), message);
+}
+
+static bool readable(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    if (f)
+        fclose(f);
+    return f;
+}
+
+// As given, then in every folder of the library path.
+static bool find_name(struct args *a, const char *name, const char **path)
+{
+    const struct eval_options *o = a->b->e->options;
+    if (readable(name)) {
+        *path = name;
+        return true;
+    }
+    for (uint32_t i = 0; name[0] != '/' && i < o->library_path_count; i++) {
+        *path = arena_printf(a->b->arena, "%s/%s", o->library_path[i], name);
+        if (readable(*path))
+            return true;
+    }
+    return false;
+}
+
+bool args_find_file(struct args *a, const char *role, const char *name,
+                    const char *extension, const char **path)
+{
+    const char *slash = strrchr(name, '/'), *dot = strrchr(name, '.');
+    if (find_name(a, name, path))
+        return true;
+    if (extension && (!dot || (slash && dot < slash))) {
+        const char *sign = extension[0] == '.' ? "" : ".";
+        if (find_name(a, arena_printf(a->b->arena, "%s%s%s", name, sign, extension), path))
+            return true;
+    }
+    diag_at(args_diags(a), DIAG_NO_FILE, a->owner->where, a->name, role, name);
+    args_fail(a);
+    return false;
+}
+
+bool args_transforms(struct args *a, struct transform *out)
+{
+    static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
+                                      WORD_matrix, WORD_transform};
+    struct transform t;
+    bool reported = false;
+    *out = transform_identity;
+    while (a->at) {
+        enum word w = args_at_block(a);
+        if (build_trans(a, &t))
+            *out = transform_then(out, &t);
+        else if (w != WORD_texture && w != WORD_pigment && w != WORD_normal &&
+                 w != WORD_finish)
+            args_unknown(a, known, ARRAY_COUNT(known));
+        else if (!reported && (reported = true))
+            args_not_built(a);
+        else
+            args_next(a);
+    }
+    return !a->failed;
+}
