@@ -154,7 +154,7 @@ struct material build_material(struct args *a, const struct ast *block,
 struct object *build_object(struct args *a, const struct ast *block);
 struct object *build_csg(struct args *a, const struct ast *block);
 struct object *build_light(struct args *a, const struct ast *block);
-struct object *build_light_group(struct args *a, const struct ast *block);
+struct object *build_light_group(struct args *a);
 void build_modifiers(struct args *a, struct object *o);
 void object_move(struct builder *b, struct object *o, const struct transform *t);
 // The next item as an object if it is one (a value or a block), consumed.

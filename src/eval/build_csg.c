@@ -58,10 +58,9 @@ static void collect_lights(const struct object *o, struct arena *arena,
         collect_lights(o->child[i], arena, l);
 }
 
-struct object *build_light_group(struct args *a, const struct ast *block)
+struct object *build_light_group(struct args *a)
 {
-    struct args in = args_of(a->b, block, a);
-    struct object *o = children(&in, CSG_UNION, 1);
+    struct object *o = children(a, CSG_UNION, 1);
     struct pointer_list l = {0};
     struct transform t;
     collect_lights(o, a->b->arena, &l);
@@ -71,17 +70,17 @@ struct object *build_light_group(struct args *a, const struct ast *block)
         light[i] = l.at[i];
     o->group_light = light; // not NULL even without lights: it is a group
     o->group_light_count = l.count;
-    while (in.at) {
+    while (a->at) {
         static const enum word known[] = {WORD_global_lights, WORD_photons,
                                           WORD_translate, WORD_rotate, WORD_scale};
-        if (build_trans(&in, &t))
+        if (build_trans(a, &t))
             object_move(a->b, o, &t);
-        else if (args_take(&in, WORD_global_lights))
-            o->group_global_lights = args_switch(&in);
-        else if (args_at_block(&in) == WORD_photons)
-            args_not_rendered(&in, WORD_photons, args_next(&in)->where);
+        else if (args_take(a, WORD_global_lights))
+            o->group_global_lights = args_switch(a);
+        else if (args_at_block(a) == WORD_photons)
+            args_not_rendered(a, WORD_photons, args_next(a)->where);
         else
-            args_unknown(&in, known, ARRAY_COUNT(known));
+            args_unknown(a, known, ARRAY_COUNT(known));
     }
     return o;
 }

@@ -56,13 +56,12 @@ struct object *build_object(struct args *a, const struct ast *block)
     struct object *o;
     bool csg = block->word == WORD_union || block->word == WORD_merge ||
                block->word == WORD_intersection || block->word == WORD_difference ||
-               block->word == WORD_composite || block->word == WORD_light_group;
+               block->word == WORD_composite;
     const struct shape_ops *ops = a->b->shape[block->word];
-    if (is_copy(&in, csg)) {
+    if (block->word == WORD_light_group) {
+        o = build_light_group(&in);
+    } else if (is_copy(&in, csg)) {
         o = copy_of(&in);
-    } else if (block->word == WORD_light_group) {
-        o = build_light_group(a, block);
-        in.failed |= a->failed;
     } else if (csg) {
         o = build_csg(&in, block);
     } else if (block->word == WORD_light_source) {
