@@ -27,4 +27,11 @@ extern const struct camera camera_default;
 // t_min = 0, t_max = infinity. False: no ray there (fisheye corner).
 bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct ray *out);
 
+// The same through a point of the lens, in scene units off its centre (focal blur).
+bool camera_lens_ray(const struct camera *c, double x, double y, int w, int h,
+                     struct vec2 lens, struct ray *out);
+bool camera_has_lens(const struct camera *c);
+// Whether every ray starts at `location`.
+bool camera_has_one_eye(const struct camera *c);
+
 #endif

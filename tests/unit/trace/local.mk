@@ -1,1 +1,10 @@
-# tests of unit/trace
+check_PROGRAMS += test_camera test_lamp test_antialias
+test_camera_SOURCES = %D%/test_camera.c
+test_camera_CPPFLAGS = $(test_cppflags)
+test_camera_LDADD = $(test_ldadd)
+test_lamp_SOURCES = %D%/test_lamp.c
+test_lamp_CPPFLAGS = $(test_cppflags)
+test_lamp_LDADD = $(test_ldadd)
+test_antialias_SOURCES = %D%/test_antialias.c
+test_antialias_CPPFLAGS = $(test_cppflags)
+test_antialias_LDADD = $(test_ldadd)

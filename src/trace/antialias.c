@@ -1,0 +1,380 @@
+#include "trace/antialias.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "math/elementary.h"
+
+void jitter_tables_init(struct jitter_tables *t)
+{
+    enum { N = 4096 };
+    for (int i = 0; i < N; i++)
+        t->shuffle[i] = (uint16_t)i;
+    uint32_t s = 0;
+    for (int i = N - 1; i >= 0; i--) {
+        s = s * 1812433253u + 12345u;
+        const int j = (int)((s >> 16) & 32767) % N;
+        const uint16_t swap = t->shuffle[i];
+        t->shuffle[i] = t->shuffle[j];
+        t->shuffle[j] = swap;
+    }
+    memcpy(t->shuffle + N, t->shuffle, N * sizeof *t->shuffle);
+    for (uint32_t i = 0; i < 256; i++) {
+        uint32_t crc = i; // the byte table of CRC-16, reflected polynomial A001h
+        for (int k = 0; k < 8; k++)
+            crc = crc & 1 ? (crc >> 1) ^ 0xa001u : crc >> 1;
+        const double v = (double)((2 * crc) % 65536) / 65536 - 0.5;
+        t->offset[i] = floor(v * 1e6 + 0.5) / 1e6;
+    }
+}
+
+static double jitter_axis(const struct jitter_tables *t, double a, double b)
+{
+    const int64_t x = (int64_t)a, y = (int64_t)b; // towards zero
+    const uint32_t inner = t->shuffle[x & 4095];
+    return t->offset[t->shuffle[(inner ^ (uint32_t)y) & 4095] & 255];
+}
+
+struct vec2 jitter_at(const struct jitter_tables *t, double x, double y)
+{
+    return (struct vec2){jitter_axis(t, 1021 * x, 1019 * y),
+                         jitter_axis(t, 1019 * x, 1021 * y)};
+}
+
+// A colour as differences are judged, by the curve of spec/lighting.md 2.2.
+struct judged {
+    float c[4];
+};
+
+static double linear(double working, double v)
+{
+    if (v <= 0)
+        return 0;
+    if (working < 0)
+        return v < 0.04045 ? v / 12.92 : det_pow((v + 0.055) / 1.055, 2.4);
+    return working == 0 || working == 1 ? v : det_pow(v, working);
+}
+
+static struct judged judge(const struct antialias *a, const float c[4])
+{
+    struct judged j;
+    const double exponent = 1 / a->settings->aa_gamma;
+    for (int k = 0; k < 3; k++) {
+        const double v = linear(a->working, c[k]);
+        j.c[k] = (float)(exponent == 1 || v <= 0 ? v : det_pow(v, exponent));
+    }
+    j.c[3] = c[3];
+    return j;
+}
+
+static bool differ(const struct antialias *a, const struct judged *p,
+                   const struct judged *q)
+{
+    float sum = 0;
+    for (int k = 0; k < 4; k++)
+        sum += fabsf(p->c[k] - q->c[k]);
+    return (double)sum >= a->settings->aa_threshold;
+}
+
+static void sample_batch(const struct antialias *a, const struct vec2 *position,
+                         uint32_t count, float (*out)[4])
+{
+    a->sample(a->user, position, count, out);
+}
+
+static void *need(size_t count, size_t size)
+{
+    void *p = calloc(count, size);
+    if (!p)
+        abort();
+    return p;
+}
+
+// ---- method 1 ------------------------------------------------------------
+// Whether a pixel is super-sampled depends on neighbours that may just have been.
+// The scan is therefore repeated: values it lacks are traced together and it starts
+// again. The first value lacking is always truly needed, so it ends, with the result
+// of the scan that traces each value when it meets it.
+struct scan {
+    const struct antialias *a;
+    int x0, y0, width, height; // of the block
+    int stride;                // with the column on the left and the row above
+    float (*centre)[4];
+    float (*fine)[4];
+    struct judged *centre_judged, *fine_judged;
+    bool *known; // fine is there
+    bool *wanted;
+    uint8_t *final; // of the current scan: stored is not the centre
+};
+
+static int scan_index(const struct scan *s, int x, int y)
+{
+    return (y + 1) * s->stride + x + 1;
+}
+
+static void scan_centres(struct scan *s)
+{
+    const int cells = s->stride * (s->height + 1);
+    struct vec2 *position = need((size_t)cells, sizeof *position);
+    float(*value)[4] = need((size_t)cells, sizeof *value);
+    uint32_t n = 0;
+    for (int i = 1; i < cells; i++)
+        position[n++] =
+            (struct vec2){s->x0 + i % s->stride - 0.5, s->y0 + i / s->stride - 0.5};
+    sample_batch(s->a, position, n, value);
+    for (int i = 1; i < cells; i++) {
+        memcpy(s->centre[i], value[i - 1], sizeof value[0]);
+        s->centre_judged[i] = judge(s->a, s->centre[i]);
+    }
+    free(position);
+    free(value);
+}
+
+enum { FINAL = 1, FINE = 2 };
+
+static const struct judged *stored(const struct scan *s, int i)
+{
+    return s->final[i] & FINE ? &s->fine_judged[i] : &s->centre_judged[i];
+}
+
+static void refine(struct scan *s, int i)
+{
+    s->final[i] |= FINAL;
+    if (s->known[i])
+        s->final[i] |= FINE;
+    else
+        s->wanted[i] = true;
+}
+
+// One pass over the block; returns whether values were lacking.
+static bool scan_pass(struct scan *s)
+{
+    memset(s->final, 0, (size_t)(s->stride * (s->height + 1)));
+    for (int x = 0; x < s->width; x++)
+        s->final[scan_index(s, x, -1)] = FINAL;
+    for (int y = 0; y < s->height; y++)
+        s->final[scan_index(s, -1, y)] = FINAL;
+    for (int y = 0; y < s->height; y++) {
+        for (int x = 0; x < s->width; x++) {
+            const int i = scan_index(s, x, y), left = i - 1, top = i - s->stride;
+            const bool by_left = differ(s->a, stored(s, left), &s->centre_judged[i]);
+            const bool by_top = differ(s->a, stored(s, top), &s->centre_judged[i]);
+            if (by_left && !(s->final[left] & FINAL))
+                refine(s, left);
+            if (by_top && !(s->final[top] & FINAL))
+                refine(s, top);
+            if (by_left || by_top)
+                refine(s, i);
+        }
+    }
+    bool lacking = false;
+    for (int i = 0; i < s->stride * (s->height + 1); i++)
+        lacking |= s->wanted[i];
+    return lacking;
+}
+
+static void fine_positions(const struct scan *s, int i, struct vec2 *out)
+{
+    const struct render_settings *set = s->a->settings;
+    const int n = set->aa_depth, px = s->x0 + i % s->stride - 1,
+              py = s->y0 + i / s->stride - 1;
+    const double reach = set->aa_jitter ? set->aa_jitter_amount / n : 0;
+    for (int k = 0; k < n * n; k++) {
+        const double x = px - 0.5 + (k % n + 0.5) / n, y = py - 0.5 + (k / n + 0.5) / n;
+        struct vec2 j = {0, 0};
+        if (reach > 0)
+            j = jitter_at(s->a->jitter, x, y);
+        out[k] = (struct vec2){x + reach * j.u + 0.5, y + reach * j.v + 0.5};
+    }
+}
+
+static void fine_store(struct scan *s, int i, float (*value)[4], int count)
+{
+    for (int k = 0; k < 4; k++) {
+        float sum = s->centre[i][k];
+        for (int v = 0; v < count; v++)
+            sum += value[v][k];
+        s->fine[i][k] = sum / (float)(count + 1);
+    }
+    s->fine_judged[i] = judge(s->a, s->fine[i]);
+    s->known[i] = true;
+    s->wanted[i] = false;
+}
+
+static void scan_refine(struct scan *s)
+{
+    const int cells = s->stride * (s->height + 1);
+    const int per = s->a->settings->aa_depth * s->a->settings->aa_depth;
+    size_t count = 0, at = 0;
+    for (int i = 0; i < cells; i++)
+        count += s->wanted[i];
+    struct vec2 *position = need(count * (size_t)per, sizeof *position);
+    float(*value)[4] = need(count * (size_t)per, sizeof *value);
+    for (int i = 0; i < cells; i++)
+        if (s->wanted[i])
+            fine_positions(s, i, position + (size_t)per * at++);
+    sample_batch(s->a, position, (uint32_t)(count * (size_t)per), value);
+    at = 0;
+    for (int i = 0; i < cells; i++)
+        if (s->wanted[i])
+            fine_store(s, i, value + (size_t)per * at++, per);
+    free(position);
+    free(value);
+}
+
+static void method_1(const struct antialias *a, int x0, int y0, int x1, int y1,
+                     float (*out)[4])
+{
+    struct scan s = {.a = a,
+                     .x0 = x0,
+                     .y0 = y0,
+                     .width = x1 - x0,
+                     .height = y1 - y0,
+                     .stride = x1 - x0 + 1};
+    const size_t cells = (size_t)(s.stride * (s.height + 1));
+    s.centre = need(cells, sizeof *s.centre);
+    s.fine = need(cells, sizeof *s.fine);
+    s.centre_judged = need(cells, sizeof *s.centre_judged);
+    s.fine_judged = need(cells, sizeof *s.fine_judged);
+    s.known = need(cells, sizeof *s.known);
+    s.wanted = need(cells, sizeof *s.wanted);
+    s.final = need(cells, sizeof *s.final);
+    scan_centres(&s);
+    while (scan_pass(&s))
+        scan_refine(&s);
+    for (int y = 0; y < s.height; y++) {
+        for (int x = 0; x < s.width; x++) {
+            const int i = scan_index(&s, x, y);
+            memcpy(out[y * s.width + x], s.final[i] & FINE ? s.fine[i] : s.centre[i],
+                   sizeof s.fine[i]);
+        }
+    }
+    free(s.centre);
+    free(s.fine);
+    free(s.centre_judged);
+    free(s.fine_judged);
+    free(s.known);
+    free(s.wanted);
+    free(s.final);
+}
+
+// ---- method 2 ------------------------------------------------------------
+struct quarters {
+    const struct antialias *a;
+    int px, py, side; // units per pixel side; the grid has side + 1 points a row
+    float (*value)[4];
+    bool *known;
+};
+
+static int grid_index(const struct quarters *q, int i, int j)
+{
+    return j * (q->side + 1) + i;
+}
+
+static struct vec2 grid_position(const struct antialias *a, double x, double y)
+{
+    const struct render_settings *set = a->settings;
+    struct vec2 j = {0, 0};
+    const double reach =
+        set->aa_jitter ? set->aa_jitter_amount / ((1 << set->aa_depth) + 1) : 0;
+    if (reach > 0)
+        j = jitter_at(a->jitter, x, y);
+    return (struct vec2){x + reach * j.u + 0.5, y + reach * j.v + 0.5};
+}
+
+static void grid_trace(struct quarters *q, const int at[5][2])
+{
+    struct vec2 position[5];
+    float value[5][4];
+    int index[5];
+    uint32_t n = 0;
+    for (int k = 0; k < 5; k++) {
+        const int i = grid_index(q, at[k][0], at[k][1]);
+        if (q->known[i])
+            continue;
+        q->known[i] = true;
+        index[n] = i;
+        position[n++] = grid_position(q->a, q->px - 0.5 + (double)at[k][0] / q->side,
+                                      q->py - 0.5 + (double)at[k][1] / q->side);
+    }
+    if (n)
+        sample_batch(q->a, position, n, value);
+    for (uint32_t k = 0; k < n; k++)
+        memcpy(q->value[index[k]], value[k], sizeof value[k]);
+}
+
+static void square(struct quarters *q, int x, int y, int size, float out[4])
+{
+    const int corner[4] = {grid_index(q, x, y), grid_index(q, x, y + size),
+                           grid_index(q, x + size, y), grid_index(q, x + size, y + size)};
+    bool split = false;
+    if (size > 1) {
+        struct judged j[4];
+        for (int k = 0; k < 4; k++)
+            j[k] = judge(q->a, q->value[corner[k]]);
+        for (int k = 0; k < 4 && !split; k++)
+            for (int l = k + 1; l < 4; l++)
+                split |= differ(q->a, &j[k], &j[l]);
+    }
+    float part[4][4];
+    if (split) {
+        const int h = size / 2;
+        grid_trace(q, (const int[5][2]){{x, y + h},
+                                        {x + h, y},
+                                        {x + size, y + h},
+                                        {x + h, y + size},
+                                        {x + h, y + h}});
+        square(q, x, y, h, part[0]);
+        square(q, x, y + h, h, part[1]);
+        square(q, x + h, y, h, part[2]);
+        square(q, x + h, y + h, h, part[3]);
+    } else {
+        for (int k = 0; k < 4; k++)
+            memcpy(part[k], q->value[corner[k]], sizeof part[k]);
+    }
+    for (int k = 0; k < 4; k++)
+        out[k] = (part[0][k] + part[1][k] + part[2][k] + part[3][k]) / 4;
+}
+
+static void method_2(const struct antialias *a, int x0, int y0, int x1, int y1,
+                     float (*out)[4])
+{
+    const int width = x1 - x0, height = y1 - y0, stride = width + 1;
+    const size_t corners = (size_t)(stride * (height + 1));
+    struct vec2 *position = need(corners, sizeof *position);
+    float(*corner)[4] = need(corners, sizeof *corner);
+    for (int i = 0; i < (int)corners; i++)
+        position[i] = (struct vec2){x0 + i % stride, y0 + i / stride};
+    sample_batch(a, position, (uint32_t)corners, corner);
+    struct quarters q = {.a = a, .side = 1 << (a->settings->aa_depth - 1)};
+    const size_t points = (size_t)((q.side + 1) * (q.side + 1));
+    q.value = need(points, sizeof *q.value);
+    q.known = need(points, sizeof *q.known);
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            q.px = x0 + x;
+            q.py = y0 + y;
+            memset(q.known, 0, points * sizeof *q.known);
+            for (int k = 0; k < 4; k++) {
+                const int i = grid_index(&q, k & 1 ? q.side : 0, k & 2 ? q.side : 0);
+                q.known[i] = true;
+                memcpy(q.value[i], corner[(y + (k >> 1)) * stride + x + (k & 1)],
+                       sizeof q.value[i]);
+            }
+            square(&q, 0, 0, q.side, out[y * width + x]);
+        }
+    }
+    free(position);
+    free(corner);
+    free(q.value);
+    free(q.known);
+}
+
+void antialias_block(const struct antialias *a, int x0, int y0, int x1, int y1,
+                     float (*out)[4])
+{
+    if (a->settings->antialias == 2)
+        method_2(a, x0, y0, x1, y1, out);
+    else
+        method_1(a, x0, y0, x1, y1, out);
+}

@@ -1,0 +1,35 @@
+#ifndef TRACE_ANTIALIAS_H
+#define TRACE_ANTIALIAS_H
+
+#include <stdint.h>
+
+#include "math/vec.h"
+#include "trace/render.h"
+
+// The tables of spec/lighting.md 2.3: T, a shuffle of 0..4095 written twice, and J.
+struct jitter_tables {
+    uint16_t shuffle[8192];
+    double offset[256];
+};
+void jitter_tables_init(struct jitter_tables *t);
+// Two numbers in -0.5..0.5 that depend on the place alone.
+struct vec2 jitter_at(const struct jitter_tables *t, double x, double y);
+
+// Traces sample positions: red, green, blue, transparency of each.
+typedef void sample_function(void *user, const struct vec2 *position, uint32_t count,
+                             float (*out)[4]);
+
+// The pixels [x0, x1) x [y0, y1) of a block by anti-aliasing method 1 or 2
+// (spec/lighting.md 2.2) as four floats each, rows first. `working`: the gamma of
+// scene numbers, which the curve of differences undoes first; 0: none, < 0: sRGB.
+struct antialias {
+    const struct render_settings *settings;
+    const struct jitter_tables *jitter;
+    double working;
+    sample_function *sample;
+    void *user;
+};
+void antialias_block(const struct antialias *a, int x0, int y0, int x1, int y1,
+                     float (*out)[4]);
+
+#endif

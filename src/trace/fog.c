@@ -1,0 +1,141 @@
+#include "math/elementary.h"
+#include "trace/sky.h"
+
+// The mean density of a ground fog between two heights, in units of its scale: the
+// density is 1 below 0 and 1/(h^2+1) above, so its integral is an arc tangent.
+static double ground_density(double h1, double h2)
+{
+    static const double equal = 1e-10;
+    if (h1 <= 0 && h2 <= 0)
+        return 1;
+    if (h1 <= 0)
+        return (det_atan(h2) - h1) / (h2 - h1);
+    if (h2 <= 0)
+        return (det_atan(h1) - h2) / (h1 - h2);
+    if (fabs(h1 - h2) < equal)
+        return 1 / (h1 * h1 + 1);
+    return (det_atan(h1) - det_atan(h2)) / (h1 - h2);
+}
+
+// How much of what lies behind is seen.
+static float fog_clear(const struct fog *f, struct vec3 o, struct vec3 d, double s)
+{
+    double way = s / f->distance;
+    if (f->type == FOG_GROUND && f->alt != 0) {
+        const double h1 = (vec3_dot(o, f->up) - f->offset) / f->alt;
+        const double h2 = (vec3_dot(vec3_mad(o, s, d), f->up) - f->offset) / f->alt;
+        way *= ground_density(h1, h2);
+    }
+    const float e = (float)det_exp(-way);
+    return e > f->color.transmit ? e : f->color.transmit;
+}
+
+static struct rgb fog_pass(const struct fog *f, float clear)
+{
+    const float k = f->color.filter;
+    return rgb(clear * ((1 - k) + k * f->color.r), clear * ((1 - k) + k * f->color.g),
+               clear * ((1 - k) + k * f->color.b));
+}
+
+struct rgb fog_filter(const struct job *job, struct vec3 o, struct vec3 d, double s)
+{
+    struct rgb pass = {1, 1, 1};
+    for (uint32_t i = job->scene->fog_count; i-- > 0;) {
+        const struct fog *f = job->scene->fog[i];
+        if (f->distance != 0)
+            pass = rgb_mul(pass, fog_pass(f, fog_clear(f, o, d, s)));
+    }
+    return pass;
+}
+
+static void fogs_apply(struct tracer *t, struct path *path, double s)
+{
+    struct rgb pass = {1, 1, 1}, glow = {0, 0, 0};
+    for (uint32_t i = t->job->scene->fog_count; i-- > 0;) {
+        const struct fog *f = t->job->scene->fog[i];
+        if (f->distance == 0)
+            continue;
+        const float clear = fog_clear(f, path->o, path->d, s);
+        pass = rgb_mul(pass, fog_pass(f, clear));
+        glow = rgb_add(glow, rgb_scale(1 - clear, rgbft_rgb(f->color)));
+    }
+    tracer_add(t, path->sample, rgb_mul(path->through, glow));
+    path->through = rgb_mul(path->through, pass);
+    path->through_t *= rgb_grey(pass);
+}
+
+// The colour of the bow at the angle of d and how much of it the sky lets through.
+static bool rainbow_at(const struct rainbow *r, const struct path *path, double s,
+                       struct rgbft *color, double *keep)
+{
+    static const double degree = 3.14159265358979323846 / 180;
+    const struct vec3 axis = vec3_normalize(r->direction);
+    const struct vec3 right = vec3_normalize(vec3_cross(r->up, axis));
+    const struct vec3 up = vec3_normalize(vec3_cross(axis, right));
+    const double along = vec3_dot(axis, path->d);
+    const double x = vec3_dot(path->d, right), y = vec3_dot(path->d, up);
+    const double l = sqrt(x * x + y * y);
+    const double around = l > 0 ? fabs(det_acos(fmax(-1, fmin(1, y / l)))) : 0;
+    const double arc = r->arc_angle * degree / 2, falloff = r->falloff_angle * degree / 2;
+    if (along < 0 || around > arc || !r->colors)
+        return false;
+    double index = (det_acos(fmin(1, along)) - (r->angle - r->width / 2) * degree) /
+                   (r->width * degree);
+    if (r->jitter != 0)
+        index += (2 * hash_unit(hash_mix(path->hash, 77)) - 1) * r->jitter;
+    if (index < 0 || index > 1 - 1e-10)
+        return false;
+    uint32_t a, b;
+    double f;
+    map_find(r->colors->key, r->colors->count, index, &a, &b, &f);
+    const struct rgbft ca = r->colors->color[a], cb = r->colors->color[b];
+    const float g = (float)f, h = a == b ? 1 : 1 - g, k = a == b ? 0 : g;
+    *color =
+        (struct rgbft){h * ca.r + k * cb.r, h * ca.g + k * cb.g, h * ca.b + k * cb.b,
+                       h * ca.filter + k * cb.filter, h * ca.transmit + k * cb.transmit};
+    double fade = 0;
+    if (around > falloff && arc > falloff) {
+        const double q = (around - falloff) / (arc - falloff);
+        fade = q * q * (3 - 2 * q);
+    }
+    const double c = fade * (1 - (double)color->transmit) + (double)color->transmit;
+    *keep = fmax(det_exp(-s / r->distance), c);
+    return true;
+}
+
+static void rainbows_apply(struct tracer *t, struct path *path, double s)
+{
+    struct rgb pass = {0, 0, 0}, glow = {0, 0, 0};
+    float pass_t = 1;
+    int count = 0;
+    for (uint32_t i = 0; i < t->job->scene->rainbow_count; i++) {
+        struct rgbft c;
+        double keep;
+        if (!rainbow_at(t->job->scene->rainbow[i], path, s, &c, &keep))
+            continue;
+        const float k = (float)keep, f = (float)(c.filter * (1 - keep));
+        pass = rgb_add(pass, rgb(k * ((1 - f) + f * c.r), k * ((1 - f) + f * c.g),
+                                 k * ((1 - f) + f * c.b)));
+        glow = rgb_add(glow, rgb_scale(1 - k, rgbft_rgb(c)));
+        pass_t *= k * c.transmit;
+        count++;
+    }
+    if (!count)
+        return;
+    const float mean = 1.0f / (float)count;
+    tracer_add(t, path->sample, rgb_mul(path->through, rgb_scale(mean, glow)));
+    path->through = rgb_mul(path->through, rgb_scale(mean, pass));
+    path->through_t *= pass_t;
+}
+
+void air_apply(struct tracer *t, struct path *path, double s)
+{
+    const struct scene *scene = t->job->scene;
+    if (!t->job->atmosphere || !(scene->fog_count || scene->rainbow_count) ||
+        !inside_hollow(path->inside))
+        return;
+    if (scene->fog_count)
+        fogs_apply(t, path, s);
+    if (scene->rainbow_count)
+        rainbows_apply(t, path, s);
+}

@@ -1,0 +1,65 @@
+#include "trace/inside.h"
+
+#include "base/arena.h"
+#include "math/elementary.h"
+#include "scene/texture.h"
+
+const struct inside *inside_push(struct arena *a, const struct inside *list,
+                                 const struct interior *interior)
+{
+    struct inside *n = arena_new_struct(a, struct inside);
+    *n = (struct inside){interior, list, interior->hollow && inside_hollow(list)};
+    return n;
+}
+
+const struct inside *inside_find(const struct inside *list,
+                                 const struct interior *interior)
+{
+    while (list && list->interior != interior)
+        list = list->outer;
+    return list;
+}
+
+const struct inside *inside_remove(struct arena *a, const struct inside *list,
+                                   const struct interior *interior)
+{
+    if (!list)
+        return NULL;
+    if (list->interior == interior)
+        return list->outer;
+    return inside_push(a, inside_remove(a, list->outer, interior), list->interior);
+}
+
+const struct inside *inside_at(struct arena *a, const struct world *w, struct vec3 p)
+{
+    enum { FEW = 32 };
+    uint32_t few[FEW], *object = few;
+    uint32_t count = trace_containing(w, p, object, FEW);
+    if (count >= FEW) {
+        object = arena_new_array(a, uint32_t, w->object_count);
+        count = trace_containing(w, p, object, w->object_count);
+    }
+    const struct inside *list = NULL;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct leaf *leaf = &w->leaf[w->object[object[i]].first_leaf];
+        list = inside_push(a, list, w->surface[leaf->surface].interior);
+    }
+    return list;
+}
+
+double interior_ior(const struct interior *i) { return i->ior > 0 ? i->ior : 1; }
+
+static float fade_channel(const struct interior *i, double s, float color)
+{
+    static const double exponential_from = 1000; // powers at and above mean exp
+    const double way = s / i->fade_distance;
+    if (i->fade_power >= exponential_from)
+        return (float)det_exp(-(1 - (double)color) * way);
+    return (float)(color + (1 - (double)color) / (1 + det_pow(way, i->fade_power)));
+}
+
+struct rgb interior_fade(const struct interior *i, double s)
+{
+    return rgb(fade_channel(i, s, i->fade_color.r), fade_channel(i, s, i->fade_color.g),
+               fade_channel(i, s, i->fade_color.b));
+}

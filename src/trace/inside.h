@@ -1,0 +1,19 @@
+#ifndef TRACE_INSIDE_H
+#define TRACE_INSIDE_H
+
+#include "trace/tracer.h"
+
+const struct inside *inside_push(struct arena *a, const struct inside *list,
+                                 const struct interior *interior);
+const struct inside *inside_find(const struct inside *list,
+                                 const struct interior *interior);
+const struct inside *inside_remove(struct arena *a, const struct inside *list,
+                                   const struct interior *interior);
+// The interiors of all objects around p.
+const struct inside *inside_at(struct arena *a, const struct world *w, struct vec3 p);
+
+double interior_ior(const struct interior *i);
+// How light fades over a way of length s through an interior (spec/lighting.md 6.4).
+struct rgb interior_fade(const struct interior *i, double s);
+
+#endif

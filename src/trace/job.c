@@ -1,0 +1,94 @@
+#include "trace/job.h"
+
+#include "base/arena.h"
+
+static const struct lamp *lamp_of(struct job *job, const struct light *light)
+{
+    for (uint32_t i = 0; i < job->lamp_count; i++)
+        if (job->lamp[i].light == light)
+            return &job->lamp[i];
+    struct lamp *lamp = &job->lamp[job->lamp_count];
+    lamp_init(lamp, light, job->lamp_count++);
+    return lamp;
+}
+
+static void lamps_init(struct job *job, struct arena *a, const struct world *w)
+{
+    uint32_t most = w->light_count;
+    for (uint32_t g = 0; g < w->light_group_count; g++)
+        most += w->light_group[g].count;
+    job->lamp = arena_new_array(a, struct lamp, most + 1);
+    struct lamp_list *list =
+        arena_new_array(a, struct lamp_list, w->light_group_count + 1);
+    for (uint32_t g = 0; g <= w->light_group_count; g++) {
+        const struct light_group *group = g ? &w->light_group[g - 1] : NULL;
+        const uint32_t global = !group || group->global_lights ? w->light_count : 0;
+        const uint32_t count = global + (group ? group->count : 0);
+        const struct lamp **lamp = arena_new_array(a, const struct lamp *, count + 1);
+        for (uint32_t i = 0; i < global; i++)
+            lamp[i] = lamp_of(job, w->light[i]);
+        for (uint32_t i = global; i < count; i++)
+            lamp[i] = lamp_of(job, group->light[i - global]);
+        list[g] = (struct lamp_list){lamp, count};
+    }
+    job->lamps = list;
+}
+
+// The three bands of spec/lighting.md 6.3, before they are scaled.
+static void spectrum_height(double wavelength, double h[3])
+{
+    const double k = 0.964 - 0.934 * (740 - wavelength) / 365;
+    const double red = 5 * (k - 0.75), violet = 4 * (k - 0.12), green = 4.5 * (k - 0.57),
+                 blue = k - 0.28;
+    h[0] = 1.15 - red * red;
+    if (h[0] < 0)
+        h[0] = fmax(0, 0.12 - violet * violet);
+    h[1] = fmax(0, 0.97 * (1.1 - green * green));
+    h[2] = fmax(0, 0.98 * (1 - 4 * blue * blue));
+}
+
+static void spectrum_init(struct job *job)
+{
+    double sum[3] = {0}, so_far[3] = {0}, h[3];
+    for (int i = 0; i < SPECTRUM_NODES; i++) {
+        spectrum_height(375 + 5 * i, h);
+        for (int k = 0; k < 3; k++)
+            sum[k] += h[k];
+    }
+    for (int i = 0; i < SPECTRUM_NODES; i++) {
+        spectrum_height(375 + 5 * i, h);
+        for (int k = 0; k < 3; k++) {
+            so_far[k] += h[k];
+            job->spectrum[i][k] = (float)(floor(so_far[k] / sum[k] * 1e4 + 0.5) / 1e4);
+        }
+    }
+}
+
+void job_init(struct job *job, struct arena *a, const struct world *w,
+              const struct render_settings *settings)
+{
+    const struct settings *s = &w->scene->settings;
+    const int q = settings->quality;
+    *job = (struct job){
+        .world = w,
+        .scene = w->scene,
+        .camera = w->scene->has_camera ? &w->scene->camera : &camera_default,
+        .settings = *settings,
+        .max_level = s->max_trace_level,
+        .adc_bailout = s->adc_bailout,
+        .old_opacity = s->version < 370,
+        .see_through = settings->output_alpha,
+        .ambient_light = s->ambient_light,
+        .irid_wavelength = s->irid_wavelength,
+        .lights = q >= 2,
+        .shadows = q >= 4,
+        .area_lights = q >= 5,
+        .pigments = q >= 6,
+        .refraction = q >= 6,
+        .mirrors = q >= 8,
+        .normals = q >= 8,
+        .atmosphere = q >= 9,
+    };
+    lamps_init(job, a, w);
+    spectrum_init(job);
+}

@@ -1,0 +1,43 @@
+#ifndef TRACE_JOB_H
+#define TRACE_JOB_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "scene/scene.h"
+#include "trace/lamp.h"
+#include "trace/render.h"
+#include "trace/world.h"
+
+// The lamps that light a surface: by light group, 0 for none.
+struct lamp_list {
+    const struct lamp *const *lamp;
+    uint32_t count;
+};
+
+// Number of wavelengths at which the spectrum of dispersion is tabulated.
+enum { SPECTRUM_NODES = 74 };
+
+// Everything a render needs beyond the world, worked out once; const while tracing.
+struct job {
+    const struct world *world;
+    const struct scene *scene;
+    const struct camera *camera;
+    struct render_settings settings;
+    struct lamp *lamp;
+    uint32_t lamp_count;
+    const struct lamp_list *lamps; // [0] global, [g] of light group g
+    int max_level;
+    float adc_bailout;
+    bool old_opacity;   // the rules before 3.7
+    bool see_through;   // the background may show as alpha
+    struct rgb ambient_light, irid_wavelength;
+    // switched by the quality level (spec/lighting.md 14)
+    bool lights, shadows, area_lights, pigments, refraction, mirrors, normals, atmosphere;
+    float spectrum[SPECTRUM_NODES][3]; // summed from the violet end
+};
+
+void job_init(struct job *job, struct arena *a, const struct world *w,
+              const struct render_settings *settings);
+
+#endif

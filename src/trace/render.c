@@ -1,0 +1,169 @@
+#include "trace/render.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/arena.h"
+#include "trace/tile.h"
+
+const struct render_settings render_settings_default = {
+    .width = 320,
+    .height = 240,
+    .col_end = 320,
+    .row_end = 240,
+    .tile_size = 32,
+    .aa_threshold = 0.3,
+    .aa_depth = 3,
+    .aa_gamma = 2.5,
+    .aa_jitter = true,
+    .aa_jitter_amount = 1,
+    .quality = 9,
+};
+
+struct render {
+    const struct job *job;
+    const struct render_progress *progress;
+    struct image *out;
+    struct jitter_tables jitter;
+    uint32_t tiles_across, tiles_total;
+    atomic_uint_fast32_t next, done;
+    pthread_mutex_t lock; // of progress calls and of stats
+    struct render_stats stats;
+};
+
+static bool cancelled(const struct render *r)
+{
+    return r->progress && r->progress->cancel && *r->progress->cancel;
+}
+
+static struct tile tile_at(const struct render *r, uint32_t i)
+{
+    const struct render_settings *s = &r->job->settings;
+    struct tile tile;
+    tile.x0 = s->col_begin + (int)(i % r->tiles_across) * s->tile_size;
+    tile.y0 = s->row_begin + (int)(i / r->tiles_across) * s->tile_size;
+    tile.x1 = tile.x0 + s->tile_size < s->col_end ? tile.x0 + s->tile_size : s->col_end;
+    tile.y1 = tile.y0 + s->tile_size < s->row_end ? tile.y0 + s->tile_size : s->row_end;
+    return tile;
+}
+
+static void stats_add(struct render_stats *to, const struct tracer *t)
+{
+    const struct trace_stats *s = trace_scratch_stats(t->scratch);
+    to->trace.rays += s->rays;
+    to->trace.shadow_rays += s->shadow_rays;
+    to->trace.node_visits += s->node_visits;
+    to->trace.leaf_tests += s->leaf_tests;
+    to->trace.csg_tests += s->csg_tests;
+    to->samples += t->samples;
+}
+
+static void *work(void *user)
+{
+    struct render *r = user;
+    struct tracer *t = tracer_new(r->job);
+    while (!cancelled(r)) {
+        const uint32_t i = (uint32_t)atomic_fetch_add(&r->next, 1);
+        if (i >= r->tiles_total)
+            break;
+        const struct tile tile = tile_at(r, i);
+        tile_render(t, &r->jitter, &tile, r->out);
+        pthread_mutex_lock(&r->lock);
+        r->stats.pixels += (uint64_t)(tile.x1 - tile.x0) * (uint64_t)(tile.y1 - tile.y0);
+        r->stats.tiles_done++;
+        if (r->progress && r->progress->tile)
+            r->progress->tile(r->progress->user, r->stats.tiles_done, r->tiles_total);
+        pthread_mutex_unlock(&r->lock);
+    }
+    pthread_mutex_lock(&r->lock);
+    stats_add(&r->stats, t);
+    pthread_mutex_unlock(&r->lock);
+    tracer_free(t);
+    return NULL;
+}
+
+static uint32_t thread_count(const struct render_settings *s, uint32_t tiles)
+{
+    long n = s->threads > 0 ? s->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    if (n < 1)
+        n = 1;
+    return (uint32_t)n < tiles ? (uint32_t)n : tiles;
+}
+
+static void work_in_threads(struct render *r)
+{
+    const uint32_t count = thread_count(&r->job->settings, r->tiles_total);
+    pthread_t *thread = calloc(count + 1, sizeof *thread);
+    uint32_t started = 0;
+    if (!thread)
+        abort();
+    // This thread works too; if the system refuses a thread, the others do its share.
+    while (started + 1 < count && pthread_create(&thread[started], NULL, work, r) == 0)
+        started++;
+    work(r);
+    for (uint32_t i = 0; i < started; i++)
+        pthread_join(thread[i], NULL);
+    free(thread);
+}
+
+static void settings_check(struct render_settings *s)
+{
+    if (s->col_end <= 0 || s->col_end > s->width)
+        s->col_end = s->width;
+    if (s->row_end <= 0 || s->row_end > s->height)
+        s->row_end = s->height;
+    if (s->col_begin < 0)
+        s->col_begin = 0;
+    if (s->row_begin < 0)
+        s->row_begin = 0;
+    if (s->tile_size < 1)
+        s->tile_size = render_settings_default.tile_size;
+    if (s->aa_depth < 1)
+        s->aa_depth = 1;
+    if (s->aa_depth > 9)
+        s->aa_depth = 9;
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+bool render_world(const struct world *w, const struct render_settings *settings,
+                  const struct render_progress *progress, struct image *out,
+                  struct render_stats *stats)
+{
+    struct render_settings s = *settings;
+    settings_check(&s);
+    if (!out->pixel && !image_init(out, s.width, s.height, 4))
+        abort();
+    struct arena *arena = arena_new(4096);
+    struct job job;
+    job_init(&job, arena, w, &s);
+    struct render r = {.job = &job, .progress = progress, .out = out};
+    jitter_tables_init(&r.jitter);
+    if (s.col_end > s.col_begin && s.row_end > s.row_begin) {
+        r.tiles_across =
+            (uint32_t)((s.col_end - s.col_begin + s.tile_size - 1) / s.tile_size);
+        r.tiles_total =
+            r.tiles_across *
+            (uint32_t)((s.row_end - s.row_begin + s.tile_size - 1) / s.tile_size);
+    }
+    pthread_mutex_init(&r.lock, NULL);
+    const double begin = now();
+    if (r.tiles_total)
+        work_in_threads(&r);
+    r.stats.seconds = now() - begin;
+    r.stats.tiles_total = r.tiles_total;
+    pthread_mutex_destroy(&r.lock);
+    arena_free(arena);
+    if (stats)
+        *stats = r.stats;
+    return r.stats.tiles_done == r.tiles_total;
+}

@@ -1,0 +1,105 @@
+#include "trace/shade.h"
+
+#include "base/arena.h"
+#include "trace/sky.h"
+
+// How far a ray that hits nothing goes, as fog and rainbow see it (spec/lighting.md 0).
+static const double far_away = 2e10;
+
+void shade_miss(struct tracer *t, const struct path *path)
+{
+    struct path p = *path;
+    air_apply(t, &p, far_away);
+    float clear;
+    const struct rgb c = sky_color(t->job, p.d, (p.flags & PATH_REFLECTED) != 0, &clear);
+    tracer_add(t, p.sample, rgb_mul(p.through, c));
+    t->sum[p.sample].t += p.through_t * clear;
+}
+
+static struct layer *layer_new(struct shading *s)
+{
+    if (s->layer_count == s->layer_capacity) {
+        struct layer *more =
+            arena_new_array(s->t->arena, struct layer, 2 * (size_t)s->layer_capacity);
+        for (uint32_t i = 0; i < s->layer_count; i++)
+            more[i] = s->layer[i];
+        s->layer = more;
+        s->layer_capacity *= 2;
+    }
+    return &s->layer[s->layer_count++];
+}
+
+// Light that a layer gives off by itself.
+static void add_own(struct shading *s, const struct layer *l)
+{
+    const struct job *job = s->t->job;
+    const struct finish *f = l->finish;
+    const struct rgb own = rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission);
+    const struct rgb c = rgb_mul(rgb_mul(l->color, l->filter), rgb_scale(l->att, own));
+    tracer_add(s->t, s->path->sample, rgb_mul(s->path->through, c));
+}
+
+// The layers of one plain texture, from the top (spec/lighting.md 5.2).
+static void shade_plain(void *user, const struct surface_view *v, const struct texture *x,
+                        struct vec3 p, const struct texture_chain *chain, double weight)
+{
+    struct shading *s = user;
+    const struct job *job = s->t->job;
+    struct plain_result r = {.begin = s->layer_count,
+                             .weight = (float)weight,
+                             .trans = 1,
+                             .filter = rgb_gray((float)weight)};
+    struct rgb filter = {1, 1, 1};
+    for (uint32_t i = x->layer_count; i-- > 0 && r.trans > job->adc_bailout;) {
+        struct layer *l = layer_new(s);
+        layer_eval(s->t, v, &x->layer[i], p, chain, true, l);
+        l->filter = r.filter;
+        l->trans = r.trans;
+        if (!job->lights) {
+            // The quickest levels show the plain colour of the top layer.
+            tracer_add(s->t, s->path->sample,
+                       rgb_mul(rgb_mul(s->path->through, r.filter), l->color));
+            s->layer_count--;
+            return;
+        }
+        add_own(s, l);
+        if (!l->found)
+            continue;
+        r.any = true;
+        struct rgb pass = l->pass;
+        if (l->finish->conserve_energy) {
+            const struct rgb mirror = layer_reflectivity(s, l, NULL);
+            pass = rgb_mul(pass, rgb(fminf(1, 1 - mirror.r), fminf(1, 1 - mirror.g),
+                                     fminf(1, 1 - mirror.b)));
+        }
+        filter = rgb_mul(filter, pass);
+        r.filter = rgb_scale((float)weight, filter);
+        r.trans = fminf(1, fabsf(rgb_grey(filter)));
+    }
+    r.end = s->layer_count;
+    shade_transmit(s, &r);
+}
+
+void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit,
+               struct path_queue *next)
+{
+    struct path here = *path;
+    air_apply(t, &here, hit->b.t);
+    if (!(here.flags & PATH_CONTINUED))
+        here.level++;
+    here.flags &= (uint8_t)~PATH_CONTINUED;
+    struct shading s;
+    s.t = t;
+    s.path = &here;
+    s.s = hit->b.t;
+    s.next = next;
+    s.layer = s.few;
+    s.layer_count = 0;
+    s.layer_capacity = HIT_LAYERS;
+    const struct ray ray = {path->o, path->d, 0, INFINITY};
+    trace_interaction(t->job->world, &ray, hit, &s.at);
+    surface_view_init(&s.view, &s.at, path->d);
+    texture_walk(t, &s.view, shade_plain, &s);
+    if (t->job->lights)
+        shade_lights(&s);
+}

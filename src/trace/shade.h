@@ -1,0 +1,46 @@
+#ifndef TRACE_SHADE_H
+#define TRACE_SHADE_H
+
+#include "trace/layers.h"
+
+enum { HIT_LAYERS = 32 };
+
+// A hit being shaded: the layers of all its textures.
+struct shading {
+    struct tracer *t;
+    const struct path *path; // as it arrives at the surface
+    double s;                // length of the ray
+    struct interaction at;
+    struct surface_view view;
+    struct path_queue *next;
+    struct layer *layer;
+    uint32_t layer_count, layer_capacity;
+    struct layer few[HIT_LAYERS];
+};
+
+// Direct light of all lamps on all layers (shade_light.c).
+void shade_lights(struct shading *s);
+// Iridescence for light from l (spec/lighting.md 5.3).
+struct rgb irid_factor(const struct job *job, const struct finish *f, struct vec3 n,
+                       struct vec3 l, struct vec3 d);
+// How metals tint what they mirror; x is a cosine (spec/lighting.md 5.4).
+float metal_angle(double cosine);
+struct rgb metal_tint(struct rgb c, struct rgb tint, float metallic, double cosine);
+
+// Rays that go on from layers [begin, end) of one plain texture (shade_transmit.c).
+// trans and filter: what its layers let through together; any: some layer had a colour.
+struct plain_result {
+    uint32_t begin, end;
+    float weight;
+    float trans;
+    struct rgb filter; // with the weight
+    bool any;
+};
+void shade_transmit(struct shading *s, const struct plain_result *r);
+// The index of Fresnel's formula seen from the ray (spec/lighting.md 5.5).
+double fresnel_index(const struct inside *list, const struct interior *interior);
+struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
+                              float *weight);
+struct vec3 mirrored(struct vec3 d, struct vec3 n, struct vec3 surface);
+
+#endif

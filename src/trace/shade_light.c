@@ -1,0 +1,185 @@
+#include "math/elementary.h"
+#include "trace/area.h"
+#include "trace/shade.h"
+
+// "Is zero" for colours and cosines, as the scene language has it (spec/lighting.md 0).
+static const double zero = 1e-10;
+
+float metal_angle(double cosine)
+{
+    if (!(fabs(cosine) <= 1))
+        return 0;
+    const double x = fabs(det_acos(cosine)) / (3.14159265358979323846 / 2);
+    const double y = 0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903;
+    return (float)fmax(0, fmin(1, y));
+}
+
+struct rgb metal_tint(struct rgb c, struct rgb tint, float metallic, double cosine)
+{
+    const float k = metallic * (1 - metal_angle(cosine));
+    return rgb(c.r * (1 + k * (tint.r - 1)), c.g * (1 + k * (tint.g - 1)),
+               c.b * (1 + k * (tint.b - 1)));
+}
+
+struct rgb irid_factor(const struct job *job, const struct finish *f, struct vec3 n,
+                       struct vec3 l, struct vec3 d)
+{
+    const double way = 2 * 3.14159265358979323846 * (double)f->irid_thickness *
+                       (fabs(vec3_dot(n, l)) + fabs(vec3_dot(n, d)));
+    const struct rgb w = job->irid_wavelength;
+    const float a = f->irid;
+    return rgb(1 + a * (float)det_cos(way / (double)w.r),
+               1 + a * (float)det_cos(way / (double)w.g),
+               1 + a * (float)det_cos(way / (double)w.b));
+}
+
+static struct rgb highlights(const struct layer *l, struct vec3 d, struct vec3 to,
+                             double facing)
+{
+    static const float sharp = 60;
+    static const double sharp_cut = 0.0008;
+    const struct finish *f = l->finish;
+    float sum = 0;
+    if (f->phong != 0) {
+        const struct vec3 r = vec3_mad(d, -2 * vec3_dot(d, l->n), l->n);
+        const double q = vec3_dot(r, to);
+        if (q > 0 && (f->phong_size < sharp || q > sharp_cut))
+            sum += f->phong * (float)det_pow(q, f->phong_size);
+    }
+    if (f->specular != 0) {
+        const struct vec3 h = vec3_sub(to, d);
+        const double q = vec3_dot(h, l->n), length = vec3_length(h);
+        if (q > 0 && length > 0)
+            sum += f->specular * (float)det_pow(q / length, f->roughness);
+    }
+    if (sum == 0)
+        return rgb(0, 0, 0);
+    struct rgb c = rgb_gray(sum);
+    if (f->metallic != 0)
+        c = metal_tint(c, l->color, f->metallic, facing);
+    return c;
+}
+
+// What one layer sends to the eye of light of colour 1 that comes from `to`
+// (spec/lighting.md 5.3).
+static struct rgb layer_lit(const struct shading *s, const struct layer *l,
+                            const struct lamp *lamp, struct vec3 to, bool side_test)
+{
+    const struct finish *f = l->finish;
+    const double facing = vec3_dot(l->n, to);
+    bool back = false;
+    if (side_test && facing < zero) {
+        if (f->diffuse_back == 0)
+            return rgb(0, 0, 0);
+        back = true;
+    }
+    struct rgb c = {0, 0, 0};
+    const float d = back ? f->diffuse_back : f->diffuse;
+    if (d > 0) {
+        const double cosine = fabs(facing);
+        float i = (float)(f->brilliance == 1 ? cosine : det_pow(cosine, f->brilliance));
+        i *= d * l->att;
+        if (f->crand > 0)
+            i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp->index + 100));
+        c = rgb_scale(i, l->color);
+    }
+    if (!back && !lamp->light->shadowless)
+        c = rgb_add(c, highlights(l, s->path->d, to, facing));
+    if (f->irid != 0)
+        c = rgb_mul(c, irid_factor(s->t->job, f, l->n, to, s->path->d));
+    return rgb_mul(c, l->filter);
+}
+
+static bool layer_takes_light(const struct finish *f)
+{
+    return f->diffuse != 0 || f->diffuse_back != 0 || f->specular != 0 || f->phong != 0;
+}
+
+static struct rgb layers_lit(const struct shading *s, const struct lamp *lamp,
+                             struct vec3 to, bool side_test)
+{
+    struct rgb sum = {0, 0, 0};
+    for (uint32_t i = 0; i < s->layer_count; i++)
+        if (layer_takes_light(s->layer[i].finish))
+            sum = rgb_add(sum, layer_lit(s, &s->layer[i], lamp, to, side_test));
+    return sum;
+}
+
+static bool is_black(struct rgb c)
+{
+    const float e = (float)zero;
+    return fabsf(c.r) < e && fabsf(c.g) < e && fabsf(c.b) < e;
+}
+
+// The sum over the lightlets of area_illumination, each with its own direction.
+static struct rgb area_lit(const struct shading *s, const struct lamp *lamp,
+                           bool side_test)
+{
+    const struct light *light = lamp->light;
+    struct rgb sum = {0, 0, 0};
+    for (int u = 0; u < light->size1; u++) {
+        for (int v = 0; v < light->size2; v++) {
+            const struct vec3 at =
+                area_point(lamp, s->at.p, s->path->hash ^ 0x5bd1e995u, u, v);
+            struct lamp_view view;
+            if (!lamp_view(lamp, at, s->at.p, &view))
+                continue;
+            sum =
+                rgb_add(sum, rgb_mul(view.color, layers_lit(s, lamp, view.l, side_test)));
+        }
+    }
+    return rgb_scale(1.0f / (float)(light->size1 * light->size2), sum);
+}
+
+static void shade_lamp(struct shading *s, const struct lamp *lamp)
+{
+    const struct job *job = s->t->job;
+    const struct light *light = lamp->light;
+    const bool area = light->area && job->area_lights && job->shadows;
+    const bool lightlets = area && light->area_illumination;
+    const bool side_test = !(s->at.surface->flags & OBJECT_DOUBLE_ILLUMINATE);
+    struct lamp_view view;
+    struct rgb value;
+    if (lightlets) {
+        lamp_direction(lamp, light->location, s->at.p, &view);
+        value = area_lit(s, lamp, side_test);
+    } else {
+        if (!lamp_view(lamp, light->location, s->at.p, &view) || is_black(view.color))
+            return;
+        value = rgb_mul(view.color, layers_lit(s, lamp, view.l, side_test));
+    }
+    if (value.r == 0 && value.g == 0 && value.b == 0)
+        return;
+    value = rgb_mul(value, s->path->through);
+    if (!job->shadows || (light->shadowless && !light->projected_through) ||
+        view.distance <= 0) {
+        tracer_add(s->t, s->path->sample, value);
+        return;
+    }
+    const struct shadow_request r = {.o = trace_offset(&s->at, view.l),
+                                     .d = view.l,
+                                     .t_max = view.distance,
+                                     .value = value,
+                                     .inside = s->path->inside,
+                                     .sample = s->path->sample,
+                                     .lamp = lamp->index};
+    if (area && !light->shadowless)
+        tracer_add(s->t, r.sample, rgb_mul(value, area_shadow(s, lamp, &r)));
+    else if (light->projected_through)
+        tracer_add(s->t, r.sample, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
+    else
+        shadow_add(s->t, &r);
+}
+
+void shade_lights(struct shading *s)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < s->layer_count; i++)
+        any |= layer_takes_light(s->layer[i].finish);
+    if (!any)
+        return;
+    const struct lamp_list *list = &s->t->job->lamps[s->at.surface->light_group];
+    for (uint32_t i = 0; i < list->count; i++)
+        if (!list->lamp[i]->inert)
+            shade_lamp(s, list->lamp[i]);
+}

@@ -1,0 +1,296 @@
+#include "base/arena.h"
+#include "math/elementary.h"
+#include "trace/inside.h"
+#include "trace/shade.h"
+
+static const double zero = 1e-10; // spec/lighting.md 0
+
+struct vec3 mirrored(struct vec3 d, struct vec3 n, struct vec3 surface)
+{
+    struct vec3 q = vec3_mad(d, -2 * vec3_dot(d, n), n);
+    if (vec3_dot(q, surface) < 0) {
+        if (vec3_dot(q, n) < 0)
+            q = vec3_mad(d, -2 * vec3_dot(d, surface), surface);
+        else
+            q = vec3_mad(q, -2 * vec3_dot(q, surface), surface);
+    }
+    return vec3_normalize(q);
+}
+
+double fresnel_index(const struct inside *list, const struct interior *interior)
+{
+    const double own = interior_ior(interior);
+    if (!list)
+        return own;
+    const double last = interior_ior(list->interior);
+    if (inside_find(list, interior))
+        return list->outer ? last / own : 1 / own;
+    return own / last;
+}
+
+static struct rgb mix(struct rgb a, struct rgb b, float f)
+{
+    return rgb_add(rgb_scale(1 - f, a), rgb_scale(f, b));
+}
+
+// Fresnel's reflectance of unpolarised light.
+static float fresnel(double cosine, double n)
+{
+    const double s = n * n + cosine * cosine - 1;
+    if (s <= 0)
+        return 1;
+    const double g = sqrt(s), c = cosine;
+    const double a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
+    return (float)fmax(0, fmin(1, 0.5 * a * a * (1 + b * b)));
+}
+
+struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
+                              float *weight)
+{
+    const struct finish *f = l->finish;
+    const double cosine = -vec3_dot(s->path->d, l->n);
+    struct rgb r;
+    if (f->fresnel) {
+        const double n = fresnel_index(s->path->inside, s->at.surface->interior);
+        r = mix(f->reflection_min, f->reflection_max, fresnel(cosine, n));
+        if (weight)
+            *weight = rgb_max(r);
+    } else {
+        const double base = 1 - cosine;
+        double k = f->reflection_falloff == 1
+                       ? base
+                       : det_pow(fmax(0, base), f->reflection_falloff);
+        if (fabs(k) < zero)
+            k = 0;
+        else if (fabs(k - 1) < zero)
+            k = 1;
+        r = mix(f->reflection_min, f->reflection_max, (float)k);
+        if (weight)
+            *weight = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
+    }
+    if (f->reflection_metallic != 0)
+        r = metal_tint(r, l->color, f->reflection_metallic, cosine);
+    return r;
+}
+
+static bool has_mirror(const struct finish *f)
+{
+    const struct rgb a = f->reflection_min, b = f->reflection_max;
+    return a.r != 0 || a.g != 0 || a.b != 0 || b.r != 0 || b.g != 0 || b.b != 0;
+}
+
+static struct path path_from(const struct shading *s, struct vec3 d, uint32_t way)
+{
+    struct path p = *s->path;
+    p.d = d;
+    p.o = trace_offset(&s->at, d);
+    p.hash = hash_mix(p.hash, way);
+    return p;
+}
+
+static bool same(struct vec3 a, struct vec3 b)
+{
+    return fabs(a.x - b.x) < zero && fabs(a.y - b.y) < zero && fabs(a.z - b.z) < zero;
+}
+
+// The mirror terms of all layers; those along `except` are left out (spec/lighting.md
+// 6.4: total reflection has brought them).
+static void mirrors(struct shading *s, const struct plain_result *r,
+                    const struct vec3 *except)
+{
+    for (uint32_t i = r->begin; i < r->end; i++) {
+        const struct layer *l = &s->layer[i];
+        const struct finish *f = l->finish;
+        if (!has_mirror(f) || (except && same(l->n, *except)))
+            continue;
+        float weight;
+        const struct rgb mirror = layer_reflectivity(s, l, &weight);
+        if (mirror.r == 0 && mirror.g == 0 && mirror.b == 0)
+            continue;
+        struct path p = path_from(s, mirrored(s->path->d, l->n, s->view.n), 2 * i + 1);
+        p.flags |= PATH_REFLECTED;
+        p.through_t = 0;
+        p.weight *= l->trans * weight;
+        struct rgb irid = {1, 1, 1};
+        if (f->irid != 0)
+            irid = irid_factor(s->t->job, f, l->n, p.d, s->path->d);
+        const struct rgb factor = rgb_mul(rgb_scale(r->weight, mirror), p.through);
+        if (f->reflection_exponent != 1) {
+            p.through = irid;
+            power_emit(s->t, &p, factor, f->reflection_exponent);
+        } else {
+            p.through = rgb_mul(factor, irid);
+            path_emit(s->t, s->next, &p);
+        }
+    }
+}
+
+// How a crossing changes the interiors and what the two sides are (spec/lighting.md
+// 6.2). NULL stands for the open air.
+struct crossing_sides {
+    const struct interior *from, *to;
+    const struct inside *inside;
+    bool straight;
+};
+
+static struct crossing_sides cross(const struct shading *s)
+{
+    const struct interior *x = s->at.surface->interior;
+    const struct inside *list = s->path->inside;
+    struct arena *a = s->t->arena;
+    if (!list)
+        return (struct crossing_sides){NULL, x, inside_push(a, list, x), false};
+    if (list->interior == x)
+        return (struct crossing_sides){x, list->outer ? list->outer->interior : NULL,
+                                       list->outer, false};
+    if (inside_find(list, x))
+        return (struct crossing_sides){x, x, inside_remove(a, list, x), true};
+    return (struct crossing_sides){list->interior, x, inside_push(a, list, x), false};
+}
+
+static double ior(const struct interior *i) { return i ? interior_ior(i) : 1; }
+
+static double dispersion(const struct interior *i)
+{
+    return i && i->dispersion > 0 ? i->dispersion : 1;
+}
+
+static int bands(const struct crossing_sides *c)
+{
+    static const int usual = 7;
+    int n = c->from ? c->from->dispersion_samples : 0;
+    if (c->to && c->to->dispersion_samples > n)
+        n = c->to->dispersion_samples;
+    return n > 0 ? n : usual;
+}
+
+static double spectrum_sum(const struct job *job, double wavelength, int k)
+{
+    const double at = (wavelength - 375) / 5;
+    if (at <= 0)
+        return job->spectrum[0][k];
+    if (at >= SPECTRUM_NODES - 1)
+        return job->spectrum[SPECTRUM_NODES - 1][k];
+    const int i = (int)at;
+    const double f = at - i;
+    return job->spectrum[i][k] * (1 - f) + job->spectrum[i + 1][k] * f;
+}
+
+static float hue(const struct job *job, double wavelength, double width, int k)
+{
+    return (float)((spectrum_sum(job, wavelength + width / 2, k) -
+                    spectrum_sum(job, wavelength - width / 2, k)) *
+                   350 / width);
+}
+
+struct bending {
+    const struct plain_result *r;
+    struct crossing_sides sides;
+    struct vec3 n;   // of the top layer, against the ray
+    struct rgb fade; // A of spec/lighting.md 6.4
+    float weight;
+};
+
+static void continue_straight(struct shading *s, const struct bending *b)
+{
+    struct path p = path_from(s, s->path->d, 0);
+    p.inside = b->sides.inside;
+    p.flags |= PATH_CONTINUED;
+    p.weight = b->weight;
+    const struct rgb own = b->r->any ? b->r->filter : rgb_gray(b->r->weight);
+    p.through = rgb_mul(p.through, rgb_mul(b->fade, own));
+    p.through_t *= rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
+    path_emit(s->t, s->next, &p);
+}
+
+// One ray through the surface with index ratio eta, or back from it. False: back.
+static bool bend(struct shading *s, const struct bending *b, double eta, struct rgb share,
+                 float share_t, float wavelength, uint32_t way)
+{
+    const struct vec3 d = s->path->d;
+    const double c = -vec3_dot(d, b->n);
+    const double k = 1 + eta * eta * (c * c - 1);
+    const struct rgb factor = rgb_mul(s->path->through, rgb_mul(b->fade, share));
+    if (k < 0) {
+        struct path p = path_from(s, mirrored(d, b->n, s->view.n), way);
+        p.flags |= PATH_REFLECTED;
+        p.weight = b->weight;
+        p.wavelength = wavelength;
+        p.through = rgb_scale(b->r->weight, factor);
+        p.through_t = 0;
+        path_emit(s->t, s->next, &p);
+        return false;
+    }
+    const struct vec3 bent =
+        vec3_normalize(vec3_mad(vec3_scale(eta, d), eta * c - sqrt(k), b->n));
+    struct path p = path_from(s, bent, way);
+    p.inside = b->sides.inside;
+    p.weight = b->weight;
+    p.wavelength = wavelength;
+    p.through = rgb_mul(factor, b->r->any ? b->r->filter : rgb_gray(b->r->weight));
+    p.through_t *=
+        share_t * rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
+    path_emit(s->t, s->next, &p);
+    return true;
+}
+
+static bool refract(struct shading *s, const struct bending *b)
+{
+    const struct crossing_sides *c = &b->sides;
+    const double eta = c->straight ? 1 : ior(c->from) / ior(c->to);
+    const double spread = c->straight ? 1 : dispersion(c->from) / dispersion(c->to);
+    const struct rgb white = {1, 1, 1};
+    if (fabs(eta - 1) < zero && fabs(spread - 1) < zero) {
+        continue_straight(s, b);
+        return true;
+    }
+    if (fabs(spread - 1) < zero)
+        return bend(s, b, eta, white, 1, s->path->wavelength, 0);
+    if (s->path->wavelength > 0)
+        return bend(s, b, eta * det_pow(spread, -(s->path->wavelength - 555) / 350.0),
+                    white, 1, s->path->wavelength, 0);
+    const int n = bands(c);
+    bool out = false;
+    for (int i = 0; i < n; i++) {
+        const double width = 350.0 / n, wavelength = 380 + width * (i + 0.5);
+        const struct rgb color = {hue(s->t->job, wavelength, width, 0),
+                                  hue(s->t->job, wavelength, width, 1),
+                                  hue(s->t->job, wavelength, width, 2)};
+        out |= bend(s, b, eta * det_pow(spread, -(wavelength - 555) / 350),
+                    rgb_scale(1.0f / (float)n, color), 0, (float)wavelength,
+                    hash_mix(7, (uint32_t)i));
+    }
+    return out;
+}
+
+static struct rgb fade_on_the_way(const struct shading *s)
+{
+    const struct interior *x = s->at.surface->interior;
+    struct rgb fade = rgb_gray(x->old_refraction);
+    if (fabs(x->fade_distance) > zero && inside_find(s->path->inside, x))
+        fade = rgb_mul(fade, interior_fade(x, s->s));
+    return fade;
+}
+
+void shade_transmit(struct shading *s, const struct plain_result *r)
+{
+    const struct job *job = s->t->job;
+    const struct vec3 *except = NULL;
+    struct bending b;
+    if (r->trans > job->adc_bailout && job->refraction && r->end > r->begin) {
+        const struct vec3 top = s->layer[r->begin].n;
+        b.r = r;
+        b.sides = cross(s);
+        b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
+        b.fade = fade_on_the_way(s);
+        b.weight = s->path->weight;
+        if (r->any && r->weight > 0)
+            b.weight *=
+                fmaxf(fabsf(r->filter.r), fmaxf(fabsf(r->filter.g), fabsf(r->filter.b))) /
+                r->weight;
+        if (!refract(s, &b))
+            except = &s->layer[r->begin].n;
+    }
+    if (job->mirrors)
+        mirrors(s, r, except);
+}

@@ -1,0 +1,18 @@
+#ifndef TRACE_SKY_H
+#define TRACE_SKY_H
+
+#include "trace/job.h"
+#include "trace/tracer.h"
+
+// What a ray that hits nothing sees in direction d: colour and transparency. `opaque`:
+// a background never shows as alpha to this ray (spec/lighting.md 9.1).
+struct rgb sky_color(const struct job *job, struct vec3 d, bool opaque, float *t);
+
+// What lies between the camera side and a point at distance s of the ray: adds the
+// light of fogs and rainbows to the sum, and filters what the path brings from there
+// on (spec/lighting.md 9.2, 9.3).
+void air_apply(struct tracer *t, struct path *path, double s);
+// The factor by which fogs filter light along a way.
+struct rgb fog_filter(const struct job *job, struct vec3 o, struct vec3 d, double s);
+
+#endif

@@ -1,0 +1,81 @@
+#include "trace/tile.h"
+
+#include <stdlib.h>
+
+// Every other bit of a Morton code, from bit 0: one coordinate.
+static uint32_t morton_part(uint32_t code)
+{
+    code &= 0x55555555u;
+    code = (code | (code >> 1)) & 0x33333333u;
+    code = (code | (code >> 2)) & 0x0f0f0f0fu;
+    code = (code | (code >> 4)) & 0x00ff00ffu;
+    return (code | (code >> 8)) & 0x0000ffffu;
+}
+
+static void store(const struct job *job, float *pixel, const float c[4])
+{
+    for (int k = 0; k < 3; k++)
+        pixel[k] = c[k];
+    pixel[3] = job->settings.output_alpha ? 1 - c[3] : 1;
+}
+
+static void sample(void *user, const struct vec2 *position, uint32_t count,
+                   float (*out)[4])
+{
+    tracer_samples(user, position, count, out);
+}
+
+// One ray a pixel, in Morton order, so that rays of a packet stay close together.
+static void plain(struct tracer *t, const struct tile *tile, struct image *out)
+{
+    struct vec2 position[BATCH_SIZE];
+    float color[BATCH_SIZE][4];
+    const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
+    uint32_t side = 1, count = 0;
+    while (side < (uint32_t)width || side < (uint32_t)height)
+        side *= 2;
+    for (uint32_t code = 0; code < side * side; code++) {
+        const int x = (int)morton_part(code), y = (int)morton_part(code >> 1);
+        if (x < width && y < height)
+            position[count++] = (struct vec2){tile->x0 + x + 0.5, tile->y0 + y + 0.5};
+        if (count < BATCH_SIZE && code + 1 < side * side)
+            continue;
+        tracer_samples(t, position, count, color);
+        for (uint32_t i = 0; i < count; i++)
+            store(t->job, image_at(out, (int)position[i].u, (int)position[i].v),
+                  color[i]);
+        count = 0;
+    }
+}
+
+static double working_gamma(const struct settings *s)
+{
+    return s->gamma_mode == GAMMA_SRGB    ? -1
+           : s->gamma_mode == GAMMA_POWER ? s->assumed_gamma
+                                          : 0;
+}
+
+static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
+                     const struct tile *tile, struct image *out)
+{
+    const struct job *job = t->job;
+    const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
+    float(*color)[4] = malloc((size_t)(width * height) * sizeof *color);
+    if (!color)
+        abort();
+    const struct antialias a = {&job->settings, jitter,
+                                working_gamma(&job->scene->settings), sample, t};
+    antialias_block(&a, tile->x0, tile->y0, tile->x1, tile->y1, color);
+    for (int i = 0; i < width * height; i++)
+        store(job, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);
+    free(color);
+}
+
+void tile_render(struct tracer *t, const struct jitter_tables *jitter,
+                 const struct tile *tile, struct image *out)
+{
+    if (t->job->settings.antialias)
+        smoothed(t, jitter, tile, out);
+    else
+        plain(t, tile, out);
+}

@@ -1,0 +1,205 @@
+#include "test.h"
+
+#include <stdlib.h>
+
+#include "trace/antialias.h"
+
+// A hard edge across an 8 x 8 picture of a 4 x 4 wall, as POV-Ray 3.7 renders it with
+// each method (linear values, five digits).
+static const float values_031[8][8] = {
+    {0.050004f, 0.050004f, 0.130007f, 0.850004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.689998f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.289998f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.770001f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.530007f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.130007f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.609995f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.209995f, 0.850004f,
+     0.850004f},
+};
+static const float values_032[8][8] = {
+    {0.050004f, 0.050004f, 0.130007f, 0.850004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.689998f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.289998f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.530007f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.289998f, 0.850004f,
+     0.850004f},
+};
+static const float values_033[8][8] = {
+    {0.050004f, 0.050004f, 0.209995f, 0.850004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.689998f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.370001f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.689998f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.530007f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.530007f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.209995f, 0.850004f,
+     0.850004f},
+};
+static const float values_034[8][8] = {
+    {0.050004f, 0.050004f, 0.212497f, 0.837507f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.624994f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.300008f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.087495f, 0.762493f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.474998f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.137499f, 0.812497f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.600000f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.274998f, 0.850004f,
+     0.850004f},
+};
+static const float values_035[8][8] = {
+    {0.050004f, 0.050004f, 0.190631f, 0.846876f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.643748f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.318746f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.071870f, 0.778119f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.443748f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.146868f, 0.834379f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.587503f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.268757f, 0.850004f,
+     0.850004f},
+};
+static const float values_036[8][8] = {
+    {0.050004f, 0.050004f, 0.250004f, 0.650004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.250004f, 0.650004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.250004f, 0.650004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f,
+     0.850004f},
+    {0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.050004f, 0.450004f, 0.850004f,
+     0.850004f},
+};
+
+static void edge(void *user, const struct vec2 *position, uint32_t count, float (*out)[4])
+{
+    (void)user;
+    for (uint32_t i = 0; i < count; i++) {
+        const double x = 4 * (position[i].u / 8 - 0.5), y = 4 * (0.5 - position[i].v / 8);
+        const float c = x * 0.9 + y * 0.37 - 0.13 < 0 ? 0.05f : 0.85f;
+        out[i][0] = out[i][1] = out[i][2] = c;
+        out[i][3] = 0;
+    }
+}
+
+static void check(int method, int depth, double jitter, const float (*want)[8])
+{
+    static const double tolerance = 6e-4; // halves of the reference files' last digit
+    struct jitter_tables tables;
+    jitter_tables_init(&tables);
+    struct render_settings s = {.width = 8,
+                                .height = 8,
+                                .antialias = method,
+                                .aa_threshold = 0.3,
+                                .aa_depth = depth,
+                                .aa_gamma = 2.5,
+                                .aa_jitter = jitter > 0,
+                                .aa_jitter_amount = jitter};
+    const struct antialias a = {&s, &tables, 1, edge, NULL};
+    float out[64][4];
+    antialias_block(&a, 0, 0, 8, 8, out);
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 8; x++)
+            assert_near(out[8 * y + x][0], want[y][x], tolerance);
+}
+
+static void method_1_plain(void **state)
+{
+    (void)state;
+    check(1, 3, 0, values_031);
+}
+static void method_1_jitter(void **state)
+{
+    (void)state;
+    check(1, 3, 1, values_032);
+}
+static void method_1_depth(void **state)
+{
+    (void)state;
+    check(1, 2, 0.5, values_033);
+}
+static void method_2_plain(void **state)
+{
+    (void)state;
+    check(2, 3, 0, values_034);
+}
+static void method_2_jitter(void **state)
+{
+    (void)state;
+    check(2, 4, 1, values_035);
+}
+static void method_2_depth(void **state)
+{
+    (void)state;
+    check(2, 1, 0, values_036);
+}
+
+static void shuffle_is_the_noise_permutation(void **state)
+{
+    (void)state;
+    static const uint16_t first[] = {2291, 2574, 3654, 1557, 1196, 3388, 2637, 1820};
+    struct jitter_tables t;
+    jitter_tables_init(&t);
+    for (int i = 0; i < 8; i++) {
+        assert_int_equal(t.shuffle[i], first[i]);
+        assert_int_equal(t.shuffle[4096 + i], first[i]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(method_1_plain),
+        cmocka_unit_test(method_1_jitter),
+        cmocka_unit_test(method_1_depth),
+        cmocka_unit_test(method_2_plain),
+        cmocka_unit_test(method_2_jitter),
+        cmocka_unit_test(method_2_depth),
+        cmocka_unit_test(shuffle_is_the_noise_permutation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
