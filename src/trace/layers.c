@@ -15,46 +15,12 @@ void surface_view_init(struct surface_view *v, const struct interaction *at,
     }
 }
 
-// The transforms of a pattern's warps act on normals too (spec/textures.md 11.1).
-static struct vec3 pattern_down(const struct pattern *p, struct vec3 n, bool raw)
-{
-    for (const struct warp *w = p->warps; w; w = w->next) {
-        if (w->kind != WARP_TRANSFORM)
-            continue;
-        n = transform_inverse_normal(&w->transform, n);
-        if (!raw)
-            n = vec3_normalize(n);
-    }
-    return n;
-}
-
-static struct vec3 warps_up(const struct warp *w, struct vec3 n)
-{
-    if (!w)
-        return n;
-    n = warps_up(w->next, n);
-    return w->kind == WARP_TRANSFORM ? vec3_normalize(transform_normal(&w->transform, n))
-                                     : n;
-}
-
-static struct vec3 chain_down(const struct texture_chain *c, struct vec3 n, bool raw)
-{
-    if (c->outer)
-        n = chain_down(c->outer, n, raw);
-    if (c->pattern)
-        return pattern_down(c->pattern, n, raw);
-    if (c->transform && !c->transform->identity) {
-        n = transform_inverse_normal(c->transform, n);
-        return raw ? n : vec3_normalize(n);
-    }
-    return n;
-}
-
+// A normal of an entry on its way back to the world.
 static struct vec3 chain_up(const struct texture_chain *c, struct vec3 n)
 {
     for (; c; c = c->outer) {
-        if (c->pattern)
-            n = warps_up(c->pattern->warps, vec3_normalize(n));
+        if (c->map)
+            n = texture_entry_normal(c->map, n);
         else if (c->transform && !c->transform->identity)
             n = transform_normal(c->transform, n);
     }
@@ -68,16 +34,12 @@ struct walk {
     void *user;
 };
 
-static void walk(const struct walk *w, const struct texture *x, struct vec3 p,
-                 const struct texture_chain *chain, double weight)
+static void walk(const struct walk *w, const struct texture *x,
+                 const struct texture_point *at, const struct texture_chain *chain,
+                 double weight)
 {
     if (x->kind == TEXTURE_PLAIN) {
-        w->plain(w->user, w->v, x, p, chain, weight);
-        return;
-    }
-    if (x->kind == TEXTURE_UV) {
-        const struct vec2 uv = w->v->at->uv;
-        walk(w, x->map->entry[0], vec3(uv.u, uv.v, 0), chain, weight);
+        w->plain(w->user, w->v, x, at, chain, weight);
         return;
     }
     enum { FEW = 8 };
@@ -86,19 +48,17 @@ static void walk(const struct walk *w, const struct texture *x, struct vec3 p,
     const struct texture **entry = few;
     double *share = few_weight;
     int most = FEW;
-    if (x->map->count > FEW) {
+    if (x->map && x->map->count > FEW) {
         most = (int)x->map->count;
         entry = arena_new_array(w->t->arena, const struct texture *, x->map->count);
         share = arena_new_array(w->t->arena, double, x->map->count);
     }
-    const struct texture_point at = {p, w->v->at->uv, w->v->n, w->v->d, false};
-    const int count = texture_select(x, &at, entry, share, most);
-    const struct texture_chain link = {chain, NULL, &x->pattern};
-    const struct vec3 q =
-        x->pattern.ops || x->pattern.warps ? pattern_warp(&x->pattern, p) : p;
+    const int count = texture_select(x, at, entry, share, most);
+    const struct texture_chain link = {chain, NULL, x};
+    const struct texture_point inner = texture_entry_point(x, at);
     for (int i = 0; i < count; i++)
         if (share[i] != 0)
-            walk(w, entry[i], q, &link, weight * share[i]);
+            walk(w, entry[i], &inner, &link, weight * share[i]);
 }
 
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
@@ -106,31 +66,34 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
 {
     const struct walk w = {t, v, plain, user};
     const struct interaction *at = v->at;
+    // Textures of a uv mapped object are not moved with it.
     const bool uv = at->surface->flags & OBJECT_UV_MAPPING;
     const struct texture_chain root = {NULL, uv ? NULL : v->transform, NULL};
-    struct vec3 p = at->p;
-    if (uv)
-        p = vec3(at->uv.u, at->uv.v, 0);
-    else if (!v->transform->identity)
-        p = transform_inverse_point(v->transform, p);
-    walk(&w, v->texture, p, &root, 1);
+    struct texture_point point = {.p = at->p,
+                                  .uv = at->uv,
+                                  .normal = v->n,
+                                  .ray_d = v->d,
+                                  .p_world = at->p,
+                                  .normal_seen = v->n};
+    if (uv) {
+        point.p = vec3(at->uv.u, at->uv.v, 0);
+    } else if (!v->transform->identity) {
+        point.p = transform_inverse_point(v->transform, at->p);
+        point.normal = transform_inverse_normal(v->transform, v->n);
+    }
+    walk(&w, v->texture, &point, &root, 1);
 }
 
 void layer_eval(const struct tracer *t, const struct surface_view *v,
-                const struct texture_layer *layer, struct vec3 p,
+                const struct texture_layer *layer, const struct texture_point *at,
                 const struct texture_chain *chain, bool want_normal, struct layer *out)
 {
-    struct texture_point at = {p, v->at->uv, v->n, v->d, false};
+    struct texture_point here = *at;
     out->finish = layer->finish;
     out->n = v->n;
     if (layer->normal && want_normal && t->job->normals) {
-        const bool raw = layer->normal->no_bump_scale;
-        at.normal = chain_down(chain, v->n, raw);
-        out->n = normal_perturb(layer->normal, &at);
-        if (raw)
-            out->n = vec3_normalize(out->n);
-        at.normal = out->n;
-        out->n = chain_up(chain, out->n);
+        out->n = chain_up(chain, normal_perturb(layer->normal, at));
+        here.normal_seen = out->n;
     }
     const struct pigment *pigment = layer->pigment;
     struct rgbft c = pigment->color;
@@ -138,7 +101,7 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
     if (!t->job->pigments && pigment->has_quick_color)
         c = pigment->quick_color;
     else if (pigment->kind != PIGMENT_SOLID)
-        out->found = pigment_color(pigment, &at, &c);
+        out->found = pigment_color(pigment, &here, &c);
     out->color = rgbft_rgb(c);
     out->pass = rgbft_pass(c);
     out->att = t->job->old_opacity ? 1 - (c.filter * rgb_max(out->color) + c.transmit)

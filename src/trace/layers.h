@@ -9,7 +9,7 @@
 struct texture_chain {
     const struct texture_chain *outer;
     const struct transform *transform; // the texture's place in the world, or
-    const struct pattern *pattern;     // the pattern of a map around it
+    const struct texture *map;         // the map around it
 };
 
 // One evaluated layer of one plain texture.
@@ -39,14 +39,15 @@ void surface_view_init(struct surface_view *v, const struct interaction *at,
 
 // Calls `plain` for every plain texture that counts at the point, with its weight.
 typedef void plain_function(void *user, const struct surface_view *v,
-                            const struct texture *texture, struct vec3 p,
+                            const struct texture *texture,
+                            const struct texture_point *at,
                             const struct texture_chain *chain, double weight);
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
                   void *user);
 
 // Normal and pigment of one layer; filter and trans are the caller's.
 void layer_eval(const struct tracer *t, const struct surface_view *v,
-                const struct texture_layer *layer, struct vec3 p,
+                const struct texture_layer *layer, const struct texture_point *at,
                 const struct texture_chain *chain, bool want_normal, struct layer *out);
 
 #endif

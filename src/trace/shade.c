@@ -40,8 +40,9 @@ static void add_own(struct shading *s, const struct layer *l)
 }
 
 // The layers of one plain texture, from the top (spec/lighting.md 5.2).
-static void shade_plain(void *user, const struct surface_view *v, const struct texture *x,
-                        struct vec3 p, const struct texture_chain *chain, double weight)
+static void shade_plain(void *user, const struct surface_view *v,
+                        const struct texture *x, const struct texture_point *at,
+                        const struct texture_chain *chain, double weight)
 {
     struct shading *s = user;
     const struct job *job = s->t->job;
@@ -52,7 +53,7 @@ static void shade_plain(void *user, const struct surface_view *v, const struct t
     struct rgb filter = {1, 1, 1};
     for (uint32_t i = x->layer_count; i-- > 0 && r.trans > job->adc_bailout;) {
         struct layer *l = layer_new(s);
-        layer_eval(s->t, v, &x->layer[i], p, chain, true, l);
+        layer_eval(s->t, v, &x->layer[i], at, chain, true, l);
         l->filter = r.filter;
         l->trans = r.trans;
         if (!job->lights) {

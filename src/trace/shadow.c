@@ -14,14 +14,14 @@ struct occluder {
 };
 
 static void occluder_plain(void *user, const struct surface_view *v,
-                           const struct texture *x, struct vec3 p,
+                           const struct texture *x, const struct texture_point *at,
                            const struct texture_chain *chain, double weight)
 {
     struct occluder *o = user;
     struct rgb pass = {1, 1, 1};
     for (uint32_t i = x->layer_count; i-- > 0;) {
         struct layer l;
-        layer_eval(o->t, v, &x->layer[i], p, chain, o->caustics != 0, &l);
+        layer_eval(o->t, v, &x->layer[i], at, chain, o->caustics != 0, &l);
         if (l.found)
             pass = rgb_mul(pass, l.pass);
         if (o->caustics != 0) {
