@@ -142,18 +142,41 @@ static void set_library_path(struct lambert_context *ctx, struct eval_options *o
     o->library_path_count = (uint32_t)n;
 }
 
+// What the user declared, then the names every scene finds (spec/language 1.6): their
+// numbers go through text of six digits, as POV-Ray's do.
+static void set_declarations(struct lambert_context *ctx, struct eval_options *o)
+{
+    static const char *const names[][2] = {
+        {"image_width", "width"},
+        {"image_height", "height"},
+        {"clock_delta", "frame-clock-delta"},
+        {"initial_clock", "frame-initial-clock"},
+        {"final_clock", "frame-final-clock"},
+        {"initial_frame", "frame-initial"},
+        {"final_frame", "frame-final"},
+        {"frame_number", "frame"},
+    };
+    enum { NAMES = sizeof names / sizeof names[0] };
+    const char *const *given;
+    size_t n = lambert_option_list(ctx, "declare", &given);
+    const char **declare = arena_new_array(ctx->scene_arena, const char *, n + NAMES + 1);
+    for (size_t i = 0; i < n; i++)
+        declare[i] = given[i];
+    for (size_t i = 0; i < NAMES; i++)
+        declare[n++] = arena_printf(ctx->scene_arena, "%s=%.6g", names[i][0],
+                                    option_number(ctx, names[i][1]));
+    declare[n++] =
+        arena_printf(ctx->scene_arena, "input_file_name=\"%s\"", o->input_name);
+    o->declare = declare;
+    o->declare_count = (uint32_t)n;
+}
+
 static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
 {
     struct eval_options o = {
         .version = (int)(option_number(ctx, "language") * 100 + 0.5),
         .clock = (double)(float)option_number(ctx, "clock"), // spec/language 7.4
         .clock_set = lambert_option_is_set(ctx, "clock"),
-        .frame_number = option_number(ctx, "frame"),
-        .initial_frame = option_number(ctx, "frame-initial"),
-        .final_frame = option_number(ctx, "frame-final"),
-        .initial_clock = option_number(ctx, "frame-initial-clock"),
-        .final_clock = option_number(ctx, "frame-final-clock"),
-        .clock_delta = option_number(ctx, "frame-clock-delta"),
         .image_width = (int)option_number(ctx, "width"),
         .image_height = (int)option_number(ctx, "height"),
         .input_name = path,
@@ -161,7 +184,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .message = scene_text,
         .message_user = ctx,
     };
-    o.declare_count = (uint32_t)lambert_option_list(ctx, "declare", &o.declare);
+    set_declarations(ctx, &o);
     set_library_path(ctx, &o);
     return o;
 }

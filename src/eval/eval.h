@@ -25,9 +25,6 @@ struct eval_options {
     int version;                // 100*f from the command line; 0: none
     double clock;
     bool clock_set;
-    // Of an animation; all 0 for a single picture (spec/language 7.4).
-    double frame_number, initial_frame, final_frame;
-    double initial_clock, final_clock, clock_delta;
     int image_width, image_height;
     const char *input_name;
     bool output_alpha;
