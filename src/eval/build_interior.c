@@ -205,20 +205,20 @@ const struct interior *build_interior(struct args *a, const struct ast *block,
     return in.failed ? NULL : i;
 }
 
-static void add_texture(struct args *a, struct attached_texture *at)
+static const struct texture *settled(struct builder *b, const struct attached_texture *at)
 {
-    const struct ast *block = args_next(a);
-    const struct texture *top = build_texture(a, block);
+    if (!at->texture || at->transform.identity)
+        return at->texture;
+    return texture_transform(b->arena, at->texture, &at->transform);
+}
+
+static void put_layer(struct args *a, struct attached_texture *at,
+                      const struct texture *top)
+{
+    const struct texture *below = settled(a->b, at);
     if (!top)
         return;
-    if (at->texture) {
-        const struct texture *below =
-            at->transform.identity
-                ? at->texture
-                : texture_transform(a->b->arena, at->texture, &at->transform);
-        top = build_layer(a, block->where, below, top);
-    }
-    at->texture = top;
+    at->texture = below ? build_layer(a, args_span(a), below, top) : top;
     at->transform = transform_identity;
 }
 
@@ -236,13 +236,20 @@ struct material build_material(struct args *a, const struct ast *block,
                                       WORD_rotate,   WORD_scale};
     struct args in = args_of(a->b, block, a);
     const struct value *id = args_take_value(&in, VALUE_MATERIAL);
-    struct material m = id ? *(const struct material *)id->data : start;
+    struct material m = start;
     struct transform t;
+    if (id) {
+        const struct material *from = id->data;
+        put_layer(&in, &m.texture, settled(a->b, &from->texture));
+        put_layer(&in, &m.interior_texture, settled(a->b, &from->interior_texture));
+        if (from->interior)
+            m.interior = from->interior;
+    }
     while (in.at) {
         if (args_at_block(&in) == WORD_texture)
-            add_texture(&in, &m.texture);
+            put_layer(&in, &m.texture, build_texture(&in, args_next(&in)));
         else if (args_at_block(&in) == WORD_interior_texture)
-            add_texture(&in, &m.interior_texture);
+            put_layer(&in, &m.interior_texture, build_texture(&in, args_next(&in)));
         else if (args_at_block(&in) == WORD_interior)
             m.interior = build_interior(&in, args_next(&in), m.interior);
         else if (build_trans(&in, &t)) {

@@ -383,6 +383,8 @@ bool builder_finish(struct builder *b)
     s->default_texture =
         (struct attached_texture){b->default_texture, transform_identity};
     // The rules of the old and the new language for what shows through the sky.
+    if (!s->has_background)
+        s->background.transmit = 1;
     if (s->settings.version < 370) {
         s->background.filter = 0;
         s->background.transmit = b->e->options->output_alpha ? 1 : 0;
