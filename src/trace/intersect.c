@@ -137,139 +137,104 @@ static bool single_leaf(const struct world *w, struct trace_scratch *s,
     return false;
 }
 
-// User bounds cull: the ray must meet one of the bounding solids or start inside it.
+// User bounds cull: the ray must meet the box of every bounding solid or start in it.
 static bool culled(const struct world_object *o, const struct ray *ray)
 {
+    const struct box_ray r = box_ray_of(ray);
     for (uint32_t i = 0; i < o->bound_count; i++) {
-        const struct ray local = transform_inverse_ray(&o->bound_transform, ray);
-        const struct aabb box = object_bounds(o->bound[i]);
-        struct box_ray r = box_ray_of(&local);
         double t;
-        if (!box_meets(&box, &r, &t))
+        if (!box_meets(&o->bound_box[i], &r, &t))
             return true;
     }
     return false;
-}
-
-static bool object_hit(const struct world *w, struct trace_scratch *s, uint32_t object,
-                       const struct ray_query *q, const struct ray *ray,
-                       enum sweep_mode mode, struct boundary *out)
-{
-    const struct world_object *o = &w->object[object];
-    if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, ray)))
-        return false;
-    return o->is_csg ? sweep_object(w, s, object, ray, mode, out)
-                     : single_leaf(w, s, o, ray, mode, out);
 }
 
 // Keeps the nearest hit; among equal distances the object declared first.
 struct nearest {
     struct boundary b;
-    uint32_t object;
+    uint32_t object; // UINT32_MAX: none yet
 };
 
-static void try_object(const struct world *w, struct trace_scratch *s, uint32_t object,
-                       const struct ray_query *q, struct ray *ray, struct nearest *best)
+// The first surface of an object on the ray. A CSG object sees the whole ray whatever
+// was found so far, so that its batches do not depend on the order of the search; what
+// begins beyond `limit` is of no interest.
+static bool object_hit(const struct world *w, struct trace_scratch *s, uint32_t object,
+                       const struct ray_query *q, double limit, enum sweep_mode mode,
+                       struct boundary *out)
 {
-    struct boundary b;
-    // An equal distance must still be seen, so the limit is just beyond the best.
-    struct ray upto = *ray;
-    upto.t_max = nextafter(ray->t_max, INFINITY);
-    if (!object_hit(w, s, object, q, best->object == UINT32_MAX ? ray : &upto,
-                    SWEEP_CLOSEST, &b))
-        return;
-    if (b.t < ray->t_max || best->object == UINT32_MAX || object < best->object) {
-        best->b = b;
-        best->object = object;
-        ray->t_max = b.t;
-    }
+    const struct world_object *o = &w->object[object];
+    if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, &q->ray)))
+        return false;
+    if (o->is_csg)
+        return sweep_object(w, s, object, &q->ray, limit, mode, out);
+    struct ray ray = q->ray;
+    // An equal distance must still be seen: the object may have been declared earlier.
+    if (limit < ray.t_max)
+        ray.t_max = nextafter(limit, INFINITY);
+    return single_leaf(w, s, o, &ray, mode, out);
 }
 
-struct visit {
-    uint32_t node;
-    double t;
-};
-
-static void walk_closest(const struct world *w, struct trace_scratch *s,
-                         const struct ray_query *q, struct ray *ray, struct nearest *best)
+static bool try_object(const struct world *w, struct trace_scratch *s, uint32_t object,
+                       const struct ray_query *q, struct nearest *best)
 {
-    const struct bvh *tree = &w->accel->top;
-    struct visit stack[2 * BVH_STACK];
-    uint32_t depth = 0;
-    if (!tree->item_count)
-        return;
-    struct box_ray r = box_ray_of(ray);
-    stack[depth++] = (struct visit){0, ray->t_min};
-    while (depth) {
-        const struct visit v = stack[--depth];
-        if (v.t > ray->t_max)
-            continue;
-        const struct bvh_node *n = &tree->node[v.node];
-        double t[2];
-        bool met[2];
-        r.t_max = ray->t_max;
-        s->stats.node_visits++;
-        for (int k = 0; k < 2; k++)
-            met[k] = box_meets(&n->bounds[k], &r, &t[k]);
-        const int first = met[0] && met[1] && t[1] < t[0];
-        struct visit later[2];
-        uint32_t pending = 0;
-        for (int i = 0; i < 2; i++) {
-            const int k = i ^ first;
-            if (!met[k] || t[k] > ray->t_max)
-                continue;
-            for (uint32_t j = 0; j < n->count[k]; j++)
-                try_object(w, s, tree->item[n->child[k] + j], q, ray, best);
-            if (n->count[k] == 0)
-                later[pending++] = (struct visit){n->child[k], t[k]};
-        }
-        while (pending)
-            stack[depth++] = later[--pending]; // the nearer on top
-    }
+    struct boundary b;
+    if (!object_hit(w, s, object, q, best->b.t, SWEEP_CLOSEST, &b))
+        return false;
+    if (b.t > best->b.t || (b.t == best->b.t && object > best->object))
+        return false;
+    best->b = b;
+    best->object = object;
+    return true;
 }
 
 struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
                            const struct ray_query *q)
 {
-    struct ray ray = q->ray;
+    const struct accel *a = w->accel;
     struct nearest best = {.b = {.t = INFINITY}, .object = UINT32_MAX};
     s->stats.rays++;
-    for (uint32_t i = 0; i < w->accel->infinite_count; i++)
-        try_object(w, s, w->accel->infinite[i], q, &ray, &best);
-    walk_closest(w, s, q, &ray, &best);
+    for (uint32_t i = 0; i < a->infinite_count; i++)
+        try_object(w, s, a->infinite[i], q, &best);
+    struct bvh8_ray r;
+    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, best.b.t), &r))
+        return (struct hit){best.b};
+    struct bvh8_walk walk;
+    bvh8_walk_begin(&walk, &a->top);
+    for (uint32_t first, count; bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
+        for (uint32_t i = first; i < first + count; i++)
+            if (try_object(w, s, a->top.item[i], q, &best))
+                bvh8_ray_limit(&r, best.b.t);
+    s->stats.node_visits += walk.visits;
     return (struct hit){best.b};
+}
+
+static bool occludes(const struct world *w, struct trace_scratch *s, uint32_t object,
+                     const struct ray_query *q)
+{
+    struct boundary b;
+    return object_hit(w, s, object, q, INFINITY, SWEEP_OPAQUE, &b);
 }
 
 bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
                       const struct ray_query *q)
 {
-    struct boundary b;
+    const struct accel *a = w->accel;
     s->stats.shadow_rays++;
-    for (uint32_t i = 0; i < w->accel->infinite_count; i++)
-        if (object_hit(w, s, w->accel->infinite[i], q, &q->ray, SWEEP_OPAQUE, &b))
+    for (uint32_t i = 0; i < a->infinite_count; i++)
+        if (occludes(w, s, a->infinite[i], q))
             return true;
-    const struct bvh *tree = &w->accel->top;
-    uint32_t stack[2 * BVH_STACK], depth = 0;
-    if (!tree->item_count)
+    struct bvh8_ray r;
+    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, q->ray.t_max, &r))
         return false;
-    const struct box_ray r = box_ray_of(&q->ray);
-    stack[depth++] = 0;
-    while (depth) {
-        const struct bvh_node *n = &tree->node[stack[--depth]];
-        s->stats.node_visits++;
-        for (int k = 0; k < 2; k++) {
-            double t;
-            if (!box_meets(&n->bounds[k], &r, &t))
-                continue;
-            if (n->count[k] == 0)
-                stack[depth++] = n->child[k];
-            for (uint32_t j = 0; j < n->count[k]; j++)
-                if (object_hit(w, s, tree->item[n->child[k] + j], q, &q->ray,
-                               SWEEP_OPAQUE, &b))
-                    return true;
-        }
-    }
-    return false;
+    struct bvh8_walk walk;
+    bool found = false;
+    bvh8_walk_begin(&walk, &a->top);
+    for (uint32_t first, count;
+         !found && bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
+        for (uint32_t i = first; i < first + count && !found; i++)
+            found = occludes(w, s, a->top.item[i], q);
+    s->stats.node_visits += walk.visits;
+    return found;
 }
 
 // ---- batches -----------------------------------------------------------------------------
@@ -308,30 +273,83 @@ static bool leaf_inside(const struct leaf *l, struct vec3 p)
            l->ops->inside(l->shape, transform_inverse_point(&l->transform, p)) != l->inverted;
 }
 
-static bool node_inside(const struct world *w, uint32_t node, struct vec3 p)
-{
-    const struct csg_node *n = &w->node[node];
-    if (n->op == NODE_LEAF)
-        return leaf_inside(&w->leaf[n->leaf], p);
-    const bool all = n->op == NODE_INTERSECTION;
-    for (uint32_t i = 0; i < n->child_count; i++)
-        if (node_inside(w, n->first_child + i, p) != all)
-            return !all;
-    return all;
-}
-
+// Walks the expression without a stack: down to the first child that is not settled,
+// up as long as a child decides its parent. Deep trees cost no memory.
 bool world_object_inside(const struct world *w, uint32_t object, struct vec3 p)
 {
-    return node_inside(w, w->object[object].root, p);
+    const uint32_t root = w->object[object].root;
+    uint32_t n = root;
+    for (;;) {
+        while (w->node[n].op != NODE_LEAF && w->node[n].child_count)
+            n = w->node[n].first_child;
+        const struct csg_node *at = &w->node[n];
+        bool in = at->op == NODE_LEAF ? leaf_inside(&w->leaf[at->leaf], p)
+                                      : at->op == NODE_INTERSECTION;
+        for (;;) {
+            if (n == root)
+                return in;
+            const struct csg_node *up = &w->node[w->node[n].parent];
+            const bool decides = in != (up->op == NODE_INTERSECTION);
+            if (!decides && n + 1 < up->first_child + up->child_count)
+                break;
+            n = w->node[n].parent;
+        }
+        n++;
+    }
 }
 
-uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object, uint32_t max)
+static bool add_containing(const struct world *w, uint32_t i, struct vec3 p,
+                           uint32_t *object, uint32_t *n, uint32_t max)
 {
+    if (world_object_inside(w, i, p) && *n < max)
+        object[(*n)++] = i;
+    return *n < max;
+}
+
+uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object,
+                          uint32_t max)
+{
+    const struct accel *a = w->accel;
     uint32_t n = 0;
-    for (uint32_t i = 0; i < w->object_count && n < max; i++)
-        if (world_object_inside(w, i, p))
-            object[n++] = i;
+    for (uint32_t i = 0; i < a->infinite_count; i++)
+        if (!add_containing(w, a->infinite[i], p, object, &n, max))
+            return n;
+    const struct vec3 local = vec3_sub(p, a->top.origin);
+    const float at[3] = {(float)local.x, (float)local.y, (float)local.z};
+    struct bvh8_walk walk;
+    bvh8_walk_begin(&walk, &a->top);
+    for (uint32_t first, count; bvh8_walk_point(&walk, &a->top, at, &first, &count);)
+        for (uint32_t i = first; i < first + count; i++)
+            if (!add_containing(w, a->top.item[i], p, object, &n, max))
+                return n;
+    // In the order of the scene, whatever the tree looks like.
+    for (uint32_t i = 1; i < n; i++) {
+        const uint32_t x = object[i];
+        uint32_t j = i;
+        for (; j > 0 && object[j - 1] > x; j--)
+            object[j] = object[j - 1];
+        object[j] = x;
+    }
     return n;
+}
+
+// The largest sum of a row's magnitudes: how far the map can stretch a rounding error.
+static double stretch(const struct mat3 *m)
+{
+    double most = 0;
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, fabs(m->m[i][0]) + fabs(m->m[i][1]) + fabs(m->m[i][2]));
+    return most;
+}
+
+// The rounding of coordinates of this size on their way into shape space and back.
+static double position_error(const struct leaf *l, double size)
+{
+    if (l->transform.identity)
+        return GAMMA(32) * size;
+    size += vec3_max_abs(l->transform.offset);
+    return GAMMA(32) * size *
+           fmax(1, stretch(&l->transform.linear) * stretch(&l->transform.inverse));
 }
 
 void trace_interaction(const struct world *w, const struct ray *ray, const struct hit *hit,
@@ -359,7 +377,8 @@ void trace_interaction(const struct world *w, const struct ray *ray, const struc
     out->uv = l->ops->flags & SHAPE_UV ? s.uv : (struct vec2){p.x, p.y};
     // The root may be off by dt along the ray, its point by the rounding of o + t d.
     const double size = vec3_max_abs(ray->o) + fabs(hit->b.t) * vec3_max_abs(ray->d);
-    out->error = hit->b.dt * vec3_length(ray->d) + GAMMA(32) * size;
+    // Along a grazing ray a large dt moves the point little off the surface.
+    out->error = hit->b.dt * fabs(vec3_dot(ray->d, out->ng)) + position_error(l, size);
 }
 
 struct vec3 trace_offset(const struct interaction *i, struct vec3 d)

@@ -31,9 +31,10 @@ bool box_meets(const struct aabb *b, const struct box_ray *r, double *t);
 enum sweep_mode { SWEEP_CLOSEST, SWEEP_OPAQUE };
 
 // The first drawn surface of a CSG object on t_min < t < t_max by the sweep over batches
-// (doc/architecture.md); false: none.
+// (doc/architecture.md); false: none, or none that begins before `limit`.
 bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t object,
-                  const struct ray *ray, enum sweep_mode mode, struct boundary *out);
+                  const struct ray *ray, double limit, enum sweep_mode mode,
+                  struct boundary *out);
 
 // All crossings of one leaf with the line, in world terms: inverted leaves turned.
 void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,

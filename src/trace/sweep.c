@@ -29,25 +29,20 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
 
 // ---- collecting ---------------------------------------------------------------------
 
-static uint32_t collect_from_tree(const struct bvh *tree, const struct box_ray *r,
-                                  uint32_t *out)
+static uint32_t collect_from_tree(const struct bvh8 *tree, const struct ray *ray,
+                                  struct trace_scratch *s)
 {
-    uint32_t stack[2 * BVH_STACK], depth = 0, n = 0;
-    if (!tree->item_count)
+    struct bvh8_ray r;
+    struct bvh8_walk walk;
+    uint32_t n = 0;
+    if (!bvh8_ray_begin(tree, ray, ray->t_min, ray->t_max, &r))
         return 0;
-    stack[depth++] = 0;
-    while (depth) {
-        const struct bvh_node *node = &tree->node[stack[--depth]];
-        for (int k = 0; k < 2; k++) {
-            double t;
-            if (!box_meets(&node->bounds[k], r, &t))
-                continue;
-            if (node->count[k] == 0)
-                stack[depth++] = node->child[k];
-            for (uint32_t i = 0; i < node->count[k]; i++)
-                out[n++] = tree->item[node->child[k] + i];
-        }
+    bvh8_walk_begin(&walk, tree);
+    for (uint32_t first, count; bvh8_walk_next(&walk, tree, &r, &first, &count);) {
+        memcpy(s->leaves + n, tree->item + first, count * sizeof *s->leaves);
+        n += count;
     }
+    s->stats.node_visits += walk.visits;
     return n;
 }
 
@@ -58,8 +53,8 @@ static uint32_t collect(const struct world *w, struct trace_scratch *s, uint32_t
 {
     const struct world_object *o = &w->object[object];
     const struct accel *a = w->accel;
-    const struct box_ray r = box_ray_of(ray);
     if (o->leaf_count < LARGE_OBJECT) {
+        const struct box_ray r = box_ray_of(ray);
         uint32_t n = 0;
         for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
             double t;
@@ -68,7 +63,7 @@ static uint32_t collect(const struct world *w, struct trace_scratch *s, uint32_t
         }
         return n;
     }
-    uint32_t n = collect_from_tree(&a->leaves[object], &r, s->leaves);
+    uint32_t n = collect_from_tree(&a->leaves[object], ray, s);
     memcpy(s->leaves + n, a->unbounded[object],
            a->unbounded_count[object] * sizeof *s->leaves);
     return n + a->unbounded_count[object];
@@ -127,14 +122,21 @@ static void set_leaf(struct sweep *v, uint32_t leaf, bool in)
     }
 }
 
+static void toggle_leaf(struct sweep *v, uint32_t leaf)
+{
+    set_leaf(v, leaf, !v->s->inside[v->w->leaf[leaf].node - v->root]);
+}
+
 // Whether the boundary of a leaf is a surface of the whole, given the states around the
 // batch (the rules are in doc/architecture.md).
 static bool survives(const struct sweep *v, const struct boundary *b)
 {
     uint32_t n = v->w->leaf[b->leaf].node - v->root;
     bool was = inside_before(v, n), is = inside_now(v, n);
-    if (b->crossing != CROSS_TOUCH && was == is)
-        return false; // entered and left within one batch: nothing there
+    // Entered and left within one batch. A flat solid is still to be seen, as a sheet;
+    // a flat hole is none.
+    if (b->crossing != CROSS_TOUCH && was == is && v->w->leaf[b->leaf].inverted)
+        return false;
     while (n != 0) {
         const uint32_t up = v->node[n].parent - v->root;
         const uint32_t before = count_before(v, up), now = v->s->inside[up];
@@ -160,24 +162,27 @@ static bool survives(const struct sweep *v, const struct boundary *b)
 
 // ---- the sweep -------------------------------------------------------------------------
 
-static int by_t(const void *a, const void *b)
+// By the lower ends of the error bounds: then the bounds that overlap, directly or
+// through others, are neighbours. States toggle, so the order in a batch is free.
+static int by_begin(const void *a, const void *b)
 {
     const struct boundary *x = a, *y = b;
-    if (x->t != y->t)
-        return x->t < y->t ? -1 : 1;
+    const double s = x->t - x->dt, t = y->t - y->dt;
+    if (s != t)
+        return s < t ? -1 : 1;
     return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
 }
 
 static void sort_crossings(struct boundary_list *l)
 {
     if (l->count > 32) {
-        qsort(l->at, l->count, sizeof *l->at, by_t);
+        qsort(l->at, l->count, sizeof *l->at, by_begin);
         return;
     }
     for (uint32_t i = 1; i < l->count; i++) {
         const struct boundary b = l->at[i];
         uint32_t j = i;
-        for (; j > 0 && by_t(&l->at[j - 1], &b) > 0; j--)
+        for (; j > 0 && by_begin(&l->at[j - 1], &b) > 0; j--)
             l->at[j] = l->at[j - 1];
         l->at[j] = b;
     }
@@ -219,7 +224,8 @@ static bool ends_search(const struct sweep *v, const struct boundary *b, enum sw
 }
 
 bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t object,
-                  const struct ray *ray, enum sweep_mode mode, struct boundary *out)
+                  const struct ray *ray, double limit, enum sweep_mode mode,
+                  struct boundary *out)
 {
     struct sweep v = {w, s, w->node + w->object[object].root, w->object[object].root};
     start(&v, object, ray);
@@ -232,11 +238,12 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
             const struct boundary *b = &l->at[end];
             reach = b->t + b->dt > reach ? b->t + b->dt : reach;
             if (b->crossing != CROSS_TOUCH)
-                set_leaf(&v, b->leaf, b->crossing == CROSS_ENTER);
+                toggle_leaf(&v, b->leaf);
         }
-        if (l->at[end - 1].t <= ray->t_min)
+        if (reach <= ray->t_min)
             continue;
-        if (l->at[i].t >= ray->t_max)
+        const double begin = l->at[i].t - l->at[i].dt;
+        if (begin >= ray->t_max || begin > limit)
             return false;
         const struct boundary *found = NULL;
         for (uint32_t k = i; k < end; k++) {

@@ -51,7 +51,7 @@ static void *vector_add(struct vector *v, uint32_t n)
 struct build {
     struct arena *arena;
     const struct scene *scene;
-    struct vector leaf, node, object, surface, light, group, pending;
+    struct vector leaf, node, object, surface, light, group, group_parent, pending;
     bool has_transparent;
 };
 
@@ -409,27 +409,49 @@ static void add_object(struct build *b, const struct object *o, const struct con
     w->flags = o->flags | c->flags;
     w->source = o;
     if (o->kind == OBJECT_CSG && o->bound_count) {
-        w->bound = o->bound;
+        struct aabb *box = arena_new_array(b->arena, struct aabb, o->bound_count);
+        for (uint32_t i = 0; i < o->bound_count; i++)
+            box[i] = aabb_pad(aabb_transform(object_bounds(o->bound[i]), &c->world));
+        w->bound_box = box;
         w->bound_count = o->bound_count;
-        w->bound_transform = c->world;
     }
 }
 
+// A light group's lights are children of it and are added when they are met.
 static struct context group_context(struct build *b, const struct object *o,
                                     const struct context *c)
 {
     struct context in = *c;
-    if (!o->group_light_count)
+    if (!o->group_light)
         return in;
     struct light_group *g = vector_add(&b->group, 1);
+    *(uint32_t *)vector_add(&b->group_parent, 1) = c->light_group;
     g->global_lights = o->group_global_lights;
     in.light_group = b->group.count;
-    for (uint32_t i = 0; i < o->group_light_count; i++) {
-        const struct object light = {.kind = OBJECT_LIGHT, .light = o->group_light[i],
-                                     .transform = o->transform};
-        add_light(b, &light, &in);
-    }
     return in;
+}
+
+// The lights of a group shine on the groups within it, too.
+static void join_groups(struct build *b)
+{
+    struct light_group *all = b->group.at;
+    for (uint32_t i = 0; i < b->group.count; i++) {
+        const uint32_t parent = ((uint32_t *)b->group_parent.at)[i];
+        if (!parent)
+            continue;
+        const struct light_group *p = &all[parent - 1];
+        struct light_group *g = &all[i];
+        const struct light **list =
+            arena_new_array(b->arena, const struct light *, p->count + g->count + 1);
+        for (uint32_t k = 0; k < p->count; k++)
+            list[k] = p->light[k];
+        for (uint32_t k = 0; k < g->count; k++)
+            list[p->count + k] = g->light[k];
+        g->light = list;
+        g->count += p->count;
+        g->global_lights = g->global_lights && p->global_lights;
+    }
+    free(b->group_parent.at);
 }
 
 static void add_top(struct build *b, const struct object *o, const struct context *c)
@@ -464,10 +486,12 @@ struct world *world_build(struct arena *a, const struct scene *scene)
     b.surface.size = sizeof(struct surface);
     b.light.size = sizeof(struct light *);
     b.group.size = sizeof(struct light_group);
+    b.group_parent.size = sizeof(uint32_t);
     b.pending.size = sizeof(struct pending);
     const struct context top = {.world = transform_identity, .drawn = true};
     for (uint32_t i = 0; i < scene->object_count; i++)
         add_top(&b, scene->object[i], &top);
+    join_groups(&b);
 
     struct world *w = arena_new_struct(a, struct world);
     w->arena = a;

@@ -69,9 +69,8 @@ struct world_object {
     bool opaque;        // every leaf is
     unsigned flags;     // visibility of the whole
     const struct object *source;
-    const struct object *const *bound; // user bounds that cull rays; NULL: none
+    const struct aabb *bound_box; // world boxes of user bounds, which cull rays
     uint32_t bound_count;
-    struct transform bound_transform;  // world from the bounds' space
 };
 
 struct light_group {

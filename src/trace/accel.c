@@ -1,0 +1,69 @@
+// What finds the objects, and the leaves of large objects, near a ray.
+#include "trace/accel.h"
+
+#include <stdlib.h>
+
+#include "base/arena.h"
+
+static void build_leaf_tree(struct arena *a, const struct world *w, struct accel *accel,
+                            uint32_t object)
+{
+    const struct world_object *o = &w->object[object];
+    struct aabb *box = malloc(o->leaf_count * sizeof *box);
+    uint32_t *leaf = malloc(o->leaf_count * sizeof *leaf);
+    if (!box || !leaf)
+        abort();
+    uint32_t n = 0, infinite = 0;
+    for (uint32_t i = 0; i < o->leaf_count; i++)
+        infinite += !aabb_is_finite(w->leaf[o->first_leaf + i].bounds) &&
+                    !aabb_is_empty(w->leaf[o->first_leaf + i].bounds);
+    accel->unbounded[object] = arena_new_array(a, uint32_t, infinite + 1);
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+        if (aabb_is_empty(w->leaf[i].bounds))
+            continue;
+        if (aabb_is_finite(w->leaf[i].bounds)) {
+            box[n] = w->leaf[i].bounds;
+            leaf[n++] = i;
+        } else {
+            accel->unbounded[object][accel->unbounded_count[object]++] = i;
+        }
+    }
+    accel->leaves[object] = bvh8_build(a, box, leaf, n);
+    free(box);
+    free(leaf);
+}
+
+struct accel *accel_build(struct arena *a, const struct world *w)
+{
+    struct accel *accel = arena_new_struct(a, struct accel);
+    struct aabb *box = malloc((w->object_count + 1) * sizeof *box);
+    uint32_t *object = malloc((w->object_count + 1) * sizeof *object);
+    if (!box || !object)
+        abort();
+    accel->infinite = arena_new_array(a, uint32_t, w->object_count + 1);
+    accel->leaves = arena_new_array(a, struct bvh8, w->object_count + 1);
+    accel->unbounded = arena_new_array(a, uint32_t *, w->object_count + 1);
+    accel->unbounded_count = arena_new_array(a, uint32_t, w->object_count + 1);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const struct world_object *o = &w->object[i];
+        if (o->node_count > accel->nodes_max)
+            accel->nodes_max = o->node_count;
+        if (o->leaf_count > accel->leaves_max)
+            accel->leaves_max = o->leaf_count;
+        if (o->leaf_count >= LARGE_OBJECT)
+            build_leaf_tree(a, w, accel, i);
+        if (aabb_is_empty(o->bounds))
+            continue;
+        if (aabb_is_finite(o->bounds)) {
+            box[n] = aabb_pad(o->bounds);
+            object[n++] = i;
+        } else {
+            accel->infinite[accel->infinite_count++] = i;
+        }
+    }
+    accel->top = bvh8_build(a, box, object, n);
+    free(box);
+    free(object);
+    return accel;
+}

@@ -1,0 +1,399 @@
+#include "trace/bvh8.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "base/arena.h"
+
+enum {
+    BINS = 16,
+    LEAF_ITEMS = 4,   // a leaf may be split below this only if that pays
+    DEPTH_BINNED = 24 // below, halve by count: the depth stays within BVH8_STACK
+};
+
+// The error of a test in units of the half extent of the tree: rounding the moved
+// origin, subtracting and multiplying cost at most 4 half-ulps of it (2^-24 each).
+static const double PAD = 0x1p-21;
+// The same as a relative error of a t.
+static const float T_SLACK = 1 + 0x1p-20f;
+
+struct range {
+    uint32_t first, count;
+    struct aabb box;
+    bool whole; // a leaf: not to be split any more
+};
+
+struct builder {
+    const struct aabb *box;
+    uint32_t *order;
+    struct bvh8_node *node;
+    uint32_t node_count, node_capacity;
+    struct vec3 origin;
+    double pad;
+};
+
+static struct vec3 middle(struct aabb b)
+{
+    return vec3(0.5 * b.min.x + 0.5 * b.max.x, 0.5 * b.min.y + 0.5 * b.max.y,
+                0.5 * b.min.z + 0.5 * b.max.z);
+}
+
+static struct aabb range_box(const struct builder *b, uint32_t first, uint32_t count)
+{
+    struct aabb box = aabb_empty();
+    for (uint32_t i = 0; i < count; i++)
+        box = aabb_join(box, b->box[b->order[first + i]]);
+    return box;
+}
+
+struct cut {
+    int axis, bin;
+    double cost, from, width;
+};
+
+static int bin_of(const struct builder *b, uint32_t item, const struct cut *c)
+{
+    int k = (int)((vec3_axis(middle(b->box[item]), c->axis) - c->from) / c->width * BINS);
+    return k < 0 ? 0 : k >= BINS ? BINS - 1 : k;
+}
+
+// The surface area heuristic over BINS equal bins of the centres along one axis.
+static void try_axis(const struct builder *b, const struct range *r, struct cut c,
+                     struct cut *best)
+{
+    struct aabb box[BINS], right[BINS];
+    uint32_t count[BINS] = {0}, behind[BINS];
+    for (int i = 0; i < BINS; i++)
+        box[i] = aabb_empty();
+    for (uint32_t i = 0; i < r->count; i++) {
+        uint32_t item = b->order[r->first + i];
+        int k = bin_of(b, item, &c);
+        box[k] = aabb_join(box[k], b->box[item]);
+        count[k]++;
+    }
+    struct aabb sum = aabb_empty();
+    uint32_t n = 0;
+    for (int i = BINS - 1; i > 0; i--) {
+        sum = aabb_join(sum, box[i]);
+        n += count[i];
+        right[i] = sum;
+        behind[i] = n;
+    }
+    sum = aabb_empty();
+    n = 0;
+    for (int i = 0; i < BINS - 1; i++) {
+        sum = aabb_join(sum, box[i]);
+        n += count[i];
+        if (n == 0 || behind[i + 1] == 0)
+            continue;
+        c.cost = aabb_half_area(sum) * n + aabb_half_area(right[i + 1]) * behind[i + 1];
+        c.bin = i;
+        if (c.cost < best->cost)
+            *best = c;
+    }
+}
+
+static bool find_cut(const struct builder *b, const struct range *r, struct cut *best)
+{
+    struct aabb centres = aabb_empty();
+    for (uint32_t i = 0; i < r->count; i++)
+        centres = aabb_add(centres, middle(b->box[b->order[r->first + i]]));
+    *best = (struct cut){.axis = -1, .cost = DBL_MAX};
+    for (int axis = 0; axis < 3; axis++) {
+        struct cut c = {.axis = axis, .from = vec3_axis(centres.min, axis)};
+        c.width = vec3_axis(centres.max, axis) - c.from;
+        if (c.width > 0)
+            try_axis(b, r, c, best);
+    }
+    return best->axis >= 0;
+}
+
+// A stable partition, so that the tree depends on the order of the scene alone.
+static uint32_t partition(struct builder *b, const struct range *r, const struct cut *c)
+{
+    uint32_t *far = malloc(r->count * sizeof *far), n = r->first, m = 0;
+    if (!far)
+        abort();
+    for (uint32_t i = 0; i < r->count; i++) {
+        uint32_t item = b->order[r->first + i];
+        if (bin_of(b, item, c) <= c->bin)
+            b->order[n++] = item;
+        else
+            far[m++] = item;
+    }
+    for (uint32_t i = 0; i < m; i++)
+        b->order[n + i] = far[i];
+    free(far);
+    return n - r->first;
+}
+
+static bool split(struct builder *b, struct range *r, uint32_t depth, struct range *rest)
+{
+    if (r->count <= 1)
+        return false;
+    uint32_t left = r->count / 2;
+    struct cut c;
+    if (depth < DEPTH_BINNED && find_cut(b, r, &c)) {
+        // A test of a box costs about as much as half a test of an object.
+        double area = aabb_half_area(r->box);
+        if (r->count <= LEAF_ITEMS && c.cost + 0.5 * area >= area * r->count)
+            return false;
+        left = partition(b, r, &c);
+    } else if (r->count <= LEAF_ITEMS) {
+        return false;
+    }
+    if (left == 0 || left == r->count)
+        left = r->count / 2;
+    *rest = (struct range){.first = r->first + left, .count = r->count - left};
+    rest->box = range_box(b, rest->first, rest->count);
+    r->count = left;
+    r->box = range_box(b, r->first, r->count);
+    return true;
+}
+
+static float round_down(double v)
+{
+    float f = (float)v;
+    return (double)f > v ? nextafterf(f, -INFINITY) : f;
+}
+
+static void set_box(const struct builder *b, struct bvh8_node *n, int i, struct aabb box)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec3_axis(b->origin, axis);
+        n->box[axis][i] = round_down(vec3_axis(box.min, axis) - o - b->pad);
+        n->box[3 + axis][i] = -round_down(-(vec3_axis(box.max, axis) - o + b->pad));
+    }
+}
+
+static uint32_t new_node(struct builder *b)
+{
+    if (b->node_count == b->node_capacity) {
+        b->node_capacity = b->node_capacity ? 2 * b->node_capacity : 64;
+        b->node = realloc(b->node, b->node_capacity * sizeof *b->node);
+        if (!b->node)
+            abort();
+    }
+    struct bvh8_node *n = &b->node[b->node_count];
+    for (int i = 0; i < 8; i++) {
+        n->child[i] = BVH8_EMPTY;
+        for (int axis = 0; axis < 3; axis++) {
+            n->box[axis][i] = 1e30f;
+            n->box[3 + axis][i] = -1e30f;
+        }
+    }
+    return b->node_count++;
+}
+
+// The range with the largest box that may still be split; -1: none.
+static int widest(const struct range *r, int count)
+{
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (!r[i].whole && (best < 0 || aabb_half_area(r[i].box) >
+                                            aabb_half_area(r[best].box)))
+            best = i;
+    return best;
+}
+
+// The depth of the recursion is bounded: see DEPTH_BINNED.
+static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
+{
+    struct range r[8] = {all};
+    int n = 1;
+    for (int i; n < 8 && (i = widest(r, n)) >= 0;) {
+        if (split(b, &r[i], depth, &r[n]))
+            n++;
+        else
+            r[i].whole = true;
+    }
+    uint32_t id = new_node(b);
+    for (int i = 0; i < n; i++) {
+        set_box(b, &b->node[id], i, r[i].box);
+        int32_t child = r[i].count <= LEAF_ITEMS
+                            ? bvh8_leaf(r[i].first, r[i].count)
+                            : (int32_t)make_node(b, r[i], depth + 1);
+        b->node[id].child[i] = child;
+    }
+    return id;
+}
+
+struct bvh8 bvh8_build(struct arena *a, const struct aabb *box, const uint32_t *index,
+                       uint32_t count)
+{
+    struct bvh8 t = {.bounds = aabb_empty(), .item_count = count};
+    if (!count)
+        return t;
+    struct builder b = {.box = box};
+    b.order = malloc(count * sizeof *b.order);
+    if (!b.order)
+        abort();
+    for (uint32_t i = 0; i < count; i++) {
+        b.order[i] = i;
+        t.bounds = aabb_join(t.bounds, box[i]);
+    }
+    t.origin = b.origin = middle(t.bounds);
+    b.pad = PAD * vec3_max_abs(vec3_sub(t.bounds.max, t.origin)) + FLT_MIN;
+    make_node(&b, (struct range){0, count, t.bounds, false}, 0);
+    t.node_count = b.node_count;
+    t.node = arena_alloc_aligned(a, b.node_count * sizeof *t.node, 64);
+    for (uint32_t i = 0; i < b.node_count; i++)
+        t.node[i] = b.node[i];
+    t.item = arena_new_array(a, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++)
+        t.item[i] = index[b.order[i]];
+    struct vec3 pad = vec3(b.pad, b.pad, b.pad);
+    t.bounds = (struct aabb){vec3_sub(t.bounds.min, pad), vec3_add(t.bounds.max, pad)};
+    free(b.node);
+    free(b.order);
+    return t;
+}
+
+// ---- rays -------------------------------------------------------------------
+
+bool bvh8_ray_begin(const struct bvh8 *b, const struct ray *ray, double t_min,
+                    double t_max, struct bvh8_ray *out)
+{
+    if (!b->node)
+        return false;
+    double largest = vec3_max_abs(ray->d), d[3];
+    if (!(largest > 0))
+        return false;
+    for (int a = 0; a < 3; a++) {
+        double o = vec3_axis(ray->o, a);
+        double lo = vec3_axis(b->bounds.min, a), hi = vec3_axis(b->bounds.max, a);
+        d[a] = vec3_axis(ray->d, a) / largest;
+        out->negative[a] = d[a] < 0 ? 3 : 0;
+        // Less than this moves the ray by nothing while it crosses the tree.
+        if (fabs(d[a]) < 0x1p-60) {
+            if (!(o >= lo && o <= hi))
+                return false;
+            d[a] = d[a] < 0 ? -0x1p-60 : 0x1p-60;
+            continue;
+        }
+        double t0 = (lo - o) / vec3_axis(ray->d, a), t1 = (hi - o) / vec3_axis(ray->d, a);
+        t_min = fmax(t_min, fmin(t0, t1));
+        t_max = fmin(t_max, fmax(t0, t1));
+    }
+    if (!(t_min <= t_max))
+        return false;
+    struct vec3 o = vec3_sub(vec3_mad(ray->o, t_min, ray->d), b->origin);
+    for (int a = 0; a < 3; a++) {
+        out->o[a] = (float)vec3_axis(o, a);
+        out->inverse[a] = (float)(1 / d[a]);
+    }
+    out->t_begin = t_min;
+    out->scale = largest;
+    bvh8_ray_limit(out, t_max);
+    return true;
+}
+
+void bvh8_ray_limit(struct bvh8_ray *r, double t)
+{
+    double far = (t - r->t_begin) * r->scale;
+    r->t_far = far < 1e30 ? (float)far * T_SLACK : 1e30f;
+}
+
+void bvh8_walk_begin(struct bvh8_walk *w, const struct bvh8 *b)
+{
+    w->depth = 0;
+    w->visits = 0;
+    if (b->node)
+        w->stack[w->depth++] = (struct bvh8_entry){0, 0};
+}
+
+// Which boxes the ray meets between 0 and t_far, and where it enters them.
+static unsigned node_hits(const struct bvh8_node *n, const struct bvh8_ray *r,
+                          float near_t[8])
+{
+    unsigned bits = 0;
+#ifdef __SSE2__
+    const __m128 slack = _mm_set1_ps(T_SLACK);
+    for (int half = 0; half < 8; half += 4) {
+        __m128 near = _mm_setzero_ps(), far = _mm_set1_ps(r->t_far);
+        for (int a = 0; a < 3; a++) {
+            __m128 o = _mm_set1_ps(r->o[a]), i = _mm_set1_ps(r->inverse[a]);
+            __m128 p = _mm_loadu_ps(&n->box[a + r->negative[a]][half]);
+            __m128 q = _mm_loadu_ps(&n->box[a + 3 - r->negative[a]][half]);
+            near = _mm_max_ps(near, _mm_mul_ps(_mm_sub_ps(p, o), i));
+            far = _mm_min_ps(far, _mm_mul_ps(_mm_sub_ps(q, o), i));
+        }
+        _mm_storeu_ps(near_t + half, near);
+        __m128 met = _mm_cmple_ps(near, _mm_mul_ps(far, slack));
+        bits |= (unsigned)_mm_movemask_ps(met) << half;
+    }
+#else
+    for (int k = 0; k < 8; k++) {
+        float near = 0, far = r->t_far;
+        for (int a = 0; a < 3; a++) {
+            float p = (n->box[a + r->negative[a]][k] - r->o[a]) * r->inverse[a];
+            float q = (n->box[a + 3 - r->negative[a]][k] - r->o[a]) * r->inverse[a];
+            near = p > near ? p : near;
+            far = q < far ? q : far;
+        }
+        near_t[k] = near;
+        bits |= (unsigned)(near <= far * T_SLACK) << k;
+    }
+#endif
+    return bits;
+}
+
+// Pushes the children so that the nearest is on top.
+static void push_children(struct bvh8_walk *w, const struct bvh8_node *n, unsigned bits,
+                          const float t[8])
+{
+    uint32_t base = w->depth;
+    for (; bits; bits &= bits - 1) {
+        int k = __builtin_ctz(bits);
+        uint32_t at = w->depth++;
+        for (; at > base && w->stack[at - 1].t < t[k]; at--)
+            w->stack[at] = w->stack[at - 1];
+        w->stack[at] = (struct bvh8_entry){n->child[k], t[k]};
+    }
+}
+
+bool bvh8_walk_next(struct bvh8_walk *w, const struct bvh8 *b, const struct bvh8_ray *r,
+                    uint32_t *first, uint32_t *count)
+{
+    while (w->depth) {
+        struct bvh8_entry e = w->stack[--w->depth];
+        if (e.t > r->t_far * T_SLACK)
+            continue;
+        if (e.child < 0) {
+            *first = bvh8_leaf_first(e.child);
+            *count = bvh8_leaf_count(e.child);
+            return true;
+        }
+        float t[8];
+        const struct bvh8_node *n = &b->node[e.child];
+        w->visits++;
+        push_children(w, n, node_hits(n, r, t), t);
+    }
+    return false;
+}
+
+bool bvh8_walk_point(struct bvh8_walk *w, const struct bvh8 *b, const float p[3],
+                     uint32_t *first, uint32_t *count)
+{
+    while (w->depth) {
+        struct bvh8_entry e = w->stack[--w->depth];
+        if (e.child < 0) {
+            *first = bvh8_leaf_first(e.child);
+            *count = bvh8_leaf_count(e.child);
+            return true;
+        }
+        const struct bvh8_node *n = &b->node[e.child];
+        for (int k = 0; k < 8; k++) {
+            bool in = n->child[k] != BVH8_EMPTY;
+            for (int a = 0; a < 3 && in; a++)
+                in = p[a] >= n->box[a][k] && p[a] <= n->box[3 + a][k];
+            if (in)
+                w->stack[w->depth++] = (struct bvh8_entry){n->child[k], 0};
+        }
+    }
+    return false;
+}

@@ -1,0 +1,566 @@
+// Finding surfaces: CSG with coincident faces, infinite and clipped solids, trees against
+// brute force, and rays that start on a surface.
+#include "test.h"
+
+#include <stdlib.h>
+
+#include "base/arena.h"
+#include "scene/shapes/box.h"
+#include "scene/shapes/plane.h"
+#include "scene/shapes/sphere.h"
+#include "trace/accel.h"
+#include "trace/intersect.h"
+#include "trace/scratch.h"
+
+static const struct pigment grey = {.kind = PIGMENT_SOLID, .color = {.r = .5f}};
+static const struct pigment clear = {.kind = PIGMENT_SOLID, .color = {.transmit = .5f}};
+static const struct finish matt = {.diffuse = .6f, .old_ior = -1};
+static const struct texture_layer grey_layer = {&grey, NULL, &matt};
+static const struct texture_layer clear_layer = {&clear, NULL, &matt};
+static const struct texture grey_texture = {.layer = &grey_layer, .layer_count = 1};
+static const struct texture clear_texture = {.layer = &clear_layer, .layer_count = 1};
+
+// Only until the library has its own.
+__attribute__((weak)) bool texture_is_opaque(const struct texture *x)
+{
+    return x->layer[0].pigment->color.transmit == 0;
+}
+
+// ---- scenes ---------------------------------------------------------------------
+
+struct fixture {
+    struct arena *a;
+    struct scene scene;
+    struct world *w;
+    struct trace_scratch *s;
+    const struct object *object[512];
+};
+
+static int setup(void **state)
+{
+    struct fixture *f = calloc(1, sizeof *f);
+    f->a = arena_new(1 << 16);
+    f->scene.object = f->object;
+    f->scene.default_texture =
+        (struct attached_texture){&grey_texture, transform_identity};
+    *state = f;
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    struct fixture *f = *state;
+    trace_scratch_free(f->s);
+    arena_free(f->a);
+    free(f);
+    return 0;
+}
+
+static void add(struct fixture *f, const struct object *o)
+{
+    f->object[f->scene.object_count++] = o;
+}
+
+static void finish(struct fixture *f)
+{
+    f->w = world_build(f->a, &f->scene);
+    f->s = trace_scratch_new(f->w);
+}
+
+static struct object *sphere_at(struct fixture *f, double x, double y, double z, double r)
+{
+    struct sphere *s = arena_new_struct(f->a, struct sphere);
+    *s = (struct sphere){vec3(x, y, z), r, transform_identity.linear};
+    return object_new_shape(f->a, &sphere_ops, s, (struct span){0});
+}
+
+static struct object *box_of(struct fixture *f, struct vec3 min, struct vec3 max)
+{
+    struct box *b = arena_new_struct(f->a, struct box);
+    *b = (struct box){min, max};
+    return object_new_shape(f->a, &box_ops, b, (struct span){0});
+}
+
+static struct object *unit_box(struct fixture *f)
+{
+    return box_of(f, vec3(-1, -1, -1), vec3(1, 1, 1));
+}
+
+static struct object *half_space(struct fixture *f, struct vec3 normal, double d)
+{
+    struct plane *p = arena_new_struct(f->a, struct plane);
+    *p = (struct plane){normal, vec3_scale(d, normal)};
+    return object_new_shape(f->a, &plane_ops, p, (struct span){0});
+}
+
+static struct object *csg(struct fixture *f, enum csg_op op, const struct object *x,
+                          const struct object *y)
+{
+    const struct object **child = arena_new_array(f->a, const struct object *, 2);
+    child[0] = x;
+    child[1] = y;
+    return object_new_csg(f->a, op, child, 2, (struct span){0});
+}
+
+static struct object *moved(struct fixture *f, struct object *o, struct transform t)
+{
+    object_transform(f->a, o, &t);
+    return o;
+}
+
+static struct ray_query query(struct vec3 o, struct vec3 d)
+{
+    return (struct ray_query){.ray = {o, d, 0, INFINITY}};
+}
+
+static double first_t(struct fixture *f, struct vec3 o, struct vec3 d)
+{
+    struct ray_query q = query(o, d);
+    return trace_closest_1(f->w, f->s, &q).b.t;
+}
+
+static struct vec3 first_normal(struct fixture *f, struct vec3 o, struct vec3 d)
+{
+    struct ray_query q = query(o, d);
+    struct hit h = trace_closest_1(f->w, f->s, &q);
+    struct interaction i;
+    trace_interaction(f->w, &q.ray, &h, &i);
+    return i.ng;
+}
+
+static const struct vec3 Z = {0, 0, 1}, BACK = {0, 0, -1};
+
+// ---- coincidence ------------------------------------------------------------------
+
+// T01: a pocket whose mouth lies in a face has no film over it, however it is turned.
+static void a_pocket_is_open(void **state)
+{
+    struct fixture *f = *state;
+    struct object *o = csg(f, CSG_DIFFERENCE, unit_box(f),
+                           box_of(f, vec3(-.5, -.5, -1), vec3(.5, .5, 0)));
+    add(f, o);
+    finish(f);
+    assert_near(first_t(f, vec3(.1, .2, -5), Z), 5, 1e-13);
+    struct vec3 n = first_normal(f, vec3(.1, .2, -5), Z);
+    assert_near(n.z, -1, 1e-15);
+    assert_near(first_t(f, vec3(.7, .2, -5), Z), 4, 1e-13);
+}
+
+static void a_turned_pocket_is_open(void **state)
+{
+    struct fixture *f = *state;
+    struct transform t = transform_rotate(vec3(10, 20, 30));
+    struct object *o = csg(f, CSG_DIFFERENCE, unit_box(f),
+                           box_of(f, vec3(-.5, -.5, -1), vec3(.5, .5, 0)));
+    add(f, moved(f, o, t));
+    finish(f);
+    for (int i = 0; i < 100; i++) {
+        double x = -.45 + .009 * i, y = .4 - .008 * i;
+        assert_near(first_t(f, transform_point(&t, vec3(x, y, -5)),
+                            transform_vector(&t, Z)), 5, 1e-12);
+    }
+}
+
+// T03, T04, T05
+static void equal_solids_combine_exactly(void **state)
+{
+    struct fixture *f = *state;
+    for (int i = 0; i < 3; i++) {
+        static const enum csg_op op[] = {CSG_DIFFERENCE, CSG_MERGE, CSG_INTERSECTION};
+        struct transform t = transform_translate(vec3(10 * i, 0, 0));
+        add(f, moved(f, csg(f, op[i], unit_box(f), unit_box(f)), t));
+        t = transform_translate(vec3(10 * i, 10, 0));
+        add(f, moved(f, csg(f, op[i], sphere_at(f, 0, 0, 0, 1),
+                            sphere_at(f, 0, 0, 0, 1)), t));
+    }
+    finish(f);
+    assert_true(isinf(first_t(f, vec3(.1, .2, -5), Z)));
+    assert_true(isinf(first_t(f, vec3(.1, 10.2, -5), Z)));
+    for (int i = 1; i < 3; i++) {
+        assert_near(first_t(f, vec3(10 * i + .1, .2, -5), Z), 4, 1e-13);
+        assert_near(first_t(f, vec3(10 * i + .1, 10.2, -5), Z), 4.025320565519, 1e-11);
+    }
+}
+
+// T06: the face two merged boxes share is gone; a union keeps it.
+static void a_merge_loses_the_shared_face(void **state)
+{
+    struct fixture *f = *state;
+    for (int i = 0; i < 2; i++) {
+        struct object *o = csg(f, i ? CSG_UNION : CSG_MERGE,
+                               box_of(f, vec3(-1, -1, -1), vec3(1, 1, 0)),
+                               box_of(f, vec3(-1, -1, 0), vec3(1, 1, 1)));
+        o->flags |= OBJECT_NO_SPLIT;
+        add(f, moved(f, o, transform_translate(vec3(10 * i, 0, 0))));
+    }
+    finish(f);
+    assert_near(first_t(f, vec3(.1, .2, -.5), Z), 1.5, 1e-13);
+    assert_near(first_t(f, vec3(10.1, .2, -.5), Z), .5, 1e-13);
+}
+
+// ---- structure --------------------------------------------------------------------
+
+// T37
+static void inversions_cancel(void **state)
+{
+    struct fixture *f = *state;
+    struct object *inverse = sphere_at(f, 10, 0, 0, 1);
+    inverse->flags |= OBJECT_INVERSE;
+    add(f, inverse);
+    struct object *inner = csg(f, CSG_DIFFERENCE, unit_box(f), sphere_at(f, 0, 0, 0, 1));
+    add(f, csg(f, CSG_DIFFERENCE, box_of(f, vec3(-1, -1, 0), vec3(1, 1, 2)), inner));
+    finish(f);
+    assert_near(first_t(f, vec3(10, 0, 0), Z), 1, 1e-15);
+    assert_near(first_normal(f, vec3(10, 0, 0), Z).z, -1, 1e-15);
+    // The upper half ball and the slab over it are left.
+    assert_near(first_t(f, vec3(.1, .2, 5), BACK), 3, 1e-13);
+    assert_near(first_t(f, vec3(.9, .9, -5), Z), 6, 1e-13);
+    assert_near(first_t(f, vec3(.1, .2, -5), Z), 5, 1e-13);
+}
+
+// T38
+static void infinite_solids(void **state)
+{
+    struct fixture *f = *state;
+    add(f, csg(f, CSG_INTERSECTION, half_space(f, Z, 1), half_space(f, BACK, 1)));
+    finish(f);
+    assert_near(first_t(f, vec3(.1, .2, -5), Z), 4, 1e-13);
+    assert_near(first_t(f, vec3(.1, .2, 0), Z), 1, 1e-13);
+}
+
+static void a_bowl_in_a_half_space(void **state)
+{
+    struct fixture *f = *state;
+    add(f, csg(f, CSG_DIFFERENCE, half_space(f, Z, 0), sphere_at(f, 0, 0, 0, 1)));
+    finish(f);
+    assert_near(first_t(f, vec3(.1, .2, 5), BACK), 5.974679434480896, 1e-13);
+    struct vec3 n = first_normal(f, vec3(.1, .2, 5), BACK);
+    assert_near(n.x, -.1, 1e-13);
+    assert_near(n.y, -.2, 1e-13);
+    assert_near(n.z, .974679434480896, 1e-13);
+}
+
+// T42: a clip makes a hole, not a cap; it never becomes visible itself.
+static void a_clip_leaves_a_hole(void **state)
+{
+    struct fixture *f = *state;
+    struct object *o = sphere_at(f, 0, 0, 0, 1);
+    const struct object *clip = half_space(f, BACK, 0); // z >= 0
+    o->clip = &clip;
+    o->clip_count = 1;
+    add(f, o);
+    finish(f);
+    assert_near(first_t(f, vec3(.1, .2, -5), Z), 5.974679434480896, 1e-13);
+    assert_near(first_normal(f, vec3(.1, .2, -5), Z).z, .974679434480896, 1e-13);
+}
+
+// T41: 2,000 levels written one in another.
+static void deep_trees_work(void **state)
+{
+    struct fixture *f = *state;
+    struct object *o = box_of(f, vec3(0, -1, -1), vec3(2000, 1, 1));
+    for (int i = 0; i < 2000; i++)
+        o = csg(f, i % 2 ? CSG_DIFFERENCE : CSG_MERGE, o,
+                sphere_at(f, i + .5, 0, -1, .25));
+    add(f, o);
+    finish(f);
+    assert_near(first_t(f, vec3(1000.5, 0, -5), Z), 3.75, 1e-12); // added
+    assert_near(first_t(f, vec3(1001.5, 0, -5), Z), 4.25, 1e-12); // removed
+    assert_near(first_t(f, vec3(1001.9, 0, -5), Z), 4, 1e-12);
+    assert_true(world_object_inside(f->w, 0, vec3(1000.5, 0, -1.1)));
+    assert_false(world_object_inside(f->w, 0, vec3(1001.5, 0, -.9)));
+}
+
+static void equal_distances_go_to_the_first(void **state)
+{
+    struct fixture *f = *state;
+    for (int i = 0; i < 40; i++)
+        add(f, unit_box(f));
+    finish(f);
+    struct ray_query q = query(vec3(.1, .2, -5), Z);
+    assert_int_equal(f->w->leaf[trace_closest_1(f->w, f->s, &q).b.leaf].object, 0);
+}
+
+// ---- against brute force ---------------------------------------------------------------
+
+static double random_unit(uint64_t *s)
+{
+    *s = *s * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*s >> 11) * 0x1p-53;
+}
+
+static double between(uint64_t *s, double lo, double hi)
+{
+    return lo + (hi - lo) * random_unit(s);
+}
+
+static struct object *random_object(struct fixture *f, uint64_t *s, int depth)
+{
+    if (depth == 0 || random_unit(s) < .2) {
+        double x = between(s, -3, 3), y = between(s, -3, 3), z = between(s, -3, 3);
+        double r = between(s, .3, 1.2);
+        struct object *o = random_unit(s) < .5
+                               ? sphere_at(f, x, y, z, r)
+                               : box_of(f, vec3(x - r, y - r, z - r), vec3(x + r, y, z));
+        if (random_unit(s) < .4)
+            moved(f, o, transform_scale(vec3(1, between(s, .5, 2), 1)));
+        return moved(f, o, transform_rotate(vec3(between(s, 0, 90), 40, 0)));
+    }
+    static const enum csg_op op[] = {CSG_MERGE, CSG_INTERSECTION, CSG_DIFFERENCE};
+    struct object *x = random_object(f, s, depth - 1);
+    return csg(f, op[(int)(3 * random_unit(s))], x, random_object(f, s, depth - 1));
+}
+
+static struct ray_query random_ray(uint64_t *s)
+{
+    struct vec3 o = vec3(between(s, -8, 8), between(s, -8, 8), between(s, -8, 8));
+    struct vec3 to = vec3(between(s, -3, 3), between(s, -3, 3), between(s, -3, 3));
+    return query(o, vec3_sub(to, o));
+}
+
+static struct boundary brute(struct fixture *f, const struct ray_query *q)
+{
+    struct boundary best = {.t = INFINITY}, b;
+    for (uint32_t i = 0; i < f->w->object_count; i++) {
+        const struct world_object *o = &f->w->object[i];
+        if (o->is_csg) {
+            if (sweep_object(f->w, f->s, i, &q->ray, INFINITY, SWEEP_CLOSEST, &b) &&
+                b.t < best.t)
+                best = b;
+            continue;
+        }
+        f->s->crossings.count = 0;
+        leaf_crossings(f->w, o->first_leaf, &q->ray, &f->s->crossings);
+        for (uint32_t k = 0; k < f->s->crossings.count; k++) {
+            b = f->s->crossings.at[k];
+            if (b.t > q->ray.t_min && b.t < best.t)
+                best = b;
+        }
+    }
+    return best;
+}
+
+static void trees_find_what_brute_force_finds(void **state)
+{
+    struct fixture *f = *state;
+    uint64_t s = 1;
+    for (int i = 0; i < 300; i++) {
+        struct object *o = random_object(f, &s, i % 4);
+        struct vec3 by = vec3(between(&s, -9, 9), between(&s, -9, 9), between(&s, -9, 9));
+        add(f, moved(f, o, transform_translate(by)));
+    }
+    finish(f);
+    int hits = 0;
+    for (int i = 0; i < 4000; i++) {
+        struct ray_query q = random_ray(&s);
+        struct hit h = trace_closest_1(f->w, f->s, &q);
+        struct boundary b = brute(f, &q);
+        assert_true(h.b.t == b.t);
+        assert_true(isinf(b.t) || (h.b.leaf == b.leaf && h.b.part == b.part));
+        assert_true(trace_occluded_1(f->w, f->s, &q) == !isinf(b.t));
+        hits += !isinf(b.t);
+    }
+    assert_true(hits > 2000);
+}
+
+// Far cameras and long rays must not lose anything to single precision.
+static void far_rays_hit(void **state)
+{
+    struct fixture *f = *state;
+    for (int i = 0; i < 100; i++)
+        add(f, sphere_at(f, 3 * (i % 10), 3 * (i / 10), 0, 1e-3));
+    finish(f);
+    for (int i = 0; i < 100; i++) {
+        struct vec3 to = vec3(3 * (i % 10), 3 * (i / 10), 0);
+        struct vec3 from = vec3(1e6, -2e6, 3e6 + i);
+        assert_near(first_t(f, from, vec3_sub(to, from)), 1, 1e-8);
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+// The sweep against membership tests of points between all crossings.
+static void the_sweep_agrees_with_points(void **state)
+{
+    struct fixture *f = *state;
+    uint64_t s = 7;
+    for (int i = 0; i < 60; i++)
+        add(f, random_object(f, &s, 4));
+    finish(f);
+    for (int i = 0; i < 6000; i++) {
+        struct ray_query q = random_ray(&s);
+        uint32_t object = (uint32_t)i % f->w->object_count;
+        const struct world_object *o = &f->w->object[object];
+        if (!o->is_csg)
+            continue;
+        double t[256] = {0};
+        int n = 1;
+        f->s->crossings.count = 0;
+        for (uint32_t k = 0; k < o->leaf_count; k++)
+            leaf_crossings(f->w, o->first_leaf + k, &q.ray, &f->s->crossings);
+        for (uint32_t k = 0; k < f->s->crossings.count && n < 255; k++)
+            if (f->s->crossings.at[k].t > 0)
+                t[n++] = f->s->crossings.at[k].t;
+        qsort(t, (size_t)n, sizeof *t, ascending);
+        t[n] = t[n - 1] + 1;
+        double want = INFINITY;
+        bool in = world_object_inside(f->w, object, ray_at(&q.ray, .5 * t[1]));
+        for (int k = 1; k < n && isinf(want); k++)
+            if (world_object_inside(f->w, object, ray_at(&q.ray, .5 * (t[k] + t[k + 1]))) !=
+                in)
+                want = t[k];
+        struct boundary b;
+        bool found = sweep_object(f->w, f->s, object, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
+        assert_true(found == !isinf(want));
+        if (found)
+            assert_near(b.t, want, 1e-12);
+    }
+}
+
+// T40: a large difference is what the same leaves give one by one.
+static void many_holes(void **state)
+{
+    struct fixture *f = *state;
+    const struct object **child = arena_new_array(f->a, const struct object *, 2001);
+    uint64_t s = 3;
+    child[0] = unit_box(f);
+    for (int i = 1; i <= 2000; i++)
+        child[i] = sphere_at(f, between(&s, -1, 1), between(&s, -1, 1),
+                             between(&s, -1, 1), between(&s, .02, .1));
+    add(f, object_new_csg(f->a, CSG_DIFFERENCE, child, 2001, (struct span){0}));
+    finish(f);
+    for (int i = 0; i < 500; i++) {
+        struct ray_query q = random_ray(&s);
+        q.ray.d = vec3_normalize(vec3_sub(vec3(0, 0, 0), q.ray.o));
+        struct hit h = trace_closest_1(f->w, f->s, &q);
+        if (isinf(h.b.t))
+            continue;
+        assert_true(world_object_inside(f->w, 0, ray_at(&q.ray, h.b.t + 1e-9)));
+        assert_false(world_object_inside(f->w, 0, ray_at(&q.ray, h.b.t - 1e-9)));
+    }
+    const struct trace_stats *st = trace_scratch_stats(f->s);
+    assert_true(st->leaf_tests < 100 * st->rays);
+}
+
+// ---- secondary rays -------------------------------------------------------------------
+
+// T35 at several magnitudes: a ray leaving a convex surface never meets it again, and one
+// that enters meets the far side.
+static void a_ray_leaves_its_surface(void **state)
+{
+    struct fixture *f = *state;
+    static const double scale[] = {1e-5, 1, 1e5, 1, 1}, far[] = {0, 0, 0, 1e6, -1e4};
+    for (int i = 0; i < 5; i++) {
+        struct object *o = i == 4 ? unit_box(f) : sphere_at(f, 0, 0, 0, 1);
+        moved(f, o, transform_rotate(vec3(10 * i, 20, 30)));
+        moved(f, o, transform_scale(vec3(scale[i], scale[i] * (i == 4 ? 2 : 1), scale[i])));
+        add(f, moved(f, o, transform_translate(vec3(far[i], far[i], far[i]))));
+        f->scene.object_count = 1;
+        f->object[0] = o;
+        trace_scratch_free(f->s);
+        finish(f);
+        uint64_t s = 5;
+        for (int k = 0; k < 2000; k++) {
+            struct vec3 c = vec3(far[i], far[i], far[i]);
+            struct vec3 d = vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
+            struct ray_query q = query(vec3_mad(c, 10 * scale[i], d), vec3_neg(d));
+            q.ray.d = vec3_add(q.ray.d, vec3(between(&s, -.05, .05), 0, 0));
+            struct hit h = trace_closest_1(f->w, f->s, &q);
+            if (isinf(h.b.t))
+                continue;
+            struct interaction at;
+            trace_interaction(f->w, &q.ray, &h, &at);
+            struct vec3 out = vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
+            if (vec3_dot(out, at.ng) < 0)
+                out = vec3_neg(out);
+            assert_true(isinf(first_t(f, trace_offset(&at, out), out)));
+            struct vec3 in = vec3_neg(at.ng);
+            assert_true(first_t(f, trace_offset(&at, in), in) > .1 * scale[i]);
+        }
+    }
+}
+
+// T31: a sheet this close still throws a shadow.
+static void small_gaps_are_seen(void **state)
+{
+    struct fixture *f = *state;
+    add(f, half_space(f, Z, 0));
+    add(f, box_of(f, vec3(-1, -1, 5e-5), vec3(1, 1, 6e-5)));
+    struct object *pane = box_of(f, vec3(4, -1, 1), vec3(6, 1, 2));
+    pane->texture = (struct attached_texture){&clear_texture, transform_identity};
+    add(f, pane);
+    finish(f);
+    struct ray_query q = query(vec3(0, 0, -1e-12), Z);
+    assert_false(trace_occluded_1(f->w, f->s, &(struct ray_query){
+        .ray = {vec3(9, 9, 5), Z, 0, INFINITY}}));
+    q = query(vec3(.3, 5, 3), vec3(0, -5, -3));
+    struct hit h = trace_closest_1(f->w, f->s, &q); // meets the sheet's upper face
+    assert_int_equal(f->w->leaf[h.b.leaf].object, 1);
+    q = query(vec3(5, 0, 9), vec3(0, 0, -1));
+    h = trace_closest_1(f->w, f->s, &q);
+    assert_int_equal(f->w->leaf[h.b.leaf].object, 2);
+    q.ray.t_max = 8.5; // the pane lets light through
+    assert_false(trace_occluded_1(f->w, f->s, &q));
+    assert_true(f->w->has_transparent);
+    // From the floor under the sheet, up.
+    struct ray floor_ray = {vec3(.1, .1, -1), Z, 0, INFINITY};
+    struct hit under = {.b = {.t = 1, .leaf = f->w->object[0].first_leaf}};
+    struct interaction at;
+    trace_interaction(f->w, &floor_ray, &under, &at);
+    q = query(trace_offset(&at, Z), Z);
+    assert_near(trace_closest_1(f->w, f->s, &q).b.t, 5e-5, 1e-12);
+    assert_true(trace_occluded_1(f->w, f->s, &q));
+}
+
+static void visibility_and_points(void **state)
+{
+    struct fixture *f = *state;
+    struct object *o = sphere_at(f, 0, 0, 0, 1);
+    o->flags |= OBJECT_NO_SHADOW;
+    add(f, o);
+    add(f, sphere_at(f, 0, 0, .5, 1));
+    add(f, half_space(f, Z, 0));
+    finish(f);
+    struct ray_query q = query(vec3(0, 0, -5), Z);
+    q.ray.t_max = 4.2;
+    q.hidden_by = OBJECT_NO_SHADOW;
+    assert_false(trace_occluded_1(f->w, f->s, &q));
+    q.hidden_by = 0;
+    assert_true(trace_occluded_1(f->w, f->s, &q));
+    uint32_t in[4];
+    assert_int_equal(trace_containing(f->w, vec3(0, 0, -.2), in, 4), 3);
+    assert_int_equal(in[0], 0);
+    assert_int_equal(in[1], 1);
+    assert_int_equal(in[2], 2);
+    assert_int_equal(trace_containing(f->w, vec3(0, 0, 9), in, 4), 0);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_pocket_is_open),
+        TEST(a_turned_pocket_is_open),
+        TEST(equal_solids_combine_exactly),
+        TEST(a_merge_loses_the_shared_face),
+        TEST(inversions_cancel),
+        TEST(infinite_solids),
+        TEST(a_bowl_in_a_half_space),
+        TEST(a_clip_leaves_a_hole),
+        TEST(deep_trees_work),
+        TEST(equal_distances_go_to_the_first),
+        TEST(trees_find_what_brute_force_finds),
+        TEST(far_rays_hit),
+        TEST(the_sweep_agrees_with_points),
+        TEST(many_holes),
+        TEST(a_ray_leaves_its_surface),
+        TEST(small_gaps_are_seen),
+        TEST(visibility_and_points),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
