@@ -9,8 +9,8 @@ struct accel {
     struct bvh8 top;
     uint32_t *infinite; // objects without finite bounds, in order
     uint32_t infinite_count;
-    struct bvh8 *leaves;    // per object; item_count == 0: few leaves, tested in a row
-    uint32_t **unbounded;   // per object with a tree: its leaves without finite bounds
+    struct bvh8 *leaves;  // per object; item_count == 0: few leaves, tested in a row
+    uint32_t **unbounded; // per object with a tree: its leaves without finite bounds
     uint32_t *unbounded_count;
     uint32_t nodes_max, leaves_max; // of one object: what scratch must hold
 };

@@ -194,8 +194,8 @@ static int widest(const struct range *r, int count)
 {
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (!r[i].whole && (best < 0 || aabb_half_area(r[i].box) >
-                                            aabb_half_area(r[best].box)))
+        if (!r[i].whole &&
+            (best < 0 || aabb_half_area(r[i].box) > aabb_half_area(r[best].box)))
             best = i;
     return best;
 }
@@ -214,9 +214,8 @@ static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
     uint32_t id = new_node(b);
     for (int i = 0; i < n; i++) {
         set_box(b, &b->node[id], i, r[i].box);
-        int32_t child = r[i].count <= LEAF_ITEMS
-                            ? bvh8_leaf(r[i].first, r[i].count)
-                            : (int32_t)make_node(b, r[i], depth + 1);
+        int32_t child = r[i].count <= LEAF_ITEMS ? bvh8_leaf(r[i].first, r[i].count)
+                                                 : (int32_t)make_node(b, r[i], depth + 1);
         b->node[id].child[i] = child;
     }
     return id;

@@ -11,7 +11,7 @@ struct arena;
 // A tree of boxes with eight children per node. Boxes are single precision, relative
 // to `origin` and grown so far that no rounding of the test can miss one.
 struct bvh8_node {
-    float box[6][8]; // min x y z, max x y z
+    float box[6][8];  // min x y z, max x y z
     int32_t child[8]; // >= 0: node; BVH8_EMPTY; else a leaf, see bvh8_leaf_*
 };
 

@@ -83,7 +83,8 @@ void ray_batch_free(struct ray_batch *b)
 
 struct box_ray box_ray_of(const struct ray *r)
 {
-    return (struct box_ray){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z), r->t_min, r->t_max};
+    return (struct box_ray){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z), r->t_min,
+                            r->t_max};
 }
 
 // A slab's t is off by at most 3 roundings; a zero direction gives infinities, or NaN when
@@ -241,10 +242,10 @@ bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
 
 static struct ray_query query_of(const struct ray_batch *r, uint32_t i)
 {
-    return (struct ray_query){
-        .ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
-                vec3(r->d[0][i], r->d[1][i], r->d[2][i]), r->t_min[i], r->t_max[i]},
-        .hidden_by = r->hidden_by[i]};
+    return (struct ray_query){.ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
+                                      vec3(r->d[0][i], r->d[1][i], r->d[2][i]),
+                                      r->t_min[i], r->t_max[i]},
+                              .hidden_by = r->hidden_by[i]};
 }
 
 void trace_closest(const struct world *w, struct trace_scratch *s,
@@ -270,7 +271,8 @@ void trace_occluded(const struct world *w, struct trace_scratch *s,
 static bool leaf_inside(const struct leaf *l, struct vec3 p)
 {
     return l->solid &&
-           l->ops->inside(l->shape, transform_inverse_point(&l->transform, p)) != l->inverted;
+           l->ops->inside(l->shape, transform_inverse_point(&l->transform, p)) !=
+               l->inverted;
 }
 
 // Walks the expression without a stack: down to the first child that is not settled,
@@ -352,8 +354,8 @@ static double position_error(const struct leaf *l, double size)
            fmax(1, stretch(&l->transform.linear) * stretch(&l->transform.inverse));
 }
 
-void trace_interaction(const struct world *w, const struct ray *ray, const struct hit *hit,
-                       struct interaction *out)
+void trace_interaction(const struct world *w, const struct ray *ray,
+                       const struct hit *hit, struct interaction *out)
 {
     const struct leaf *l = &w->leaf[hit->b.leaf];
     const struct vec3 p = ray_at(ray, hit->b.t);

@@ -58,7 +58,8 @@ static uint32_t collect(const struct world *w, struct trace_scratch *s, uint32_t
         uint32_t n = 0;
         for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
             double t;
-            if (!aabb_is_finite(w->leaf[i].bounds) || box_meets(&w->leaf[i].bounds, &r, &t))
+            if (!aabb_is_finite(w->leaf[i].bounds) ||
+                box_meets(&w->leaf[i].bounds, &r, &t))
                 s->leaves[n++] = i;
         }
         return n;
@@ -210,15 +211,16 @@ static void start(struct sweep *v, uint32_t object, const struct ray *ray)
         else if (l->ops->flags & SHAPE_BOUNDED)
             continue;
         else
-            in = l->ops->inside(l->shape, transform_inverse_point(&l->transform, ray->o)) !=
-                 l->inverted;
+            in = l->ops->inside(l->shape, transform_inverse_point(&l->transform,
+                                                                  ray->o)) != l->inverted;
         set_leaf(v, s->leaves[i], in);
     }
     sort_crossings(&s->crossings);
     s->stats.leaf_tests += n;
 }
 
-static bool ends_search(const struct sweep *v, const struct boundary *b, enum sweep_mode mode)
+static bool ends_search(const struct sweep *v, const struct boundary *b,
+                        enum sweep_mode mode)
 {
     return mode == SWEEP_CLOSEST || v->w->surface[v->w->leaf[b->leaf].surface].opaque;
 }

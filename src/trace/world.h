@@ -45,13 +45,13 @@ enum node_op { NODE_LEAF, NODE_UNION, NODE_MERGE, NODE_INTERSECTION };
 // are the nodes whose parent is i; the root is the first.
 struct csg_node {
     enum node_op op;
-    uint32_t parent;       // index into world nodes; own index for the root
-    uint32_t leaf;         // NODE_LEAF
+    uint32_t parent; // index into world nodes; own index for the root
+    uint32_t leaf;   // NODE_LEAF
     uint32_t child_count;
-    uint32_t first_child;  // children are contiguous and come after their parent
-    uint32_t base_inside;  // children inside (leaf: 1 if inverted) where no leaf's
-                           // bounds hold the point
-    struct aabb bounds;    // S-bounds: clipped by the parents'
+    uint32_t first_child; // children are contiguous and come after their parent
+    uint32_t base_inside; // children inside (leaf: 1 if inverted) where no leaf's
+                          // bounds hold the point
+    struct aabb bounds;   // S-bounds: clipped by the parents'
 };
 
 // Whether a node is inside when `inside` of its children are (a leaf: when it is 1).
@@ -65,9 +65,9 @@ struct world_object {
     struct aabb bounds; // world; infinite objects are kept out of the BVH
     uint32_t first_leaf, leaf_count;
     uint32_t root, node_count; // its csg nodes
-    bool is_csg;        // false: the single leaf stands alone
-    bool opaque;        // every leaf is
-    unsigned flags;     // visibility of the whole
+    bool is_csg;               // false: the single leaf stands alone
+    bool opaque;               // every leaf is
+    unsigned flags;            // visibility of the whole
     const struct object *source;
     const struct aabb *bound_box; // world boxes of user bounds, which cull rays
     uint32_t bound_count;

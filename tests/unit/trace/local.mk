@@ -8,7 +8,3 @@ test_lamp_LDADD = $(test_ldadd)
 test_antialias_SOURCES = %D%/test_antialias.c
 test_antialias_CPPFLAGS = $(test_cppflags)
 test_antialias_LDADD = $(test_ldadd)
-check_PROGRAMS += test_trace
-test_trace_SOURCES = %D%/test_trace.c
-test_trace_CPPFLAGS = $(test_cppflags)
-test_trace_LDADD = $(test_ldadd)

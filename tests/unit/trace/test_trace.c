@@ -156,8 +156,9 @@ static void a_turned_pocket_is_open(void **state)
     finish(f);
     for (int i = 0; i < 100; i++) {
         double x = -.45 + .009 * i, y = .4 - .008 * i;
-        assert_near(first_t(f, transform_point(&t, vec3(x, y, -5)),
-                            transform_vector(&t, Z)), 5, 1e-12);
+        assert_near(
+            first_t(f, transform_point(&t, vec3(x, y, -5)), transform_vector(&t, Z)), 5,
+            1e-12);
     }
 }
 
@@ -170,8 +171,8 @@ static void equal_solids_combine_exactly(void **state)
         struct transform t = transform_translate(vec3(10 * i, 0, 0));
         add(f, moved(f, csg(f, op[i], unit_box(f), unit_box(f)), t));
         t = transform_translate(vec3(10 * i, 10, 0));
-        add(f, moved(f, csg(f, op[i], sphere_at(f, 0, 0, 0, 1),
-                            sphere_at(f, 0, 0, 0, 1)), t));
+        add(f, moved(f, csg(f, op[i], sphere_at(f, 0, 0, 0, 1), sphere_at(f, 0, 0, 0, 1)),
+                     t));
     }
     finish(f);
     assert_true(isinf(first_t(f, vec3(.1, .2, -5), Z)));
@@ -187,9 +188,9 @@ static void a_merge_loses_the_shared_face(void **state)
 {
     struct fixture *f = *state;
     for (int i = 0; i < 2; i++) {
-        struct object *o = csg(f, i ? CSG_UNION : CSG_MERGE,
-                               box_of(f, vec3(-1, -1, -1), vec3(1, 1, 0)),
-                               box_of(f, vec3(-1, -1, 0), vec3(1, 1, 1)));
+        struct object *o =
+            csg(f, i ? CSG_UNION : CSG_MERGE, box_of(f, vec3(-1, -1, -1), vec3(1, 1, 0)),
+                box_of(f, vec3(-1, -1, 0), vec3(1, 1, 1)));
         o->flags |= OBJECT_NO_SPLIT;
         add(f, moved(f, o, transform_translate(vec3(10 * i, 0, 0))));
     }
@@ -410,11 +411,12 @@ static void the_sweep_agrees_with_points(void **state)
         double want = INFINITY;
         bool in = world_object_inside(f->w, object, ray_at(&q.ray, .5 * t[1]));
         for (int k = 1; k < n && isinf(want); k++)
-            if (world_object_inside(f->w, object, ray_at(&q.ray, .5 * (t[k] + t[k + 1]))) !=
-                in)
+            if (world_object_inside(f->w, object,
+                                    ray_at(&q.ray, .5 * (t[k] + t[k + 1]))) != in)
                 want = t[k];
         struct boundary b;
-        bool found = sweep_object(f->w, f->s, object, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
+        bool found =
+            sweep_object(f->w, f->s, object, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
         assert_true(found == !isinf(want));
         if (found)
             assert_near(b.t, want, 1e-12);
@@ -457,7 +459,8 @@ static void a_ray_leaves_its_surface(void **state)
     for (int i = 0; i < 5; i++) {
         struct object *o = i == 4 ? unit_box(f) : sphere_at(f, 0, 0, 0, 1);
         moved(f, o, transform_rotate(vec3(10 * i, 20, 30)));
-        moved(f, o, transform_scale(vec3(scale[i], scale[i] * (i == 4 ? 2 : 1), scale[i])));
+        moved(f, o,
+              transform_scale(vec3(scale[i], scale[i] * (i == 4 ? 2 : 1), scale[i])));
         add(f, moved(f, o, transform_translate(vec3(far[i], far[i], far[i]))));
         f->scene.object_count = 1;
         f->object[0] = o;
@@ -466,7 +469,8 @@ static void a_ray_leaves_its_surface(void **state)
         uint64_t s = 5;
         for (int k = 0; k < 2000; k++) {
             struct vec3 c = vec3(far[i], far[i], far[i]);
-            struct vec3 d = vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
+            struct vec3 d =
+                vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
             struct ray_query q = query(vec3_mad(c, 10 * scale[i], d), vec3_neg(d));
             q.ray.d = vec3_add(q.ray.d, vec3(between(&s, -.05, .05), 0, 0));
             struct hit h = trace_closest_1(f->w, f->s, &q);
@@ -474,7 +478,8 @@ static void a_ray_leaves_its_surface(void **state)
                 continue;
             struct interaction at;
             trace_interaction(f->w, &q.ray, &h, &at);
-            struct vec3 out = vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
+            struct vec3 out =
+                vec3(between(&s, -1, 1), between(&s, -1, 1), between(&s, -1, 1));
             if (vec3_dot(out, at.ng) < 0)
                 out = vec3_neg(out);
             assert_true(isinf(first_t(f, trace_offset(&at, out), out)));
@@ -495,8 +500,8 @@ static void small_gaps_are_seen(void **state)
     add(f, pane);
     finish(f);
     struct ray_query q = query(vec3(0, 0, -1e-12), Z);
-    assert_false(trace_occluded_1(f->w, f->s, &(struct ray_query){
-        .ray = {vec3(9, 9, 5), Z, 0, INFINITY}}));
+    assert_false(trace_occluded_1(
+        f->w, f->s, &(struct ray_query){.ray = {vec3(9, 9, 5), Z, 0, INFINITY}}));
     q = query(vec3(.3, 5, 3), vec3(0, -5, -3));
     struct hit h = trace_closest_1(f->w, f->s, &q); // meets the sheet's upper face
     assert_int_equal(f->w->leaf[h.b.leaf].object, 1);
