@@ -1,1 +1,4 @@
-# sources of grammar
+liblambert_a_SOURCES += %D%/parser.y %D%/lexer.l
+
+# Everything that includes "parser.h" waits for bison.
+BUILT_SOURCES += %D%/parser.h

@@ -62,6 +62,21 @@ void arena_reset(struct arena *a)
     a->head->used = 0;
 }
 
+struct arena_mark arena_mark(const struct arena *a)
+{
+    return (struct arena_mark){a->head, a->head->used};
+}
+
+void arena_rewind(struct arena *a, struct arena_mark mark)
+{
+    while (a->head != mark.block) {
+        struct block *b = a->head;
+        a->head = b->prev;
+        free(b);
+    }
+    a->head->used = mark.used;
+}
+
 static void *alloc(struct arena *a, size_t size, size_t align)
 {
     if (size > SIZE_MAX / 4)

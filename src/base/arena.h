@@ -11,6 +11,15 @@ struct arena *arena_new(size_t first_block);
 void arena_free(struct arena *a);
 void arena_reset(struct arena *a); // forgets everything, keeps the first block
 
+// Forgets what was allocated since the mark was taken; marks nest like calls.
+struct arena_mark {
+    void *block;
+    size_t used;
+};
+
+struct arena_mark arena_mark(const struct arena *a);
+void arena_rewind(struct arena *a, struct arena_mark mark);
+
 // Zeroed memory, aligned for any type (or to `align`, a power of two up to 64).
 // Aborts the process when out of memory.
 void *arena_alloc(struct arena *a, size_t size);

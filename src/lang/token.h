@@ -1,6 +1,7 @@
 #ifndef LANG_TOKEN_H
 #define LANG_TOKEN_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/source.h"
@@ -28,6 +29,43 @@ enum word {
     WORD_COUNT
 };
 
+// The class column of keywords.def.
+enum word_class {
+    CLASS_NONE,
+    CLASS_CAMERA,
+    CLASS_COLOUR_WORDS,
+    CLASS_DIRECTIVE_HELPERS,
+    CLASS_DIRECTIVE_WORDS,
+    CLASS_FINISH,
+    CLASS_FLOAT_CONSTANTS_AND_VARIABLES,
+    CLASS_FLOAT_FUNCTIONS,
+    CLASS_FOG__RAINBOW,
+    CLASS_GLOBAL_SETTINGS,
+    CLASS_IMAGE_FILE_WORDS,
+    CLASS_INTERIOR__MEDIA,
+    CLASS_LIGHTS,
+    CLASS_OBJECTS,
+    CLASS_OBJECT_MODIFIERS,
+    CLASS_ONLY_INSIDE__FUNCTION,
+    CLASS_OTHER_SCENE_LEVEL_BLOCKS,
+    CLASS_PATTERNS,
+    CLASS_PATTERN_MODIFIERS,
+    CLASS_PHOTONS,
+    CLASS_PRIMITIVE_WORDS,
+    CLASS_RADIOSITY,
+    CLASS_RESERVED__USED_NOWHERE,
+    CLASS_RVALUE_WORD,
+    CLASS_STRING_FUNCTIONS,
+    CLASS_TRANSFORM_WORDS,
+    CLASS_VALUE_BLOCKS,
+    CLASS_VECTOR_CONSTANTS,
+    CLASS_VECTOR_FUNCTIONS,
+    CLASS_WARPS,
+};
+
 const char *word_text(enum word w);
+enum word_class word_class(enum word w);
+enum word word_find(const char *text, size_t len); // WORD_NONE: not reserved
+const char *const *word_list(void);                // WORD_COUNT - 1 texts, sorted
 
 #endif

@@ -1,0 +1,608 @@
+%require "3.6"
+%expect 0
+%define api.pure full
+%define api.prefix {sdl_}
+%define api.token.prefix {TOK_}
+%define api.value.type union
+%define api.location.type {struct span}
+%define parse.error custom
+%locations
+%param {struct parse *p}
+
+%code requires {
+#include "base/source.h"
+#include "lang/ast.h"
+
+struct parse;
+}
+
+%code {
+#include "lang/parse_state.h"
+
+// Small, since directives inside expressions run the grammar inside itself; it
+// grows on the heap.
+#define YYINITDEPTH 24
+#define YYMAXDEPTH 16000
+
+#define YYLLOC_DEFAULT(Cur, Rhs, N)                                                      \
+    ((Cur) = (N) ? span_join(YYRHSLOC(Rhs, 1), YYRHSLOC(Rhs, N))                         \
+                 : (struct span){YYRHSLOC(Rhs, 0).file, YYRHSLOC(Rhs, 0).end,            \
+                                 YYRHSLOC(Rhs, 0).end, YYRHSLOC(Rhs, 0).expansion})
+
+static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p);
+static void sdl_error(struct span *where, struct parse *p, const char *message);
+
+static struct ast *of_list(struct parse *p, enum ast_kind kind, struct span where,
+                           enum word word, struct ast *list)
+{
+    struct ast *n = ast_new(p->arena, kind, where);
+    n->word = (uint16_t)word;
+    n->list = list;
+    return n;
+}
+
+static struct ast *unary(struct parse *p, struct span where, int op, struct ast *operand)
+{
+    struct ast *n = ast_new(p->arena, AST_UNARY, where);
+    n->op = (uint16_t)op;
+    n->left = operand;
+    return n;
+}
+
+static struct ast *binary(struct parse *p, struct span where, int op, struct ast *left,
+                          struct ast *right)
+{
+    struct ast *n = ast_new(p->arena, AST_BINARY, where);
+    n->op = (uint16_t)op;
+    n->left = left;
+    n->right = right;
+    return n;
+}
+
+static struct ast *conditional(struct parse *p, struct span where, struct ast *condition,
+                               struct ast *yes, struct ast *no)
+{
+    condition->next = yes;
+    yes->next = no;
+    return of_list(p, AST_CONDITIONAL, where, WORD_NONE, condition);
+}
+
+static struct ast *word(struct parse *p, struct span where, enum word w)
+{
+    return of_list(p, AST_WORD, where, w, NULL);
+}
+
+static struct ast_list one(struct ast *node)
+{
+    return ast_append((struct ast_list){0}, node);
+}
+
+static struct ast_list join(struct ast_list a, struct ast_list b)
+{
+    a.last->next = b.first;
+    a.last = b.last;
+    a.count += b.count;
+    return a;
+}
+
+static struct ast *apply(struct ast *function, struct span where, struct ast *arguments)
+{
+    function->kind = AST_APPLY;
+    function->where = where;
+    function->list = arguments;
+    return function;
+}
+
+static struct ast *subscripts(struct ast *array, struct span where, struct ast *list)
+{
+    array->kind = AST_INDEX;
+    array->where = where;
+    array->list = list;
+    return array;
+}
+
+// A list's comma: false when there is nothing for it to follow.
+static bool comma(struct ast_list list)
+{
+    if (!list.last || list.last->comma_after)
+        return false;
+    list.last->comma_after = 1;
+    return true;
+}
+
+#define COMMA(list, where)                                                               \
+    do {                                                                                 \
+        if (!comma(list)) {                                                              \
+            sdl_error(&(where), p, "this comma has nothing before it");                  \
+            YYABORT;                                                                     \
+        }                                                                                \
+    } while (0)
+
+// An array element of several items is one node.
+static struct ast *element(struct parse *p, struct ast_list items)
+{
+    if (items.count == 1)
+        return items.first;
+    return of_list(p, AST_BLOCK, span_join(items.first->where, items.last->where),
+                   WORD_NONE, items.first);
+}
+
+static bool is_texture(const struct ast *n)
+{
+    return n && n->kind == AST_BLOCK && n->word == WORD_texture;
+}
+
+// Adds an element to an initialiser; textures with no comma between are layers.
+static struct ast_list add_element(struct parse *p, struct ast_list list, struct ast *n)
+{
+    struct ast *last = list.last;
+    bool layers = last && last->kind == AST_BLOCK && last->word == WORD_NONE &&
+                  is_texture(last->list);
+    if (!is_texture(n) || !last || last->comma_after || !(layers || is_texture(last)))
+        return ast_append(list, n);
+    if (!layers) {
+        struct ast *first = arena_new_struct(p->arena, struct ast);
+        *first = *last;
+        last->word = WORD_NONE;
+        last->list = first;
+    }
+    struct ast *end = last->list;
+    while (end->next)
+        end = end->next;
+    end->next = n;
+    last->where = span_join(last->where, n->where);
+    return list;
+}
+}
+
+%token END 0 "the end of the file"
+%token START_STATEMENT START_CONDITION START_LIST START_ITEMS START_SUBSCRIPT
+%token START_STRING START_BRACES START_RVALUE START_ARGUMENT START_ELEMENTS
+%token STRAY STOP
+%token LE "<=" GE ">=" NE "!=" LESS GREATER
+%token MORE                     // a ']' with '[' after it
+%token <enum word> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
+%token <enum word> FUNCTION ARRAY
+%token <struct ast *> NUMBER STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
+
+%type <struct ast *> statement block function_block function_body params size entry
+%type <struct ast *> full compare value arith unary primary vector string string_or_arith
+%type <struct ast *> item arg element call subs array
+%type <struct ast_list> items args arg_list components names colour parts colour_start
+%type <struct ast_list> sub_list dims elements element_list
+%type <struct ast *> logic xlogic xcompare sizes
+%type <enum word> member
+%type <int> relop xrelop
+
+%token END_OF_TOKENS            // the last; never read
+%precedence VALUE_ENDS          // a value ends only where no operator follows
+%precedence PART
+%left '+' '-'
+%left '*' '/'
+
+%%
+
+// The pseudo-token chooses what to read; what the last token completes is accepted
+// without looking at the next one, which might run a directive too early.
+start:
+    START_STATEMENT statement           { p->result = $2; YYACCEPT; }
+  | START_STATEMENT END                 { p->result = NULL; YYACCEPT; }
+  | START_CONDITION '(' full ')'        { p->result = $3; YYACCEPT; }
+  | START_LIST args ')'                 { p->result = $2.first; YYACCEPT; }
+  | START_ITEMS items ')'               { p->result = $2.first; YYACCEPT; }
+  | START_SUBSCRIPT value close         { p->result = $2; YYACCEPT; }
+  | START_STRING string                 { p->result = $2; YYACCEPT; }
+  | START_STRING subs                   { p->result = $2; YYACCEPT; }
+  | START_BRACES '{' braces items '}'   { p->result = $4.first; YYACCEPT; }
+  | START_RVALUE colour ';'             { p->result = $2.first; YYACCEPT; }
+  | START_RVALUE colour STOP
+    {
+        parse_missing_semicolon(p, $2.count == 1 ? $2.first : NULL);
+        p->result = $2.first;
+        YYACCEPT;
+    }
+  | START_RVALUE whole                  { YYACCEPT; }
+  | START_ARGUMENT colour STOP          { p->result = $2.first; YYACCEPT; }
+  | START_ARGUMENT whole                { YYACCEPT; }
+  | START_ELEMENTS '{' elements '}'
+    {
+        p->result = of_list(p, AST_ENTRY, @$, WORD_NONE, $3.first);
+        YYACCEPT;
+    }
+  ;
+
+braces: %empty { parse_open(p, WORD_default, false, @$); } ;
+
+// Right sides complete in themselves.
+whole:
+    block                               { p->result = $1; }
+  | OTHER_NAME                          { p->result = $1; }
+  | string                              { p->result = $1; }
+  | WORD OTHER_NAME
+    {
+        p->result = word(p, @1, $1);
+        p->result->next = $2;
+    }
+  ;
+
+statement:
+    block
+  | OTHER_NAME
+  | NAME
+  | subs
+  | WORD NUMBER                         { $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
+  | WORD NAME                           { $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
+  ;
+
+block:
+    WORD '{' { parse_open(p, $1, false, @1); } items '}'
+    {
+        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, $1, $4.first));
+    }
+  | function_block
+  ;
+
+function_block:
+    FUNCTION '{' in_function function_body '}'
+    {
+        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, WORD_function, $4));
+    }
+  | FUNCTION '(' params ')' '{' in_function function_body '}'
+    {
+        $3->next = $7;
+        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, WORD_function, $3));
+    }
+  | FUNCTION sizes '{' in_function function_body '}'
+    {
+        $2->next->next = $5;
+        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, WORD_function, $2));
+    }
+  ;
+
+in_function:
+    %empty
+    {
+        parse_open(p, WORD_function, false, @$);
+        p->function = true;
+    }
+  ;
+
+function_body: full | block ;
+
+params:
+    names
+    {
+        $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, $1.first);
+    }
+  ;
+
+names:
+    %empty                              { $$ = (struct ast_list){0}; }
+  | names NAME                          { $$ = ast_append($1, $2); }
+  | names STRING_NAME                   { $$ = ast_append($1, $2); }
+  | names OTHER_NAME                    { $$ = ast_append($1, $2); }
+  | names CONSTANT
+    {
+        $$ = ast_append($1, of_list(p, AST_CONSTANT, @2, $2, NULL));
+    }
+  | names ','                           { $$ = $1; COMMA($1, @2); }
+  ;
+
+// The two sizes of an image made by a function.
+sizes:
+    size ',' size
+    {
+        $$ = $1;
+        $$->comma_after = 1;
+        $$->next = $3;
+    }
+  ;
+
+size:
+    NUMBER
+  | NAME
+  | subs
+  | size '*' unary                      { $$ = binary(p, @$, '*', $1, $3); }
+  | size '/' unary                      { $$ = binary(p, @$, '/', $1, $3); }
+  ;
+
+items:
+    %empty                              { $$ = (struct ast_list){0}; }
+  | items item                          { $$ = ast_append($1, $2); }
+  | items ','                           { $$ = $1; COMMA($1, @2); }
+  ;
+
+item:
+    value
+  | string
+  | OTHER_NAME
+  | block
+  | entry
+  | WORD                                { $$ = word(p, @1, $1); }
+  | COLOR                               { $$ = word(p, @1, $1); }
+  | RGB                                 { $$ = word(p, @1, $1); }
+  | PART                                { $$ = word(p, @1, $1); }
+  | GRAY                                { $$ = word(p, @1, $1); }
+  | XYZ '(' args ')' ':' value
+    {
+        $$ = of_list(p, AST_CALL, @$, WORD_xyz, ast_append($3, $6).first);
+    }
+  ;
+
+entry:
+    '[' { parse_open(p, WORD_NONE, true, @1); } items close
+    {
+        $$ = parse_close(p, of_list(p, AST_ENTRY, @$, WORD_NONE, $3.first));
+    }
+  ;
+
+close: ']' | MORE ;
+
+// Two levels (language 2.3): `full` has every comparison; `value` stands where a
+// '<' after an operand starts the next vector.
+full:
+    logic
+  | logic '?' full ':' full             { $$ = conditional(p, @$, $1, $3, $5); }
+  ;
+
+logic:
+    compare
+  | logic '&' compare                   { $$ = binary(p, @$, '&', $1, $3); }
+  | logic '|' compare                   { $$ = binary(p, @$, '|', $1, $3); }
+  ;
+
+compare:
+    arith
+  | compare relop string_or_arith       { $$ = binary(p, @$, $2, $1, $3); }
+  | string relop string_or_arith        { $$ = binary(p, @$, $2, $1, $3); }
+  ;
+
+string_or_arith: string | arith ;
+
+relop: xrelop | '<' { $$ = '<'; } | '>' { $$ = '>'; } ;
+
+xrelop:
+    '='                                 { $$ = '='; }
+  | LE                                  { $$ = OP_LE; }
+  | GE                                  { $$ = OP_GE; }
+  | NE                                  { $$ = OP_NE; }
+  | LESS                                { $$ = '<'; }
+  | GREATER                             { $$ = '>'; }
+  ;
+
+value:
+    xlogic %prec VALUE_ENDS
+  | xlogic '?' full ':' value           { $$ = conditional(p, @$, $1, $3, $5); }
+  ;
+
+xlogic:
+    xcompare
+  | xlogic '&' xcompare                 { $$ = binary(p, @$, '&', $1, $3); }
+  | xlogic '|' xcompare                 { $$ = binary(p, @$, '|', $1, $3); }
+  ;
+
+xcompare:
+    arith %prec VALUE_ENDS
+  | xcompare xrelop arith %prec VALUE_ENDS { $$ = binary(p, @$, $2, $1, $3); }
+  ;
+
+arith:
+    arith '+' arith                     { $$ = binary(p, @$, '+', $1, $3); }
+  | arith '-' arith                     { $$ = binary(p, @$, '-', $1, $3); }
+  | arith '*' arith                     { $$ = binary(p, @$, '*', $1, $3); }
+  | arith '/' arith                     { $$ = binary(p, @$, '/', $1, $3); }
+  | unary
+  ;
+
+unary:
+    '-' unary                { $$ = unary(p, @$, '-', $2); }
+  | '+' unary                { $$ = unary(p, @$, '+', $2); }
+  | '!' unary                { $$ = unary(p, @$, '!', $2); }
+  | primary
+  ;
+
+primary:
+    NUMBER
+  | NAME
+  | CONSTANT                            { $$ = of_list(p, AST_CONSTANT, @1, $1, NULL); }
+  | call
+  | subs
+  | vector
+  | '(' full ')'                        { $$ = $2; $$->parens = 1; }
+  | primary '.' member
+    {
+        $$ = ast_new(p->arena, AST_MEMBER, @$);
+        $$->word = (uint16_t)$3;
+        $$->left = $1;
+    }
+  ;
+
+member: CONSTANT | PART | GRAY ;
+
+vector:
+    '<' components '>'                  { $$ = of_list(p, AST_VECTOR, @$, WORD_NONE, $2.first); }
+  ;
+
+components:
+    value                               { $$ = one($1); }
+  | components value                    { $$ = ast_append($1, $2); }
+  | components ','                      { $$ = $1; COMMA($1, @2); }
+  ;
+
+call:
+    CALL1 '(' full ')'
+    {
+        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, $3));
+    }
+  | CALL '(' args ')'
+    {
+        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, $3.first));
+    }
+  | FUNCTION_NAME '(' args ')'
+    {
+        $$ = parse_finish(p, apply($1, @$, $3.first));
+    }
+  ;
+
+string:
+    STRING
+  | STRING_NAME
+  | STRING_CALL '(' args ')'
+    {
+        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, $3.first));
+    }
+  ;
+
+args:
+    %empty                              { $$ = (struct ast_list){0}; }
+  | arg_list
+  ;
+
+arg_list:
+    arg                                 { $$ = one($1); }
+  | arg_list arg                        { $$ = ast_append($1, $2); }
+  | arg_list ','                        { $$ = $1; COMMA($1, @2); }
+  ;
+
+arg:
+    value
+  | string
+  | OTHER_NAME
+  | WORD                                { $$ = word(p, @1, $1); }
+  ;
+
+subs:
+    ARRAY_NAME sub_list
+    {
+        $$ = parse_finish(p, subscripts($1, @$, $2.first));
+    }
+  ;
+
+sub_list:
+    '[' value ']'                       { $$ = one($2); }
+  | '[' value MORE sub_list
+    {
+        $2->next = $4.first;
+        $$ = $4;
+        $$.first = $2;
+    }
+  ;
+
+// first { part }, kept flat (language 2.6).
+colour:
+    value %prec VALUE_ENDS              { $$ = one($1); }
+  | value parts %prec VALUE_ENDS        { $$ = join(one($1), $2); }
+  | colour_start %prec VALUE_ENDS
+  | colour_start parts %prec VALUE_ENDS { $$ = join($1, $2); }
+  ;
+
+colour_start:
+    RGB value                           { $$ = ast_append(one(word(p, @1, $1)), $2); }
+  | PART value                          { $$ = ast_append(one(word(p, @1, $1)), $2); }
+  | COLOR value                         { $$ = ast_append(one(word(p, @1, $1)), $2); }
+  | COLOR RGB value
+    {
+        $$ = ast_append(ast_append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
+    }
+  | COLOR PART value
+    {
+        $$ = ast_append(ast_append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
+    }
+  ;
+
+parts:
+    PART value                          { $$ = ast_append(one(word(p, @1, $1)), $2); }
+  | parts PART value
+    {
+        $$ = ast_append(ast_append($1, word(p, @2, $2)), $3);
+    }
+  ;
+
+array:
+    ARRAY dims '{' elements '}'
+    {
+        struct ast *sizes = of_list(p, AST_ENTRY, @2, WORD_NONE, $2.first);
+        sizes->next = of_list(p, AST_ENTRY, span_join(@3, @5), WORD_NONE, $4.first);
+        $$ = of_list(p, AST_BLOCK, @$, WORD_array, sizes);
+    }
+  ;
+
+dims: sub_list ;
+
+elements:
+    %empty                              { $$ = (struct ast_list){0}; }
+  | element_list
+  ;
+
+element_list:
+    element                             { $$ = one($1); }
+  | element_list element                { $$ = add_element(p, $1, $2); }
+  | element_list ','                    { $$ = $1; COMMA($1, @2); }
+  ;
+
+element:
+    colour %prec VALUE_ENDS             { $$ = element(p, $1); }
+  | string
+  | OTHER_NAME
+  | block
+  | array
+  | '{' elements '}'                    { $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, $2.first); }
+  ;
+
+%%
+
+static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
+{
+    struct token t;
+    int kind = parse_token(p, &t);
+    *where = t.where;
+    enum ast_kind node;
+    switch (kind) {
+    case TOK_NUMBER:
+        value->TOK_NUMBER = ast_new(p->arena, AST_NUMBER, t.where);
+        value->TOK_NUMBER->number = t.number;
+        return kind;
+    case TOK_STRING:
+        node = AST_STRING;
+        break;
+    case TOK_NAME:
+    case TOK_STRING_NAME:
+    case TOK_OTHER_NAME:
+    case TOK_ARRAY_NAME:
+    case TOK_FUNCTION_NAME:
+        node = t.value ? AST_VALUE : AST_UNDECLARED;
+        break;
+    default:
+        value->TOK_WORD = (enum word)t.word;
+        return kind;
+    }
+    struct ast *n = ast_new(p->arena, node, t.where);
+    n->text = t.text;
+    n->len = t.len;
+    n->value = t.value;
+    value->TOK_NAME = n;
+    return kind;
+}
+
+static void sdl_error(struct span *where, struct parse *p, const char *message)
+{
+    if (!p->failed)
+        diag_at(stream_diags(p->in), DIAG_SYNTAX, *where, message);
+    p->failed = true;
+}
+
+static int yyreport_syntax_error(const yypcontext_t *ctx, struct parse *p)
+{
+    enum { MAX = 128 };
+    yysymbol_kind_t want[MAX];
+    int kinds[MAX];
+    int n = yypcontext_expected_tokens(ctx, want, MAX);
+    for (int i = 0; i < n; i++) { // back to token numbers, which the rest of lang/ knows
+        kinds[i] = 0;
+        for (int c = 1; c < TOK_END_OF_TOKENS; c++)
+            if (YYTRANSLATE(c) == want[i])
+                kinds[i] = c;
+    }
+    parse_syntax_error(p, kinds, n);
+    return 0;
+}

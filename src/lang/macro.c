@@ -1,0 +1,172 @@
+#include <string.h>
+
+#include "lang/parse_state.h"
+#include "lang/stream_state.h"
+#include "parser.h"
+
+// #macro NAME(parameters) body #end: the body is kept as a run of tokens.
+void macro_define(struct stream *s, struct token word)
+{
+    struct token name;
+    struct macro *m = arena_new_struct(s->arena, struct macro);
+    bool ok = raw_expect_name(s, &name, "#macro") && raw_expect(s, '(', "'('", "#macro");
+    while (ok && raw_peek(s).kind != ')') {
+        const struct cursor *c = &s->cursors[s->cursor_count - 1];
+        const struct token *parameter = &c->tokens[c->at];
+        struct token t;
+        ok = raw_expect_name(s, &t, "#macro");
+        if (ok && m->parameter_count == PARAMETERS_MAX) {
+            diag_at(s->diags, DIAG_TOO_MANY_PARAMETERS, t.where, PARAMETERS_MAX);
+            ok = false;
+        }
+        if (ok)
+            m->parameter[m->parameter_count++] = parameter;
+        raw_take_if(s, ',');
+    }
+    ok = ok && raw_expect(s, ')', "')'", "#macro");
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    uint32_t from = c->at;
+    struct token stop;
+    if (!directive_skip(s, 1, false, false, &stop)) {
+        diag_at(s->diags, DIAG_MISSING_END, word.where, "macro");
+        return;
+    }
+    if (!ok)
+        return;
+    m->name = arena_strndup(s->arena, name.text, name.len);
+    m->where = name.where;
+    m->body = c->tokens + from;
+    m->count = c->at - 2 - from; // without '#' and `end`
+    s->host.define_macro(s->host.user, name.text, name.len, name.where, m);
+}
+
+bool array_literal(struct stream *s, struct ast_list *sizes, struct ast **elements)
+{
+    bool ok = true;
+    *sizes = (struct ast_list){0};
+    *elements = NULL;
+    if (!raw_expect(s, '[', "'['", "array"))
+        return false;
+    do {
+        struct ast *n = parse_run(s, TOK_START_SUBSCRIPT, &ok);
+        if (!ok)
+            return false;
+        *sizes = ast_append(*sizes, n);
+    } while (raw_take_if(s, '['));
+    if (raw_peek(s).kind == '{')
+        *elements = parse_run(s, TOK_START_ELEMENTS, &ok);
+    return ok;
+}
+
+// Whether a call's next argument is one name or array element and nothing else.
+static bool is_reference(const struct stream *s)
+{
+    if (s->pending_set)
+        return false;
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    uint32_t i = c->at;
+    if (i >= c->count || c->tokens[i].kind != TOK_NAME)
+        return false;
+    struct name_info info =
+        s->host.lookup(s->host.user, c->tokens[i].text, c->tokens[i].len);
+    if (info.class == NAME_FUNCTION || info.class == NAME_MACRO)
+        return false;
+    i++;
+    while (info.class == NAME_ARRAY && i < c->count && c->tokens[i].kind == '[') {
+        int depth = 0;
+        do
+            depth += (c->tokens[i].kind == '[') - (c->tokens[i].kind == ']');
+        while (++i < c->count && depth > 0);
+    }
+    int kind = c->tokens[i].kind;
+    return i < c->count && (kind == ',' || kind == ')' || kind == TOK_NAME ||
+                            kind == TOK_NUMBER || kind == TOK_STRING || kind == '<');
+}
+
+static bool read_argument(struct stream *s, struct macro_argument *a)
+{
+    bool ok;
+    *a = (struct macro_argument){0};
+    if (is_reference(s)) {
+        a->by_reference = true;
+        if (!raw_lvalue(s, &a->reference, "a macro call"))
+            return false;
+        struct name_info info =
+            s->host.lookup(s->host.user, a->reference.name, a->reference.len);
+        if (info.class != NAME_UNDECLARED)
+            return true;
+        diag_at(s->diags, DIAG_UNDECLARED_ARGUMENT, a->reference.where,
+                (int)a->reference.len, a->reference.name);
+        return false;
+    }
+    if (raw_peek(s).kind == TOK_ARRAY) {
+        struct ast_list sizes;
+        struct ast *elements, *array;
+        struct span where = raw_take(s).where;
+        if (!array_literal(s, &sizes, &elements))
+            return false;
+        array = ast_new(s->nodes, AST_BLOCK, where);
+        array->word = WORD_array;
+        array->list = ast_new(s->nodes, AST_ENTRY, where);
+        array->list->list = sizes.first;
+        array->list->next = elements;
+        a->rvalue = array;
+        return true;
+    }
+    a->rvalue = parse_run(s, TOK_START_ARGUMENT, &ok);
+    return ok;
+}
+
+// Reads the arguments up to the ')'; -1 after an error.
+static int read_arguments(struct stream *s, struct span call, const struct macro *m,
+                          struct macro_argument *out)
+{
+    int count = 0;
+    bool ok = raw_expect(s, '(', "'('", "a macro call");
+    while (ok) {
+        // A directive or macro may stand before an argument.
+        if (raw_peek(s).kind == '#')
+            stream_give_back(s, stream_next(s));
+        if (raw_peek(s).kind == ')')
+            break;
+        struct macro_argument extra;
+        ok = read_argument(s, count < PARAMETERS_MAX ? &out[count] : &extra);
+        count++;
+        if (ok && !raw_take_if(s, ',') && raw_peek(s).kind == TOK_END)
+            break;
+    }
+    if (!ok || !raw_expect(s, ')', "')'", "a macro call"))
+        return -1;
+    if (count == m->parameter_count)
+        return count;
+    diag_report(s->diags, DIAG_ARGUMENT_COUNT, call, &m->where, NULL, m->name,
+                m->parameter_count, count);
+    return -1;
+}
+
+void macro_call(struct stream *s, struct token name, struct macro *m)
+{
+    struct arena_mark mark = arena_mark(s->nodes);
+    struct macro_argument *args =
+        arena_new_array(s->nodes, struct macro_argument, PARAMETERS_MAX);
+    int count = read_arguments(s, name.where, m, args);
+    if (count >= 0 && s->calls >= CALLS_MAX) {
+        diag_at(s->diags, DIAG_TOO_DEEP, name.where, "macro calls", CALLS_MAX);
+        s->stopped = true;
+        count = -1;
+    }
+    if (count >= 0 && s->host.enter_scope(s->host.user, name.where)) {
+        bool ok = true;
+        for (int i = 0; i < count; i++)
+            ok &= s->host.bind_argument(s->host.user, m->parameter[i]->text,
+                                        m->parameter[i]->len, &args[i]);
+        s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
+                                 sizeof *s->cursors);
+        s->cursors[s->cursor_count++] = (struct cursor){
+            .tokens = m->body, .count = m->count, .macro = m, .frames = s->frame_count,
+            .at = ok ? 0 : m->count,
+            .expansion = source_expand(s->sources, m->name, name.where)};
+        s->calls++;
+    }
+    arena_rewind(s->nodes, mark);
+}

@@ -1,0 +1,375 @@
+#include "lang/parse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lang/parse_state.h"
+#include "lang/stream_state.h"
+#include "parser.h"
+
+// Whether a directive may stand in the middle of a right side after a complete
+// operand: only branches; anything else ends it (language 3.1).
+static bool directive_continues(struct stream *s)
+{
+    switch (raw_peek_second(s).word) {
+    case WORD_if: case WORD_ifdef: case WORD_ifndef: case WORD_switch:
+        return true;
+    case WORD_else: case WORD_elseif: case WORD_case: case WORD_range: case WORD_end:
+        return s->frame_count && s->frames[s->frame_count - 1].kind <= FRAME_SWITCH;
+    default:
+        return false;
+    }
+}
+
+// Whether a right side goes on with this token after a complete operand.
+static bool continues(const struct parse *p, int kind)
+{
+    return kind == '+' || kind == '-' || kind == '*' || kind == '/' || kind == '.' ||
+           kind == '?' || kind == ':' || kind == TOK_PART ||
+           (kind == ';' && p->start == TOK_START_RVALUE);
+}
+
+static void note_brackets(struct parse *p, int kind)
+{
+    if (kind == '(' || kind == '[' || kind == '{')
+        p->nest++;
+    else if (kind == ')' || kind == ']' || kind == TOK_MORE || kind == '}')
+        p->nest--;
+    else if (p->nest == 0 && kind == '<')
+        p->vectors++;
+    else if (p->nest == 0 && kind == '>')
+        p->vectors--;
+    p->braces += (kind == '{') - (kind == '}');
+}
+
+static bool completes(const struct parse *p, int kind)
+{
+    return kind == TOK_NUMBER || kind == TOK_STRING || kind == TOK_NAME ||
+           kind == TOK_STRING_NAME || kind == TOK_OTHER_NAME || kind == TOK_CONSTANT ||
+           kind == ')' || kind == ']' || kind == '>' || kind == '}' || p->after_period;
+}
+
+int parse_token(struct parse *p, struct token *out)
+{
+    if (p->now.kind < 0) { // the first: what to read
+        p->now.kind = 0;
+        *out = (struct token){.where = raw_peek(p->in).where};
+        out->where.end = out->where.begin;
+        return p->start;
+    }
+    struct stream *s = p->in;
+    bool end_possible = p->bounded && p->operand && p->nest == 0 && p->vectors == 0;
+    struct token t;
+    if (end_possible && raw_peek(s).kind == '#' && !directive_continues(s)) {
+        t = raw_peek(s);
+        t.kind = TOK_STOP;
+    } else {
+        t = stream_next(s);
+        if (end_possible && !continues(p, t.kind)) {
+            stream_give_back(s, t);
+            t.kind = TOK_STOP;
+        }
+    }
+    if (t.kind != TOK_STOP) {
+        note_brackets(p, t.kind);
+        p->operand = completes(p, t.kind);
+        p->after_period = t.kind == '.';
+    }
+    if (p->nest > PARSE_NEST_MAX) {
+        diag_at(s->diags, DIAG_TOO_DEEP, t.where, "brackets", (int)PARSE_NEST_MAX);
+        p->failed = true;
+        s->stopped = true;
+        t.kind = TOK_END;
+    }
+    if (p->function && t.kind == '<')
+        t.kind = TOK_LESS;
+    else if (p->function && t.kind == '>')
+        t.kind = TOK_GREATER;
+    p->last = p->now;
+    p->now = t;
+    *out = t;
+    return t.kind;
+}
+
+void parse_open(struct parse *p, enum word word, bool entry, struct span where)
+{
+    if (p->block_count == p->block_capacity) {
+        p->block_capacity = p->block_capacity ? 2 * p->block_capacity : 8;
+        p->blocks = realloc(p->blocks, p->block_capacity * sizeof *p->blocks);
+        if (!p->blocks)
+            abort();
+    }
+    p->blocks[p->block_count++] =
+        (struct parse_block){word, entry, p->function, where, arena_mark(p->arena)};
+    p->function = false;
+}
+
+// Blocks of an object's keyword that are parts of something else.
+static bool is_part(const struct parse *p, enum word w)
+{
+    if (!p->block_count)
+        return false;
+    const struct parse_block *outer = &p->blocks[p->block_count - 1];
+    if (outer->entry)
+        return true;
+    switch (outer->word) {
+    case WORD_blob:
+    case WORD_contained_by:
+        return true;
+    case WORD_mesh:
+        return w == WORD_triangle || w == WORD_smooth_triangle;
+    case WORD_pigment: case WORD_normal: case WORD_texture: case WORD_density:
+    case WORD_pattern: case WORD_pigment_pattern: case WORD_interior_texture:
+    case WORD_function:
+        return w == WORD_object;
+    default:
+        return false;
+    }
+}
+
+// At a closing brace. A finished object needs its text no more.
+struct ast *parse_close(struct parse *p, struct ast *node)
+{
+    struct parse_block b = p->blocks[--p->block_count];
+    p->function = b.function;
+    enum word w = (enum word)node->word;
+    if (node->kind != AST_BLOCK || word_class(w) != CLASS_OBJECTS || is_part(p, w))
+        return node;
+    struct ast *done = p->in->host.finish(p->in->host.user, node);
+    if (!done)
+        done = node;
+    if (done->kind != AST_VALUE)
+        return done;
+    struct ast keep = *done;
+    arena_rewind(p->arena, b.mark);
+    struct ast *n = ast_new(p->arena, AST_VALUE, keep.where);
+    n->text = keep.text;
+    n->len = keep.len;
+    n->value = keep.value;
+    return n;
+}
+
+struct ast *parse_finish(struct parse *p, struct ast *node)
+{
+    bool plain = node->kind == AST_CALL &&
+                 (node->word == WORD_pwr || node->word == WORD_internal ||
+                  node->word == WORD_sum || node->word == WORD_prod);
+    if (plain || (p->function && node->kind != AST_INDEX))
+        return node;
+    struct ast *done = p->in->host.finish(p->in->host.user, node);
+    return done ? done : node;
+}
+
+// `#declare A = 5` without the ';'. Names and array elements of other types than
+// numbers need none, which only eval can tell.
+void parse_missing_semicolon(struct parse *p, const struct ast *value)
+{
+    if (value && (value->kind == AST_VALUE || value->kind == AST_INDEX) && !value->parens &&
+        p->last.kind == ']')
+        return;
+    struct span where = p->last.where;
+    where.begin = where.end > where.begin ? where.end - 1 : where.end;
+    const char *hint =
+        p->now.where.file == p->last.where.file && raw_peek(p->in).kind == '<'
+            ? "a comparison here needs parentheses around it"
+            : NULL;
+    enum diag_code code = p->in->version < 3.5 ? DIAG_OLD_SEMICOLON : DIAG_SEMICOLON;
+    diag_hint(p->in->diags, code, where, hint, 0);
+}
+
+static const char *token_text(struct parse *p, const struct token *t)
+{
+    switch (t->kind) {
+    case TOK_END:
+        return "the end of the file";
+    case TOK_NUMBER:
+        return "a number";
+    case TOK_STRING:
+        return "a string";
+    default:
+        return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
+    }
+}
+
+static void expected_text(char *out, size_t size, const int *kinds, int count)
+{
+    static const struct {
+        int kind;
+        const char *text;
+    } names[] = {
+        {TOK_NUMBER, "a number or vector"}, {TOK_STRING, "a string"},
+        {'{', "'{'"}, {'}', "'}'"}, {')', "')'"}, {']', "']'"}, {'>', "'>'"},
+        {'(', "'('"}, {';', "';'"}, {',', "','"}, {':', "':'"},
+    };
+    const char *found[sizeof names / sizeof *names];
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int k = 0; k < count; k++)
+            if (kinds[k] == names[i].kind && n < 4)
+                found[n++] = names[i].text;
+    size_t len = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < n && len < size; i++)
+        len += (size_t)snprintf(out + len, size - len, "%s%s",
+                                i == 0 ? ", expected " : i + 1 < n ? ", " : " or ",
+                                found[i]);
+}
+
+static void report_unknown_word(struct stream *s, const struct token *t)
+{
+    const char *near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
+    const char *hint = near ? arena_printf(s->nodes, "did you mean '%s'?", near) : NULL;
+    diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
+}
+
+void parse_syntax_error(struct parse *p, const int *expected, int count)
+{
+    struct stream *s = p->in;
+    if (p->failed || s->stopped)
+        return;
+    p->failed = true;
+    const struct token *t = &p->now, *last = &p->last;
+    if (t->kind == '{' && last->kind == TOK_NAME && !last->value) {
+        report_unknown_word(s, last);
+        return;
+    }
+    if (t->kind == TOK_END && p->block_count) {
+        const struct parse_block *b = &p->blocks[p->block_count - 1];
+        diag_report(s->diags, DIAG_UNCLOSED, t->where, &b->where, NULL,
+                    b->entry ? "[" : word_text(b->word), b->entry ? "]" : "}");
+        return;
+    }
+    char text[256];
+    expected_text(text, sizeof text, expected, count);
+    diag_at(s->diags, DIAG_UNEXPECTED, t->where, token_text(p, t), text);
+}
+
+// After an error: to where the broken statement, right side or list ends.
+static void skip_broken(struct parse *p)
+{
+    struct stream *s = p->in;
+    if (p->now.kind == TOK_STOP)
+        return;
+    if (p->braces < 0 || (p->now.kind == TOK_END && !s->stopped)) {
+        stream_give_back(s, p->now);
+        return;
+    }
+    bool parens = p->start == TOK_START_CONDITION || p->start == TOK_START_LIST ||
+                  p->start == TOK_START_ITEMS;
+    if (p->start == TOK_START_LIST || p->start == TOK_START_ITEMS)
+        p->nest++;
+    int last = p->now.kind;
+    while (!s->stopped) {
+        if (p->braces <= 0 && (last == ';' || last == '}'))
+            break;
+        if (parens && p->nest <= 0)
+            break;
+        struct token next = raw_peek(s);
+        if (next.kind == TOK_END || (next.kind == '#' && p->braces <= 0) ||
+            (next.kind == '}' && p->braces <= 0))
+            break;
+        if (p->braces <= 0 && !parens && next.kind == TOK_WORD &&
+            raw_peek_second(s).kind == '{')
+            break;
+        struct token t = stream_next(s);
+        if (t.kind == TOK_END)
+            break;
+        note_brackets(p, last = t.kind);
+    }
+    if (p->start == TOK_START_RVALUE)
+        raw_take_if(s, ';');
+}
+
+static bool is_bounded(int start)
+{
+    return start == TOK_START_RVALUE || start == TOK_START_ARGUMENT;
+}
+
+struct ast *parse_run(struct stream *in, int start, bool *ok)
+{
+    struct parse p = {.in = in, .arena = in->nodes, .start = start,
+                      .bounded = is_bounded(start), .now = {.kind = -1}};
+    *ok = false;
+    if (in->runs == PARSE_RUNS_MAX) {
+        diag_at(in->diags, DIAG_TOO_DEEP, raw_peek(in).where,
+                "calls inside expressions", (int)PARSE_RUNS_MAX);
+        in->stopped = true;
+        return NULL;
+    }
+    in->runs++;
+    int code = sdl_parse(&p);
+    in->runs--;
+    free(p.blocks);
+    *ok = code == 0 && !p.failed;
+    if (code == 2 && !in->stopped) {
+        diag_at(in->diags, DIAG_TOO_DEEP, p.now.where, "brackets", (int)PARSE_NEST_MAX);
+        in->stopped = true;
+    }
+    if (!*ok)
+        skip_broken(&p);
+    return *ok ? p.result : NULL;
+}
+
+// The old directives without their '#'.
+static bool run_bare_directive(struct stream *s, struct token t)
+{
+    if (t.word != WORD_declare && t.word != WORD_include && t.word != WORD_version &&
+        t.word != WORD_default)
+        return false;
+    struct arena_mark mark = arena_mark(s->nodes);
+    diag_at(s->diags, DIAG_BARE_DIRECTIVE, t.where, word_text((enum word)t.word));
+    if (t.word == WORD_declare)
+        directive_declare(s, t);
+    else if (t.word == WORD_include)
+        directive_include(s, t);
+    else if (t.word == WORD_version)
+        directive_version(s, t);
+    else
+        directive_default(s, t);
+    arena_rewind(s->nodes, mark);
+    return true;
+}
+
+// A name nobody declared starts no statement: a misspelt keyword with its braces, or
+// a call of a macro that does not exist.
+static void skip_unknown(struct stream *s, struct token name)
+{
+    report_unknown_word(s, &name);
+    int depth = 0;
+    struct token next = raw_peek(s);
+    if (next.kind != '{' && next.kind != '(')
+        return;
+    do {
+        struct token t = stream_next(s);
+        if (t.kind == TOK_END)
+            return;
+        depth += t.kind == '{' || t.kind == '(';
+        depth -= t.kind == '}' || t.kind == ')';
+    } while (depth > 0);
+}
+
+struct ast *parse_item(struct stream *s)
+{
+    arena_rewind(s->nodes, s->statement);
+    for (;;) {
+        struct token t = stream_next(s);
+        if (t.kind == TOK_END)
+            return NULL;
+        if (t.word && run_bare_directive(s, t))
+            continue;
+        if (t.kind == TOK_NAME && !t.value) {
+            skip_unknown(s, t);
+            continue;
+        }
+        if (t.kind == ';' || t.kind == '}' || t.kind == ')' || t.kind == '>' ||
+            t.kind == ']') {
+            diag_at(s->diags, DIAG_STRAY_TOKEN, t.where, t.kind);
+            continue;
+        }
+        bool ok;
+        stream_give_back(s, t);
+        struct ast *n = parse_run(s, TOK_START_STATEMENT, &ok);
+        if (ok && n)
+            return n;
+    }
+}

@@ -1,0 +1,55 @@
+#ifndef LANG_PARSE_STATE_H
+#define LANG_PARSE_STATE_H
+
+#include "base/arena.h"
+#include "lang/ast.h"
+#include "lang/stream.h"
+
+// A '{' the parser is inside of: where, of which keyword, and what was true outside.
+struct parse_block {
+    enum word word;
+    bool entry;    // '[' rather than '{'
+    bool function; // we were in a function body outside
+    struct span where;
+    struct arena_mark mark;
+};
+
+// One run of the grammar. A directive inside an expression runs another one.
+struct parse {
+    struct stream *in;
+    struct arena *arena;
+    int start;          // the pseudo-token that says what to read, until it is read
+    bool bounded;       // a right side or argument: it ends where no operator follows
+    bool function;      // in a function body, '<' is always "less than"
+    bool operand;       // the last token completed an operand
+    bool after_period;
+    bool failed;
+    int nest;           // open ( [ {
+    int braces;         // open {
+    int vectors;        // open < outside all of them
+    struct token last;  // the token before the one looked at
+    struct token now;   // the token looked at
+    struct parse_block *blocks;
+    uint32_t block_count, block_capacity;
+    struct ast *result;
+};
+
+enum {
+    PARSE_NEST_MAX = 2400, // brackets open at once
+    PARSE_RUNS_MAX = 1200, // runs of the grammar inside each other
+};
+
+// Runs the grammar once; NULL after an error, which was reported and skipped over.
+// `result` may also be NULL for an empty list: then *ok says.
+struct ast *parse_run(struct stream *in, int start, bool *ok);
+
+// For the grammar's actions.
+struct diag_sink *stream_diags(struct stream *s);
+void parse_open(struct parse *p, enum word word, bool entry, struct span where);
+struct ast *parse_close(struct parse *p, struct ast *node);
+struct ast *parse_finish(struct parse *p, struct ast *node);
+void parse_missing_semicolon(struct parse *p, const struct ast *value);
+int parse_token(struct parse *p, struct token *out);
+void parse_syntax_error(struct parse *p, const int *expected, int count);
+
+#endif

@@ -1,0 +1,383 @@
+#include "lang/stream.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lang/lexer.h"
+#include "lang/parse.h"
+#include "lang/parse_state.h"
+#include "lang/stream_state.h"
+#include "parser.h"
+
+void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return array;
+    *capacity = *capacity ? 2 * *capacity : 32;
+    array = realloc(array, *capacity * size);
+    if (!array)
+        abort();
+    return array;
+}
+
+struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t file,
+                          struct diag_sink *diags, struct stream_host host)
+{
+    struct stream *s = arena_new_struct(a, struct stream);
+    s->arena = a;
+    s->nodes = arena_new(1 << 16);
+    s->sources = sources;
+    s->diags = diags;
+    s->host = host;
+    s->version = 3.7;
+    s->statement = arena_mark(s->nodes);
+    stream_push_file(s, file);
+    return s;
+}
+
+void stream_free(struct stream *s)
+{
+    if (!s)
+        return;
+    for (uint32_t i = 0; i < s->lexed_count; i++)
+        free(s->lexed[i].tokens);
+    free(s->lexed);
+    free(s->cursors);
+    free(s->frames);
+    arena_free(s->nodes);
+}
+
+struct arena *stream_arena(struct stream *s)
+{
+    return s->nodes;
+}
+
+struct diag_sink *stream_diags(struct stream *s)
+{
+    return s->diags;
+}
+
+// An include file read again with the same text is not scanned again.
+static const struct lexed *lex_once(struct stream *s, uint32_t file)
+{
+    const struct source_file *f = s->sources->file[file];
+    for (uint32_t i = 0; i < s->lexed_count; i++) {
+        const struct source_file *o = s->sources->file[s->lexed[i].file];
+        if (o->len == f->len && strcmp(o->name, f->name) == 0 &&
+            memcmp(o->text, f->text, f->len) == 0)
+            return &s->lexed[i];
+    }
+    s->lexed = stream_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
+    struct lexed *l = &s->lexed[s->lexed_count++];
+    l->file = file;
+    l->tokens = lex_file(s->sources, file, s->diags, &l->count);
+    return l;
+}
+
+void stream_push_file(struct stream *s, uint32_t file)
+{
+    const struct lexed *l = lex_once(s, file);
+    s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
+                             sizeof *s->cursors);
+    s->cursors[s->cursor_count++] =
+        (struct cursor){.tokens = l->tokens, .count = l->count, .frames = s->frame_count};
+    s->includes++;
+}
+
+struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
+                                const struct token *opener)
+{
+    if (s->frame_count == FRAMES_MAX) {
+        diag_at(s->diags, DIAG_TOO_DEEP, opener->where, "directives", FRAMES_MAX);
+        s->stopped = true;
+    }
+    s->frames =
+        stream_grow(s->frames, s->frame_count, &s->frame_capacity, sizeof *s->frames);
+    struct frame *f = &s->frames[s->frame_count++];
+    *f = (struct frame){.kind = kind, .opener = opener->where,
+                        .word = (enum word)opener->word, .cursor = s->cursor_count - 1};
+    return f;
+}
+
+void stream_give_back(struct stream *s, struct token t)
+{
+    s->pending = t;
+    s->pending_set = true;
+}
+
+// Leaves texts that are read to their end, except the main file.
+static void pop_finished(struct stream *s)
+{
+    while (s->cursor_count > 1) {
+        struct cursor *c = &s->cursors[s->cursor_count - 1];
+        if (c->at < c->count)
+            return;
+        directive_end_of_cursor(s, c);
+        s->cursor_count--;
+        if (c->macro)
+            s->calls--;
+        else
+            s->includes--;
+        s->host.leave_scope(s->host.user);
+    }
+}
+
+static struct token at(const struct cursor *c, uint32_t i)
+{
+    struct token t = c->tokens[i];
+    if (i >= c->count)
+        t.kind = TOK_END;
+    t.where.expansion = c->expansion;
+    return t;
+}
+
+// What comes next, looking through the ends of macro bodies and includes.
+static struct token peek(const struct stream *s, uint32_t skip)
+{
+    for (uint32_t i = s->cursor_count; i-- > 0;) {
+        const struct cursor *c = &s->cursors[i];
+        if (c->at + skip < c->count)
+            return at(c, c->at + skip);
+        if (i == 0)
+            return at(c, c->count);
+        if (skip)
+            skip -= c->count - c->at;
+    }
+    return (struct token){0};
+}
+
+static bool is_name(int kind)
+{
+    return kind == TOK_NAME || kind == TOK_STRING_NAME || kind == TOK_OTHER_NAME ||
+           kind == TOK_ARRAY_NAME || kind == TOK_FUNCTION_NAME;
+}
+
+static struct token uncooked(struct token t)
+{
+    if (is_name(t.kind))
+        t.kind = TOK_NAME;
+    return t;
+}
+
+struct token raw_peek(struct stream *s)
+{
+    return s->pending_set ? uncooked(s->pending) : peek(s, 0);
+}
+
+struct token raw_peek_second(struct stream *s)
+{
+    return peek(s, s->pending_set ? 0 : 1);
+}
+
+struct token raw_take(struct stream *s)
+{
+    if (s->pending_set) {
+        s->pending_set = false;
+        return uncooked(s->pending);
+    }
+    pop_finished(s);
+    struct cursor *c = &s->cursors[s->cursor_count - 1];
+    struct token t = at(c, c->at);
+    if (c->at < c->count)
+        c->at++;
+    return t;
+}
+
+bool raw_take_if(struct stream *s, int kind)
+{
+    if (raw_peek(s).kind != kind)
+        return false;
+    raw_take(s);
+    return true;
+}
+
+bool raw_expect(struct stream *s, int kind, const char *what, const char *where)
+{
+    if (raw_take_if(s, kind))
+        return true;
+    diag_at(s->diags, DIAG_EXPECTED_IN, raw_peek(s).where, what, where);
+    return false;
+}
+
+bool raw_expect_name(struct stream *s, struct token *name, const char *where)
+{
+    *name = raw_peek(s);
+    if (name->kind == TOK_NAME) {
+        raw_take(s);
+        return true;
+    }
+    if (name->word != WORD_NONE) {
+        diag_at(s->diags, DIAG_RESERVED_WORD, name->where, word_text((enum word)name->word));
+        raw_take(s);
+    } else {
+        diag_at(s->diags, DIAG_EXPECTED_IN, name->where, "a name", where);
+    }
+    return false;
+}
+
+bool raw_lvalue(struct stream *s, struct lvalue *out, const char *where)
+{
+    struct token name;
+    *out = (struct lvalue){0};
+    if (!raw_expect_name(s, &name, where))
+        return false;
+    out->name = name.text;
+    out->len = name.len;
+    out->where = name.where;
+    struct ast_list index = {0};
+    while (raw_take_if(s, '[')) {
+        bool ok;
+        struct ast *n = parse_run(s, TOK_START_SUBSCRIPT, &ok);
+        if (!ok)
+            return false;
+        index = ast_append(index, n);
+    }
+    out->index = index.first;
+    return true;
+}
+
+// defined(NAME): decided here, so that the name is not replaced by its value.
+static struct token defined(struct stream *s, struct token t)
+{
+    struct lvalue name;
+    raw_take(s);
+    struct token number = t;
+    number.kind = TOK_NUMBER;
+    number.word = WORD_NONE;
+    if (raw_peek(s).word != WORD_NONE && raw_peek_second(s).kind == ')') {
+        raw_take(s);
+        number.number = 0;
+    } else if (raw_lvalue(s, &name, "defined")) {
+        number.number = s->host.is_declared(s->host.user, &name);
+    }
+    number.where.end = raw_peek(s).where.end;
+    raw_expect(s, ')', "')'", "defined");
+    return number;
+}
+
+static int call_token(enum word w)
+{
+    switch (w) {
+    case WORD_abs: case WORD_ceil: case WORD_floor: case WORD_cos: case WORD_sin:
+    case WORD_tan: case WORD_atan: case WORD_cosh: case WORD_sinh: case WORD_tanh:
+    case WORD_asinh: case WORD_acosh: case WORD_atanh: case WORD_exp: case WORD_acos:
+    case WORD_asin: case WORD_degrees: case WORD_radians: case WORD_int: case WORD_ln:
+    case WORD_log: case WORD_sqrt: case WORD_rand: case WORD_seed:
+        return TOK_CALL1;
+    case WORD_pwr: case WORD_internal:
+        return TOK_CALL;
+    default:
+        break;
+    }
+    switch (word_class(w)) {
+    case CLASS_FLOAT_FUNCTIONS:
+    case CLASS_VECTOR_FUNCTIONS:
+    case CLASS_ONLY_INSIDE__FUNCTION:
+        return TOK_CALL;
+    case CLASS_STRING_FUNCTIONS:
+        return TOK_STRING_CALL;
+    default:
+        return TOK_WORD;
+    }
+}
+
+// Binds a name to what it stands for now; false when it was a macro, now expanded.
+static bool bind_name(struct stream *s, struct token *t)
+{
+    struct name_info info = s->host.lookup(s->host.user, t->text, t->len);
+    t->value = info.value;
+    switch (info.class) {
+    case NAME_UNDECLARED:
+        t->value = NULL;
+        break;
+    case NAME_VALUE:
+        break;
+    case NAME_STRING:
+        t->kind = TOK_STRING_NAME;
+        break;
+    case NAME_FUNCTION:
+        t->kind = peek(s, 0).kind == '(' ? TOK_FUNCTION_NAME : TOK_OTHER_NAME;
+        break;
+    case NAME_ARRAY:
+        t->kind = peek(s, 0).kind == '[' ? TOK_ARRAY_NAME : TOK_OTHER_NAME;
+        break;
+    case NAME_OBJECT:
+    case NAME_BLOCK:
+        t->kind = TOK_OTHER_NAME;
+        break;
+    case NAME_MACRO:
+        macro_call(s, *t, info.macro);
+        return false;
+    }
+    return true;
+}
+
+struct token stream_next(struct stream *s)
+{
+    if (s->pending_set && !is_name(s->pending.kind)) {
+        s->pending_set = false;
+        return s->pending;
+    }
+    for (;;) {
+        if (diag_full(s->diags))
+            s->stopped = true;
+        if (s->stopped)
+            return at(&s->cursors[0], s->cursors[0].count);
+        struct token t;
+        if (s->pending_set) { // cooked already: a macro was expanded before
+            s->pending_set = false;
+            return s->pending;
+        }
+        t = raw_take(s);
+        if (t.kind == TOK_END) {
+            directive_end_of_cursor(s, &s->cursors[0]);
+            return t;
+        }
+        if (t.kind == '#') {
+            struct arena_mark mark = arena_mark(s->nodes);
+            directive_run(s, t);
+            arena_rewind(s->nodes, mark);
+            continue;
+        }
+        if (t.kind == TOK_WORD && peek(s, 0).kind == '(') {
+            if (t.word == WORD_defined)
+                return defined(s, t);
+            t.kind = call_token((enum word)t.word);
+        } else if (t.kind == ']' && peek(s, 0).kind == '[') {
+            t.kind = TOK_MORE;
+        } else if (t.kind == TOK_NAME && !bind_name(s, &t)) {
+            continue;
+        }
+        return t;
+    }
+}
+
+bool stream_at_end(const struct stream *s)
+{
+    return s->stopped || (!s->pending_set && peek(s, 0).kind == TOK_END);
+}
+
+void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
+                        struct diag_sink *diags, FILE *out)
+{
+    (void)a;
+    const struct source_file *f = sources->file[file];
+    uint32_t count;
+    struct token *tokens = lex_file(sources, file, diags, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct token *t = &tokens[i];
+        uint32_t line = source_line(f, t->where.begin);
+        const char *kind = t->kind == TOK_NUMBER   ? "number"
+                           : t->kind == TOK_STRING ? "string"
+                           : t->kind == TOK_NAME   ? "name"
+                           : t->word               ? "word"
+                                                   : "mark";
+        fprintf(out, "%u:%u %s ", line + 1, t->where.begin - f->line_start[line] + 1, kind);
+        if (t->kind == TOK_NUMBER)
+            fprintf(out, "%.17g\n", t->number);
+        else
+            fprintf(out, t->kind == TOK_STRING ? "\"%.*s\"\n" : "%.*s\n", (int)t->len,
+                    t->text);
+    }
+    free(tokens);
+}

@@ -1,0 +1,106 @@
+#ifndef LANG_STREAM_STATE_H
+#define LANG_STREAM_STATE_H
+
+#include "base/arena.h"
+#include "lang/stream.h"
+
+// The inside of the stream, shared by stream.c, directive.c, macro.c and parse.c.
+
+enum {
+    INCLUDES_MAX = 32,
+    CALLS_MAX = 4000,
+    FRAMES_MAX = 20000,
+    PARAMETERS_MAX = 55,
+};
+
+struct macro {
+    const char *name; // terminated
+    struct span where;
+    const struct token *body; // count tokens
+    uint32_t count;
+    const struct token *parameter[PARAMETERS_MAX];
+    int parameter_count;
+};
+
+// Where tokens come from: a file, or the body of a macro being called.
+struct cursor {
+    const struct token *tokens;
+    uint32_t at, count;
+    uint32_t expansion;
+    uint32_t frames; // frames open when it began
+    const struct macro *macro;
+};
+
+enum frame_kind { FRAME_IF, FRAME_SWITCH, FRAME_WHILE, FRAME_FOR };
+
+// An #if, #switch or loop whose #end has not come.
+struct frame {
+    enum frame_kind kind;
+    struct span opener;
+    enum word word;
+    uint32_t cursor; // which it stands in
+    uint32_t back;   // a loop: the #while's condition, the #for's first body token
+    double value;    // a #switch
+    double end, step;
+    const struct token *variable;
+};
+
+struct lexed {
+    uint32_t file;
+    struct token *tokens;
+    uint32_t count;
+};
+
+struct stream {
+    struct arena *arena; // of the caller: macro definitions
+    struct arena *nodes; // AST, wound back after each statement and directive
+    struct source_map *sources;
+    struct diag_sink *diags;
+    struct stream_host host;
+    struct cursor *cursors;
+    uint32_t cursor_count, cursor_capacity, includes, calls;
+    struct frame *frames;
+    uint32_t frame_count, frame_capacity;
+    struct lexed *lexed;
+    uint32_t lexed_count, lexed_capacity;
+    bool pending_set;
+    struct token pending; // given back by the parser
+    struct arena_mark statement;
+    int runs;        // of the grammar, inside each other
+    double version;
+    bool stopped;
+};
+
+void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size);
+void stream_push_file(struct stream *s, uint32_t file);
+struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
+                                const struct token *opener);
+void stream_give_back(struct stream *s, struct token t);
+
+// Below the directives: the very next token, and taking it.
+struct token raw_peek(struct stream *s);
+struct token raw_peek_second(struct stream *s); // the one after, in the same text
+struct token raw_take(struct stream *s);
+bool raw_take_if(struct stream *s, int kind);
+bool raw_expect(struct stream *s, int kind, const char *what, const char *where);
+bool raw_expect_name(struct stream *s, struct token *name, const char *where);
+// A name and its subscripts; they live in s->nodes.
+bool raw_lvalue(struct stream *s, struct lvalue *out, const char *where);
+
+void directive_run(struct stream *s, struct token hash);
+void directive_end_of_cursor(struct stream *s, struct cursor *c);
+bool directive_skip(struct stream *s, uint32_t depth, bool stop_at_else,
+                    bool stop_at_case, struct token *stop);
+void directive_declare(struct stream *s, struct token word);
+void directive_output(struct stream *s, struct token word);
+void directive_include(struct stream *s, struct token word);
+void directive_version(struct stream *s, struct token word);
+void directive_default(struct stream *s, struct token word);
+bool directive_number(struct stream *s, int start, double *out);
+
+void macro_define(struct stream *s, struct token word);
+void macro_call(struct stream *s, struct token name, struct macro *macro);
+// `array[..]..{..}` after its first word; elements NULL if there are none.
+bool array_literal(struct stream *s, struct ast_list *sizes, struct ast **elements);
+
+#endif
