@@ -1,0 +1,54 @@
+#ifndef SCENE_SHAPES_MESH_H
+#define SCENE_SHAPES_MESH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "math/aabb.h"
+
+struct arena;
+struct args;
+
+// Triangles that share corners, and a box tree over them. Corners are indices, so a mesh
+// is a few dozen bytes a triangle; declared meshes are shared by all their uses.
+struct mesh {
+    struct vec3 *vertex;
+    struct vec3 *normal; // unit
+    struct vec2 *uv;
+    uint32_t (*face)[3];
+    uint32_t (*face_normal)[3]; // NULL, or face_normal[f][0] == UINT32_MAX: flat
+    uint32_t (*face_uv)[3];     // NULL: none
+    uint32_t vertex_count, normal_count, uv_count, face_count;
+    bool solid;                 // inside_vector was given
+    struct vec3 inside_vector;
+    struct aabb bounds;
+    struct mesh_node *node;
+    uint32_t *order; // faces by tree leaf
+};
+
+struct mesh_node {
+    struct aabb bounds;
+    uint32_t first; // inner: the second child (the first follows at once); leaf: in order
+    uint32_t count; // 0: inner
+};
+
+// Builds the tree; faces without area are left out of it.
+void mesh_finish(struct mesh *m, struct arena *a);
+
+// The uses of a mesh as a shape: what mesh_ops and mesh2_ops have in common.
+struct shape_ops;
+struct boundary;
+struct boundary_list;
+struct surface_point;
+struct ray;
+struct aabb mesh_bounds(const void *shape);
+bool mesh_is_solid(const void *shape);
+bool mesh_inside(const void *shape, struct vec3 p);
+void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_list *out);
+bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out);
+void mesh_surface(const void *shape, const struct boundary *b, struct vec3 p,
+                  struct surface_point *out);
+void mesh_print(const void *shape, FILE *out);
+
+#endif

@@ -1,0 +1,269 @@
+// mesh { triangle {} smooth_triangle {} ... } and mesh2 { vertex_vectors {} ... }
+#include <math.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "scene/args.h"
+#include "scene/shape.h"
+#include "scene/shapes/mesh.h"
+
+// An array that doubles in the arena.
+static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return old;
+    const uint32_t more = *capacity ? 2 * *capacity : 64;
+    void *p = arena_alloc(a, more * size);
+    if (count)
+        memcpy(p, old, count * size);
+    *capacity = more;
+    return p;
+}
+
+static bool finish(struct mesh *m, struct args *args)
+{
+    if (m->face_count == 0) {
+        args_reject(args, "there are no triangles");
+        return false;
+    }
+    mesh_finish(m, args_arena(args));
+    return true;
+}
+
+static bool read_inside_vector(struct mesh *m, struct args *args)
+{
+    if (!args_vec3(args, "inside_vector", &m->inside_vector))
+        return false;
+    m->solid = vec3_dot(m->inside_vector, m->inside_vector) > 0;
+    m->inside_vector = vec3_normalize(m->inside_vector);
+    return true;
+}
+
+// ---- mesh -----------------------------------------------------------------------------
+
+struct soup {
+    struct mesh *m;
+    struct arena *arena;
+    uint32_t vertex_capacity, normal_capacity, uv_capacity, face_capacity, normals_capacity,
+        uvs_capacity;
+    bool any_normal, any_uv;
+};
+
+static bool read_triangle(struct soup *s, struct args *block, bool smooth)
+{
+    struct mesh *m = s->m;
+    struct vec3 p[3], n[3];
+    struct vec2 uv[3] = {{0, 0}, {0, 0}, {0, 0}};
+    for (int i = 0; i < 3; i++)
+        if (!args_vec3(block, "corner", &p[i]) ||
+            (smooth && !args_vec3(block, "normal", &n[i])))
+            return false;
+    if (args_word(block, "uv_vectors")) {
+        s->any_uv = true;
+        for (int i = 0; i < 3; i++)
+            if (!args_vec2(block, "uv vector", &uv[i]))
+                return false;
+    }
+    const uint32_t f = m->face_count++;
+    m->face = grown(s->arena, m->face, f, &s->face_capacity, sizeof *m->face);
+    m->face_normal = grown(s->arena, m->face_normal, f, &s->normals_capacity,
+                           sizeof *m->face_normal);
+    m->face_uv = grown(s->arena, m->face_uv, f, &s->uvs_capacity, sizeof *m->face_uv);
+    for (int i = 0; i < 3; i++) {
+        m->vertex = grown(s->arena, m->vertex, m->vertex_count, &s->vertex_capacity,
+                          sizeof *m->vertex);
+        m->uv = grown(s->arena, m->uv, m->uv_count, &s->uv_capacity, sizeof *m->uv);
+        m->face[f][i] = m->vertex_count;
+        m->face_uv[f][i] = m->uv_count;
+        m->vertex[m->vertex_count++] = p[i];
+        m->uv[m->uv_count++] = uv[i];
+        m->face_normal[f][i] = UINT32_MAX;
+        if (smooth) {
+            m->normal = grown(s->arena, m->normal, m->normal_count, &s->normal_capacity,
+                              sizeof *m->normal);
+            m->face_normal[f][i] = m->normal_count;
+            m->normal[m->normal_count++] = vec3_normalize(n[i]);
+        }
+    }
+    return args_end(block) || (args_reject(block, "textures of single triangles are not "
+                                                  "built yet in lambert"), false);
+}
+
+static bool build_mesh(void *shape, struct args *args)
+{
+    struct mesh *m = shape;
+    struct soup s = {.m = m, .arena = args_arena(args)};
+    for (;;) {
+        struct args *block;
+        if ((block = args_block(args, "triangle"))) {
+            if (!read_triangle(&s, block, false))
+                return false;
+        } else if ((block = args_block(args, "smooth_triangle"))) {
+            if (!read_triangle(&s, block, true))
+                return false;
+        } else if (args_word(args, "inside_vector")) {
+            if (!read_inside_vector(m, args))
+                return false;
+        } else {
+            break;
+        }
+    }
+    if (!s.any_uv)
+        m->face_uv = NULL;
+    return finish(m, args);
+}
+
+// ---- mesh2 -----------------------------------------------------------------------------
+
+static bool read_count(struct args *block, uint32_t *out)
+{
+    long n;
+    if (!args_int(block, "count", &n))
+        return false;
+    if (n < 0 || n > 500000000) {
+        args_reject(block, "the count is out of range");
+        return false;
+    }
+    *out = (uint32_t)n;
+    return true;
+}
+
+static bool read_vectors(struct args *block, struct arena *a, struct vec3 **out,
+                         uint32_t *count)
+{
+    uint32_t n, capacity = 0;
+    if (!read_count(block, &n))
+        return false;
+    // Grown as they come: the count may lie about a file that ends early.
+    for (uint32_t i = 0; i < n; i++) {
+        *out = grown(a, *out, i, &capacity, sizeof **out);
+        if (!args_vec3(block, "vector", &(*out)[i]))
+            return false;
+    }
+    *count = n;
+    return true;
+}
+
+static bool read_uvs(struct args *block, struct arena *a, struct mesh *m)
+{
+    uint32_t n, capacity = 0;
+    if (!read_count(block, &n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        m->uv = grown(a, m->uv, i, &capacity, sizeof *m->uv);
+        if (!args_vec2(block, "uv vector", &m->uv[i]))
+            return false;
+    }
+    m->uv_count = n;
+    return true;
+}
+
+static bool read_indices(struct args *block, struct arena *a, uint32_t limit, bool textures,
+                         uint32_t (**out)[3], uint32_t *count)
+{
+    uint32_t n, capacity = 0;
+    if (!read_count(block, &n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        struct vec3 v;
+        *out = grown(a, *out, i, &capacity, sizeof **out);
+        if (!args_vec3(block, "indices", &v))
+            return false;
+        const double at[3] = {v.x, v.y, v.z};
+        for (int k = 0; k < 3; k++) {
+            if (!(at[k] > -1 && at[k] < limit)) {
+                args_reject(block, "an index is out of range");
+                return false;
+            }
+            (*out)[i][k] = (uint32_t)at[k];
+        }
+        double texture;
+        for (int k = 0; k < 3 && textures && args_at_number(block) && !args_at_vector(block); k++)
+            if (!args_float(block, "texture index", &texture))
+                return false;
+    }
+    *count = n;
+    return true;
+}
+
+// Faces without indices of their own use those of the corners, if the counts agree.
+static bool default_indices(struct mesh *m, struct args *args, bool normals, uint32_t given,
+                            uint32_t (**index)[3])
+{
+    const uint32_t n = normals ? m->normal_count : m->uv_count;
+    if (n == 0 || given == m->face_count)
+        return true;
+    if (given == 0 && n == m->vertex_count) {
+        *index = m->face;
+        return true;
+    }
+    if (given == 0 && !normals && n == 1) {
+        *index = arena_alloc(args_arena(args), m->face_count * sizeof **index);
+        return true;
+    }
+    if (normals && given > 0 && given < m->face_count) { // the rest are flat
+        uint32_t(*all)[3] = arena_alloc(args_arena(args), m->face_count * sizeof *all);
+        memset(all, 0xff, m->face_count * sizeof *all);
+        memcpy(all, *index, given * sizeof *all);
+        *index = all;
+        return true;
+    }
+    args_reject(args, normals ? "the counts of normals and vertices differ and there are no "
+                                "normal_indices"
+                              : "uv_indices are missing or their count differs");
+    return false;
+}
+
+static bool build_mesh2(void *shape, struct args *args)
+{
+    struct mesh *m = shape;
+    struct arena *a = args_arena(args);
+    uint32_t uvs = 0, normals = 0;
+    for (;;) {
+        struct args *block;
+        bool ok = true;
+        if ((block = args_block(args, "vertex_vectors")))
+            ok = read_vectors(block, a, &m->vertex, &m->vertex_count);
+        else if ((block = args_block(args, "normal_vectors")))
+            ok = read_vectors(block, a, &m->normal, &m->normal_count);
+        else if ((block = args_block(args, "uv_vectors")))
+            ok = read_uvs(block, a, m);
+        else if ((block = args_block(args, "texture_list"))) {
+            args_reject(block, "textures of single triangles are not built yet in lambert");
+            ok = false;
+        } else if ((block = args_block(args, "face_indices")))
+            ok = read_indices(block, a, m->vertex_count, true, &m->face, &m->face_count);
+        else if ((block = args_block(args, "uv_indices")))
+            ok = read_indices(block, a, m->uv_count, false, &m->face_uv, &uvs);
+        else if ((block = args_block(args, "normal_indices")))
+            ok = read_indices(block, a, m->normal_count, false, &m->face_normal, &normals);
+        else if (args_word(args, "inside_vector"))
+            ok = read_inside_vector(m, args);
+        else
+            break;
+        if (!ok)
+            return false;
+    }
+    for (uint32_t i = 0; i < m->normal_count; i++)
+        m->normal[i] = vec3_normalize(m->normal[i]);
+    return default_indices(m, args, false, uvs, &m->face_uv) &&
+           default_indices(m, args, true, normals, &m->face_normal) && finish(m, args);
+}
+
+#define MESH_OPS(word)                                                                   \
+    const struct shape_ops word##_ops = {                                                \
+        .keyword = #word,                                                                \
+        .size = sizeof(struct mesh),                                                     \
+        .flags = SHAPE_BOUNDED | SHAPE_HIERARCHY | SHAPE_UV,                             \
+        .build = build_##word,                                                           \
+        .bounds = mesh_bounds,                                                           \
+        .is_solid = mesh_is_solid,                                                       \
+        .inside = mesh_inside,                                                           \
+        .intersect = mesh_intersect,                                                     \
+        .closest = mesh_closest,                                                         \
+        .surface = mesh_surface,                                                         \
+        .print = mesh_print,                                                             \
+    }
+
+MESH_OPS(mesh);
+MESH_OPS(mesh2);
