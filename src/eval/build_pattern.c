@@ -383,7 +383,7 @@ static bool own_parameter(struct args *a, struct pattern *p)
         *(out ? &p->exterior_type : &p->interior_type) =
             (int)read_int(a, word_text(w), 0, out ? 8 : 6);
         if (args_float(a, "factor", &factor))
-            *(out ? &p->exterior_factor : &p->interior_factor) = (float)factor;
+            *(out ? &p->exterior_factor : &p->interior_factor) = factor;
         return true;
     }
     bool exists = false;

@@ -27,7 +27,9 @@ liblambert_a_SOURCES += \
 	%D%/patterns/spherical.c %D%/patterns/spiral.h %D%/patterns/spiral1.c \
 	%D%/patterns/spiral2.c %D%/patterns/spotted.c %D%/patterns/square.c \
 	%D%/patterns/triangular.c %D%/patterns/waves.c %D%/patterns/wood.c \
-	%D%/patterns/wrinkles.c
+	%D%/patterns/wrinkles.c %D%/patterns/mandel.c %D%/patterns/julia.c \
+	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h \
+	%D%/patterns/crackle.c %D%/patterns/facets.c
 # The noise tables are computed, not written down.
 noinst_PROGRAMS += gen_noise_tables
 gen_noise_tables_SOURCES = %D%/gen_noise_tables.c %D%/noise_tables.h

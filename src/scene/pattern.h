@@ -98,7 +98,7 @@ struct pattern {
     int integer[4];          // iterations, spiral arms, magnet type, tiling number,
                              // pavement sides tiles pattern form
     int exterior_type, interior_type; // fractals; pavement exterior, interior
-    float exterior_factor, interior_factor;
+    double exterior_factor, interior_factor;
     int fractal_exponent;
     const struct object *object;      // object pattern
     const struct pigment *pigment;    // pigment_pattern

@@ -161,8 +161,10 @@ struct vec3 pattern_warp(const struct pattern *p, struct vec3 at)
 {
     for (const struct warp *w = p->warps; w; w = w->next)
         at = warp_point(w, at);
-    if (p->turbulence && p->ops && !p->ops->own_turbulence)
-        at = turbulence_move(p->turbulence, at);
+    const struct turbulence *t = p->turbulence;
+    if (t && p->ops && !p->ops->own_turbulence &&
+        (t->amount.x != 0 || t->amount.y != 0 || t->amount.z != 0))
+        at = turbulence_move(t, at);
     return vec3(clamp_far(at.x), clamp_far(at.y), clamp_far(at.z));
 }
 
