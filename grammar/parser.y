@@ -17,6 +17,8 @@ struct parse;
 }
 
 %code {
+#include <string.h>
+
 #include "lang/parse_state.h"
 
 // Small, since directives inside expressions run the grammar inside itself; it
@@ -586,6 +588,8 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
 
 static void sdl_error(struct span *where, struct parse *p, const char *message)
 {
+    if (strcmp(message, "memory exhausted") == 0) // parse_run says it
+        return;
     if (!p->failed)
         diag_at(stream_diags(p->in), DIAG_SYNTAX, *where, message);
     p->failed = true;

@@ -101,9 +101,11 @@ void directive_version(struct stream *s, struct token word)
         raw_take(s);
     }
     double v;
-    if (!directive_number(s, TOK_START_ARGUMENT, &v))
+    bool ok = directive_number(s, TOK_START_ARGUMENT, &v);
+    bool ended = raw_take_if(s, ';');
+    if (!ok)
         return;
-    if (!raw_take_if(s, ';'))
+    if (!ended)
         diag_at(s->diags, DIAG_OLD_SEMICOLON, word.where, 0);
     s->version = v;
     s->host.version(s->host.user, word.where, v);

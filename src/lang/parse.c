@@ -26,6 +26,7 @@ static bool continues(const struct parse *p, int kind)
 {
     return kind == '+' || kind == '-' || kind == '*' || kind == '/' || kind == '.' ||
            kind == '?' || kind == ':' || kind == TOK_PART ||
+           kind == '{' || // `function (a, b) {`
            (kind == ';' && p->start == TOK_START_RVALUE);
 }
 
@@ -301,7 +302,7 @@ struct ast *parse_run(struct stream *in, int start, bool *ok)
     in->runs--;
     free(p.blocks);
     *ok = code == 0 && !p.failed;
-    if (code == 2 && !in->stopped) {
+    if (code == 2 && !p.failed && !in->stopped) {
         diag_at(in->diags, DIAG_TOO_DEEP, p.now.where, "brackets", (int)PARSE_NEST_MAX);
         in->stopped = true;
     }

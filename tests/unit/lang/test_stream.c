@@ -303,6 +303,8 @@ static void statements(void **state)
     check("#declare T = texture { } texture { } #declare S = sphere { 0, 1 } S "
           "object { S rotate <1,2,3>*2 translate -y }", 2, "");
     check("difference { #if(1) union { #end box{<0,0,0><1,1,1>} #if(1) } #end }", 1, "");
+    check("#declare F = function (a, b) { a*b < 3 & sin(a)=1 } "
+          "polynomial { 2, xyz(2,0,0):1, xyz(0,0,0):-1 }", 1, "");
     check("isosurface { function { x*x + select(y<1, 2, 3) - z } }", 1, "");
 }
 
@@ -317,6 +319,12 @@ static void errors(void **state)
     check_error("#macro M(A) #end M(1,2)", DIAG_ARGUMENT_COUNT);
     check_error("sphere { 0; 1 } box { 0, 1 }", DIAG_UNEXPECTED);
     check_error("/* /* */ sphere", DIAG_OPEN_COMMENT);
+    char *deep = malloc(8001);
+    memset(deep, '(', 8000);
+    deep[8000] = 0;
+    memcpy(deep, "#declare A = ", 13);
+    check_error(deep, DIAG_TOO_DEEP);
+    free(deep);
 }
 
 int main(void)
