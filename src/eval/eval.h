@@ -49,7 +49,8 @@ struct eval {
     int version;              // in force now, 100*f
     bool version_seen;
     uint32_t *random;         // streams of seed(), by index
-    uint32_t random_count;
+    uint32_t random_count, random_capacity;
+    uint32_t depth;            // nesting of the expression being evaluated
 };
 
 // Parses and evaluates the file into *scene. False when an error was reported.
@@ -79,5 +80,8 @@ bool eval_color(struct eval *e, const struct ast **at, bool rgb_only,
 
 // The value of a right side: a list of items as stream_host.declare gets it.
 const struct value *eval_rvalue(struct eval *e, const struct ast *items);
+// `array [sizes] { elements }`; elements may be NULL.
+const struct value *eval_array(struct eval *e, const struct ast *sizes,
+                               const struct ast *elements);
 
 #endif

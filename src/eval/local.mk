@@ -7,4 +7,9 @@ liblambert_a_SOURCES += \
 	%D%/build_pigment.c %D%/build_settings.c %D%/build_texture.c \
 	%D%/build_transform.c %D%/build_warp.c %D%/builder.c
 liblambert_a_SOURCES += \
-	%D%/builder.h %D%/eval.h %D%/value.h
+	%D%/array.c %D%/array.h %D%/builder.h %D%/color.c %D%/eval.c %D%/eval.h \
+	%D%/expr.c %D%/expr.h %D%/files.c %D%/function.c %D%/function.h \
+	%D%/function_run.c %D%/function_tape.h %D%/functions.c %D%/functions.def \
+	%D%/functions.h %D%/host.c %D%/random.c %D%/spline.c %D%/spline.h \
+	%D%/strings.c %D%/symbol.c %D%/symbol.h %D%/text.c %D%/text.h %D%/value.c \
+	%D%/value.h

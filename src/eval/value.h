@@ -2,6 +2,7 @@
 #define EVAL_VALUE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "lang/token.h"
@@ -24,6 +25,7 @@ enum value_kind {
     VALUE_MACRO,
 };
 
+struct arena;
 struct array_value; // eval/array.h: shared, mutable through #declare A[i] only
 
 // Immutable once made, in the scene arena; names point at values.
@@ -44,5 +46,12 @@ struct value {
 };
 
 const char *value_kind_name(const struct value *v); // "float", "texture", ...
+
+// New values. A number of width 5 is rounded to single precision.
+struct value value_of_number(const double *n, int width);
+const struct value *value_new_number(struct arena *a, const double *n, int width);
+const struct value *value_new_string(struct arena *a, const char *text, size_t len);
+const struct value *value_new_data(struct arena *a, enum value_kind kind,
+                                   const void *data);
 
 #endif

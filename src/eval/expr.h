@@ -1,0 +1,46 @@
+#ifndef EVAL_EXPR_H
+#define EVAL_EXPR_H
+
+#include "eval/eval.h"
+
+// Parts of expression evaluation that the files of eval/ share.
+
+// Wanted width 1 first, then widened: the contexts that take a whole expression
+// (spec/language 2.3 and 2.4, "full").
+bool eval_full(struct eval *e, const struct ast *n, int wanted, double out[5], int *width);
+bool eval_truth(double v);
+// Repeats a single number, pads others with 0.
+void number_widen(double *n, int *width, int wanted);
+
+// The value an item names: a declared name, an array element. NULL: it names none,
+// or (reported) the element is not there.
+const struct value *eval_named(struct eval *e, const struct ast *n);
+bool ast_is_string(const struct ast *n);
+
+// A built-in function's result: a number of width 1 or 3, or a string.
+struct call_result {
+    int width; // 0: a string
+    double n[5];
+    const char *text;
+};
+bool eval_call(struct eval *e, const struct ast *n, struct call_result *out);
+bool word_is_string_function(enum word w);
+// A declared function or spline with arguments.
+bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width);
+
+double random_next(struct eval *e, double stream, struct span where, bool *ok);
+double random_seed(struct eval *e, double seed);
+double number_to_int(double v); // truncated; out of 32 bits: -2147483648
+
+// Where an assignment or reference goes: all names in scopes 1..depth.
+struct place;
+struct place eval_place(struct eval *e, const struct lvalue *to, uint32_t depth);
+bool eval_index(struct eval *e, struct place base, const struct ast *index,
+                struct span where, struct place *out);
+
+struct stream_host eval_host(struct eval *e);
+// The file's text through the library path (spec/language 3.11); NULL: not found.
+const char *file_find(struct eval *e, const char *name, const char *const *extensions);
+bool file_read(struct arena *a, const char *path, const char **text, size_t *len);
+
+#endif

@@ -1,0 +1,445 @@
+// The callbacks of the directive stream: names, assignments, messages, includes
+// (spec/language 3).
+
+#include <string.h>
+
+#include "base/arena.h"
+#include "eval/array.h"
+#include "eval/builder.h"
+#include "eval/expr.h"
+#include "eval/symbol.h"
+#include "eval/text.h"
+
+enum { SCOPES_MAX = 1000 };
+static const double index_slack = 1e-10; // added before a subscript is truncated
+
+static enum name_class class_of(const struct value *v)
+{
+    switch (v->kind) {
+    case VALUE_NONE: return NAME_UNDECLARED;
+    case VALUE_NUMBER: return NAME_VALUE;
+    case VALUE_STRING: return NAME_STRING;
+    case VALUE_FUNCTION: case VALUE_SPLINE: return NAME_FUNCTION;
+    case VALUE_ARRAY: return NAME_ARRAY;
+    case VALUE_MACRO: return NAME_MACRO;
+    case VALUE_OBJECT: return NAME_OBJECT;
+    default: return NAME_BLOCK;
+    }
+}
+
+static struct name_info lookup(void *user, const char *name, size_t len)
+{
+    struct eval *e = user;
+    struct place p = symbols_find(e->symbols, name, len, symbols_depth(e->symbols));
+    const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
+    if (!v)
+        return (struct name_info){.class = NAME_UNDECLARED};
+    struct name_info info = {.class = class_of(v), .value = v};
+    if (v->kind == VALUE_MACRO)
+        memcpy(&info.macro, &v->data, sizeof info.macro);
+    return info;
+}
+
+static bool number(void *user, const struct ast *expr, double *out)
+{
+    return eval_float(user, expr, out);
+}
+
+static bool string(void *user, const struct ast *expr, const char **out)
+{
+    return eval_path(user, expr, out);
+}
+
+// ---- places ------------------------------------------------------------------
+
+bool eval_index(struct eval *e, struct place base, const struct ast *index,
+                struct span where, struct place *out)
+{
+    const struct array_value *a = base.array;
+    uint64_t flat = 0;
+    for (uint32_t i = 0; i < a->dimensions; i++, index = index->next) {
+        double v;
+        if (!index) {
+            diag_at(e->diags, DIAG_SUBSCRIPTS, where, "too few subscripts");
+            return false;
+        }
+        if (!eval_float(e, index, &v))
+            return false;
+        v = number_to_int(v + index_slack);
+        if (v < 0 || v >= a->size[i]) {
+            diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where, (long)v, (unsigned)a->size[i]);
+            return false;
+        }
+        flat = flat * a->size[i] + (uint32_t)v;
+    }
+    *out = (struct place){.array = base.array, .index = (uint32_t)flat};
+    return true;
+}
+
+struct place eval_place(struct eval *e, const struct lvalue *to, uint32_t depth)
+{
+    struct place none = {0};
+    struct place p = symbols_find(e->symbols, to->name, to->len, depth);
+    for (const struct ast *index = to->index; index && place_found(p);) {
+        const struct value *v = place_get(e->parse, p);
+        if (!v || v->kind != VALUE_ARRAY) {
+            diag_at(e->diags, DIAG_SUBSCRIPTS, to->where, "this is no array");
+            return none;
+        }
+        struct place whole = {.array = v->array};
+        if (!eval_index(e, whole, index, to->where, &p))
+            return none;
+        for (uint32_t i = 0; i < v->array->dimensions; i++)
+            index = index->next;
+    }
+    return p;
+}
+
+static bool is_declared(void *user, const struct lvalue *name)
+{
+    struct eval *e = user;
+    struct place p = eval_place(e, name, symbols_depth(e->symbols));
+    return place_found(p) && place_get(e->parse, p);
+}
+
+// ---- assignment --------------------------------------------------------------
+
+static bool declare_begin(void *user, const struct lvalue *to)
+{
+    struct eval *e = user;
+    if (to->local && !to->index)
+        symbols_make(e->symbols, to->name, to->len, true);
+    return true;
+}
+
+static bool assign(struct eval *e, const struct lvalue *to, const struct value *v)
+{
+    struct place p = {0};
+    if (to->index || !to->local)
+        p = eval_place(e, to, symbols_depth(e->symbols));
+    if (to->index && !place_found(p)) {
+        if (!lookup(e, to->name, to->len).value)
+            diag_at(e->diags, DIAG_UNDECLARED, to->where, (int)to->len, to->name);
+        return false;
+    }
+    if (!place_found(p))
+        p = symbols_make(e->symbols, to->name, to->len, to->local);
+    const struct value *old = p.array ? NULL : place_get(e->parse, p);
+    if (old && (old->kind == VALUE_MACRO || old->kind == VALUE_FUNCTION)) {
+        diag_at(e->diags, DIAG_REDECLARED, to->where, (int)to->len, to->name,
+                value_kind_name(old));
+        return false;
+    }
+    if (place_set(e->arena, p, v))
+        return true;
+    diag_at(e->diags, DIAG_ELEMENT_KIND, to->where, value_kind_name(v));
+    return false;
+}
+
+static bool declare(void *user, const struct lvalue *to, const struct ast *items)
+{
+    struct eval *e = user;
+    const struct value *v = eval_rvalue(e, items);
+    if (!v)
+        return false;
+    if (to->deprecated) {
+        struct value *marked = arena_new_struct(e->arena, struct value);
+        *marked = *v;
+        marked->deprecated = true;
+        v = marked;
+    }
+    return assign(e, to, v);
+}
+
+static bool declare_number(void *user, const struct lvalue *to, double v)
+{
+    struct value number_value = value_of_number(&v, 1);
+    return assign(user, to, &number_value);
+}
+
+static bool undef(void *user, const struct lvalue *name)
+{
+    struct eval *e = user;
+    if (name->index) {
+        struct place p = eval_place(e, name, symbols_depth(e->symbols));
+        if (place_found(p))
+            place_clear(p);
+        return place_found(p);
+    }
+    if (!symbols_remove(e->symbols, name->name, name->len))
+        diag_at(e->diags, DIAG_UNDEF_UNKNOWN, name->where, (int)name->len, name->name);
+    return true;
+}
+
+static bool define_macro(void *user, const char *name, size_t len, struct span where,
+                         void *macro)
+{
+    struct eval *e = user;
+    struct place p = symbols_make(e->symbols, name, len, false);
+    const struct value *old = place_get(e->parse, p);
+    if (old && old->kind != VALUE_MACRO) {
+        diag_at(e->diags, DIAG_REDECLARED, where, (int)len, name, value_kind_name(old));
+        return false;
+    }
+    return place_set(e->arena, p, value_new_data(e->arena, VALUE_MACRO, macro));
+}
+
+// ---- arrays ------------------------------------------------------------------
+
+static bool fill_array(struct eval *e, struct array_value *a, const struct ast *entry,
+                       uint32_t dimension, uint32_t *next)
+{
+    uint32_t count = 0;
+    for (const struct ast *n = entry->list; n; n = n->next, count++) {
+        if (count >= a->size[dimension])
+            break;
+        if (dimension + 1 < a->dimensions) {
+            if (n->kind != AST_ENTRY) {
+                diag_at(e->diags, DIAG_INITIALISERS, n->where, a->size[dimension]);
+                return false;
+            }
+            if (!fill_array(e, a, n, dimension + 1, next))
+                return false;
+            continue;
+        }
+        struct ast alone = *n;
+        alone.next = NULL;
+        bool several = n->kind == AST_BLOCK && n->word == WORD_NONE;
+        const struct value *v = eval_rvalue(e, several ? n->list : &alone);
+        if (!v)
+            return false;
+        if (!array_set(e->arena, a, (*next)++, v)) {
+            diag_at(e->diags, DIAG_ELEMENT_KIND, n->where, value_kind_name(v));
+            return false;
+        }
+    }
+    uint32_t given = 0;
+    for (const struct ast *n = entry->list; n; n = n->next)
+        given++;
+    if (given != a->size[dimension])
+        diag_at(e->diags, DIAG_INITIALISERS, entry->where, a->size[dimension]);
+    return given == a->size[dimension];
+}
+
+const struct value *eval_array(struct eval *e, const struct ast *sizes,
+                               const struct ast *elements)
+{
+    long size[ARRAY_DIMENSIONS_MAX];
+    uint32_t dimensions = 0;
+    for (const struct ast *n = sizes; n; n = n->next) {
+        double v;
+        if (dimensions == ARRAY_DIMENSIONS_MAX) {
+            diag_at(e->diags, DIAG_SUBSCRIPTS, n->where, "more than 5 dimensions");
+            return NULL;
+        }
+        if (!eval_float(e, n, &v))
+            return NULL;
+        size[dimensions++] = (long)number_to_int(v + index_slack);
+    }
+    struct array_value *a = array_new(e->arena, dimensions, size);
+    if (!a) {
+        diag_at(e->diags, DIAG_ARRAY_SIZE, sizes->where, "");
+        return NULL;
+    }
+    uint32_t next = 0;
+    if (elements && !fill_array(e, a, elements, 0, &next))
+        return NULL;
+    struct value *v = arena_new_struct(e->arena, struct value);
+    v->kind = VALUE_ARRAY;
+    v->array = a;
+    return v;
+}
+
+static bool declare_array(void *user, const struct lvalue *to, const struct ast *sizes,
+                          const struct ast *elements)
+{
+    const struct value *v = eval_array(user, sizes, elements);
+    return v && assign(user, to, v);
+}
+
+// ---- scopes ------------------------------------------------------------------
+
+static bool enter_scope(void *user, struct span where)
+{
+    struct eval *e = user;
+    if (symbols_depth(e->symbols) >= SCOPES_MAX) {
+        diag_at(e->diags, DIAG_SCOPES, where, "");
+        return false;
+    }
+    symbols_enter(e->symbols);
+    return true;
+}
+
+static void leave_scope(void *user) { symbols_leave(((struct eval *)user)->symbols); }
+
+static bool bind_argument(void *user, const char *parameter, size_t len,
+                          const struct macro_argument *argument)
+{
+    struct eval *e = user;
+    if (argument->by_reference) {
+        const struct lvalue *r = &argument->reference;
+        struct place p = eval_place(e, r, symbols_depth(e->symbols) - 1);
+        const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
+        if (!v) {
+            diag_at(e->diags, DIAG_UNDECLARED, r->where, (int)r->len, r->name);
+            return false;
+        }
+        if (v->kind != VALUE_FUNCTION) {
+            symbols_refer(e->symbols, parameter, len, p);
+            return true;
+        }
+        struct place own = symbols_make(e->symbols, parameter, len, true);
+        return place_set(e->arena, own, v);
+    }
+    const struct value *v = eval_rvalue(e, argument->rvalue);
+    if (!v)
+        return false;
+    struct place own = symbols_make(e->symbols, parameter, len, true);
+    return place_set(e->arena, own, v);
+}
+
+// ---- finished nodes ----------------------------------------------------------
+
+static void become(struct ast *n, const struct value *v, bool keep_name)
+{
+    n->kind = AST_VALUE;
+    n->value = v;
+    n->list = NULL;
+    if (!keep_name) {
+        n->text = NULL;
+        n->len = 0;
+    }
+}
+
+static struct ast *finish_call(struct eval *e, struct ast *n)
+{
+    struct call_result r = {0};
+    if (n->kind == AST_CALL) {
+        if (!eval_call(e, n, &r))
+            return NULL;
+    } else if (!eval_apply(e, n, r.n, &r.width)) {
+        return NULL;
+    }
+    if (!r.width) {
+        become(n, value_new_string(e->arena, r.text, strlen(r.text)), false);
+    } else if (r.width == 1) {
+        n->kind = AST_NUMBER;
+        n->list = NULL;
+        n->value = NULL;
+        n->number = r.n[0];
+        n->len = 0;
+    } else {
+        become(n, value_new_number(e->parse, r.n, r.width), false);
+    }
+    return n;
+}
+
+static struct ast *finish(void *user, struct ast *n)
+{
+    struct eval *e = user;
+    if (n->kind == AST_CALL || n->kind == AST_APPLY)
+        return finish_call(e, n);
+    const struct value *v = NULL;
+    if (n->kind == AST_INDEX)
+        v = eval_named(e, n);
+    else if (n->kind == AST_BLOCK && builder_is_object_word(n->word))
+        v = builder_object(e->builder, n);
+    else
+        return n;
+    if (!v)
+        return NULL;
+    become(n, v, n->kind == AST_INDEX);
+    return n;
+}
+
+// ---- messages, version, files --------------------------------------------------
+
+static void tell(struct eval *e, enum word directive, const char *text)
+{
+    if (e->options->message)
+        e->options->message(e->options->message_user, directive, text);
+    else
+        fputs(text, stderr);
+}
+
+static bool message(void *user, enum word directive, struct span where, const char *text)
+{
+    struct eval *e = user;
+    if (directive == WORD_warning) {
+        diag_at(e->diags, DIAG_SCENE_WARNING, where, text);
+        return true;
+    }
+    if (directive == WORD_error) {
+        diag_at(e->diags, DIAG_SCENE_ERROR, where, text);
+        e->diags->errors_max = e->diags->errors; // nothing is read after it
+        return false;
+    }
+    tell(e, directive, text);
+    return true;
+}
+
+static bool version(void *user, struct span where, double v)
+{
+    struct eval *e = user;
+    int hundredfold = (int)(100 * v + 0.5);
+    if (hundredfold > 370 || hundredfold < 0) {
+        diag_at(e->diags, DIAG_VERSION, where, v);
+        return false;
+    }
+    e->version = hundredfold;
+    e->version_seen = true;
+    return true;
+}
+
+static bool defaults(void *user, const struct ast *items)
+{
+    return builder_defaults(((struct eval *)user)->builder, items);
+}
+
+static bool file_io(void *user, enum word directive, struct span where,
+                    const struct lvalue *handle, const struct ast *items)
+{
+    struct eval *e = user;
+    (void)handle;
+    (void)items;
+    diag_at(e->diags, DIAG_NOT_BUILT, where, word_text(directive));
+    return false;
+}
+
+static bool open_include(void *user, const char *name, struct span where,
+                         const char **found, const char **text, size_t *len)
+{
+    static const char *const extensions[] = {".inc", ".INC", NULL};
+    struct eval *e = user;
+    *found = file_find(e, name, extensions);
+    if (*found && file_read(e->sources->arena, *found, text, len))
+        return true;
+    diag_at(e->diags, DIAG_INCLUDE_NOT_FOUND, where, name);
+    return false;
+}
+
+struct stream_host eval_host(struct eval *e)
+{
+    return (struct stream_host){
+        .user = e,
+        .lookup = lookup,
+        .number = number,
+        .string = string,
+        .is_declared = is_declared,
+        .declare_begin = declare_begin,
+        .declare = declare,
+        .declare_number = declare_number,
+        .declare_array = declare_array,
+        .undef = undef,
+        .define_macro = define_macro,
+        .enter_scope = enter_scope,
+        .leave_scope = leave_scope,
+        .bind_argument = bind_argument,
+        .finish = finish,
+        .message = message,
+        .version = version,
+        .defaults = defaults,
+        .file_io = file_io,
+        .open_include = open_include,
+    };
+}

@@ -1,0 +1,176 @@
+// Splines (spec/language 4.15).
+
+#include "eval/spline.h"
+
+#include <string.h>
+
+#include "base/arena.h"
+#include "eval/expr.h"
+
+bool spline_kind_of(enum word w, enum spline_kind *out)
+{
+    switch (w) {
+    case WORD_linear_spline: *out = SPLINE_LINEAR; return true;
+    case WORD_quadratic_spline: *out = SPLINE_QUADRATIC; return true;
+    case WORD_cubic_spline: *out = SPLINE_CUBIC; return true;
+    case WORD_natural_spline: *out = SPLINE_NATURAL; return true;
+    default: return false;
+    }
+}
+
+static void insert(struct spline *s, const struct spline_point *p)
+{
+    uint32_t i = s->count;
+    while (i > 0 && s->point[i - 1].at > p->at)
+        i--;
+    if (i > 0 && s->point[i - 1].at == p->at) {
+        if (i < s->count) // a repeat of the largest parameter is ignored
+            s->point[i - 1] = *p;
+        return;
+    }
+    memmove(&s->point[i + 1], &s->point[i], (s->count - i) * sizeof *s->point);
+    s->point[i] = *p;
+    s->count++;
+}
+
+// Second derivatives of the natural spline, component c: the tridiagonal system by
+// elimination (Thomas); p[0..count) ascending, ends 0.
+static void solve_natural(struct spline *s, double *upper, double *right, int c)
+{
+    struct spline_point *p = s->point;
+    uint32_t m = s->count - 1;
+    upper[0] = right[0] = 0;
+    for (uint32_t i = 1; i < m; i++) {
+        double before = p[i].at - p[i - 1].at, after = p[i + 1].at - p[i].at;
+        double slope = (p[i + 1].p[c] - p[i].p[c]) / after -
+                       (p[i].p[c] - p[i - 1].p[c]) / before;
+        double pivot = 2 * (before + after) - before * upper[i - 1];
+        upper[i] = after / pivot;
+        right[i] = (6 * slope - before * right[i - 1]) / pivot;
+    }
+    p[m].second[c] = 0;
+    for (uint32_t i = m; i-- > 0;)
+        p[i].second[c] = i ? right[i] - upper[i] * p[i + 1].second[c] : 0;
+}
+
+static bool read_items(struct eval *e, const struct ast *n, struct spline *s)
+{
+    while (n) {
+        struct spline_point p = {0};
+        int width;
+        if (n->kind == AST_WORD && spline_kind_of(n->word, &s->kind)) {
+            n = n->next;
+            continue;
+        }
+        if (!n->next) {
+            diag_at(e->diags, DIAG_EXPECTED_NUMBER, n->where, "no point after it");
+            return false;
+        }
+        if (!eval_float(e, n, &p.at) || !eval_full(e, n->next, 2, p.p, &width))
+            return false;
+        if (width > s->width)
+            s->width = width;
+        insert(s, &p);
+        n = n->next->next;
+    }
+    return true;
+}
+
+const struct value *spline_value(struct eval *e, const struct ast *block)
+{
+    const struct ast *n = block->list;
+    struct spline *s = arena_new_struct(e->arena, struct spline);
+    const struct spline *start = NULL;
+    if (n && n->kind == AST_VALUE && n->value && n->value->kind == VALUE_SPLINE) {
+        start = n->value->data;
+        *s = *start;
+        n = n->next;
+    }
+    size_t items = s->count;
+    for (const struct ast *i = n; i; i = i->next)
+        items++;
+    s->point = arena_new_array(e->arena, struct spline_point, items + 1);
+    if (start)
+        memcpy(s->point, start->point, s->count * sizeof *s->point);
+    if (s->width < 2)
+        s->width = 2;
+    if (!read_items(e, n, s))
+        return NULL;
+    if (!s->count) {
+        diag_at(e->diags, DIAG_EMPTY_SPLINE, block->where, "");
+        return NULL;
+    }
+    double *work = arena_new_array(e->parse, double, 2 * (size_t)s->count);
+    for (int c = 0; c < 5 && s->count > 1; c++)
+        solve_natural(s, work, work + s->count, c);
+    return value_new_data(e->arena, VALUE_SPLINE, s);
+}
+
+static double quadratic(const struct spline_point *p, double t, int c)
+{
+    double a = t - p[0].at, b = t - p[1].at, d = t - p[2].at;
+    double ab = p[0].at - p[1].at, ad = p[0].at - p[2].at, bd = p[1].at - p[2].at;
+    return p[0].p[c] * (b * d) / (ab * ad) - p[1].p[c] * (a * d) / (ab * bd) +
+           p[2].p[c] * (a * b) / (ad * bd);
+}
+
+static double natural(const struct spline_point *p, double t, int c)
+{
+    double h = p[1].at - p[0].at, s = t - p[0].at;
+    double m0 = p[0].second[c], m1 = p[1].second[c];
+    return p[0].p[c] + s * (-(h / 6) * (m1 + 2 * m0) + (p[1].p[c] - p[0].p[c]) / h +
+                            s * (m0 / 2 + s * (m1 - m0) / (6 * h)));
+}
+
+// Hermite with Catmull-Rom slopes over p[1]..p[2].
+static double catmull_rom(const struct spline_point *p, double t, int c)
+{
+    double s[3];
+    for (int i = 0; i < 3; i++)
+        s[i] = (p[i + 1].p[c] - p[i].p[c]) / (p[i + 1].at - p[i].at);
+    double h = p[2].at - p[1].at, u = (t - p[1].at) / h;
+    double d1 = h / 2 * (s[0] + s[1]), d2 = h / 2 * (s[1] + s[2]);
+    return p[1].p[c] * ((2 * u - 3) * u * u + 1) + d1 * (((u - 2) * u + 1) * u) +
+           p[2].p[c] * ((3 - 2 * u) * u * u) + d2 * ((u - 1) * u * u);
+}
+
+static double component(const struct spline *s, enum spline_kind kind, double t,
+                        uint32_t i, int c)
+{
+    const struct spline_point *p = s->point + i;
+    uint32_t m = s->count - 1;
+    if (kind == SPLINE_CUBIC) {
+        if (m == 1)
+            return (p[0].p[c] + p[1].p[c]) / 2;
+        if (i == 0)
+            return s->point[1].p[c];
+        return i + 1 >= m ? s->point[m - 1].p[c] : catmull_rom(p - 1, t, c);
+    }
+    if (kind == SPLINE_NATURAL)
+        return natural(p, t, c);
+    if (kind == SPLINE_QUADRATIC && m > 1)
+        return quadratic(i ? p - 1 : p, t, c);
+    return p[0].p[c] + (p[1].p[c] - p[0].p[c]) * (t - p[0].at) / (p[1].at - p[0].at);
+}
+
+void spline_at(const struct spline *s, enum spline_kind kind, double at, double out[5])
+{
+    uint32_t m = s->count - 1, i = 0;
+    const struct spline_point *end = !m || at <= s->point[0].at  ? &s->point[0]
+                                     : at >= s->point[m].at ? &s->point[m]
+                                                            : NULL;
+    if (end && (kind != SPLINE_CUBIC || !m)) {
+        memcpy(out, end->p, 5 * sizeof *out);
+        return;
+    }
+    uint32_t high = m; // point[i].at < at <= point[high].at
+    while (high - i > 1) {
+        uint32_t middle = (i + high) / 2;
+        if (s->point[middle].at < at)
+            i = middle;
+        else
+            high = middle;
+    }
+    for (int c = 0; c < 5; c++)
+        out[c] = component(s, kind, at, i, c);
+}

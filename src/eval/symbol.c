@@ -1,0 +1,261 @@
+#include "eval/symbol.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "base/diag.h"
+#include "eval/array.h"
+
+struct symbol {
+    struct name *name;
+    struct symbol *outer;         // the next older entry of the name
+    struct symbol *next_in_scope; // or in the list of free entries
+    uint32_t depth;
+    bool unlinked;             // removed by #undef; a reference may still hold it
+    bool is_number;            // `number` holds the value
+    bool is_reference;         // `refers` holds it
+    struct value number;       // changed in place
+    const struct value *value; // what readers get; NULL: nothing, or not copied yet
+    struct place refers;
+};
+
+struct name {
+    struct name *next; // in its bucket
+    struct symbol *top;
+    uint32_t hash, len;
+    char text[];
+};
+
+struct symbol_tables {
+    struct arena *arena;
+    struct name **bucket;
+    uint32_t bucket_count, name_count; // bucket_count: a power of two
+    struct symbol **scope;             // entries of each scope
+    uint32_t depth, scope_capacity;
+    struct symbol *free;
+};
+
+struct symbol_tables *symbols_new(void)
+{
+    struct arena *a = arena_new(1 << 16);
+    struct symbol_tables *t = arena_new_struct(a, struct symbol_tables);
+    t->arena = a;
+    t->bucket_count = 1024;
+    t->bucket = arena_new_array(a, struct name *, t->bucket_count);
+    t->scope_capacity = 64;
+    t->scope = arena_new_array(a, struct symbol *, t->scope_capacity);
+    t->depth = 1;
+    return t;
+}
+
+void symbols_free(struct symbol_tables *t)
+{
+    if (t)
+        arena_free(t->arena);
+}
+
+static uint32_t hash_of(const char *s, size_t len)
+{
+    uint32_t h = 2166136261u; // FNV-1a
+    for (size_t i = 0; i < len; i++)
+        h = (h ^ (unsigned char)s[i]) * 16777619u;
+    return h;
+}
+
+static struct name *find_name(const struct symbol_tables *t, const char *s, size_t len,
+                              uint32_t hash)
+{
+    for (struct name *n = t->bucket[hash & (t->bucket_count - 1)]; n; n = n->next)
+        if (n->hash == hash && n->len == len && !memcmp(n->text, s, len))
+            return n;
+    return NULL;
+}
+
+static void grow_buckets(struct symbol_tables *t)
+{
+    uint32_t count = 4 * t->bucket_count;
+    struct name **bucket = arena_new_array(t->arena, struct name *, count);
+    for (uint32_t i = 0; i < t->bucket_count; i++) {
+        struct name *next;
+        for (struct name *n = t->bucket[i]; n; n = next) {
+            next = n->next;
+            n->next = bucket[n->hash & (count - 1)];
+            bucket[n->hash & (count - 1)] = n;
+        }
+    }
+    t->bucket = bucket;
+    t->bucket_count = count;
+}
+
+static struct name *intern(struct symbol_tables *t, const char *s, size_t len)
+{
+    uint32_t hash = hash_of(s, len);
+    struct name *n = find_name(t, s, len, hash);
+    if (n)
+        return n;
+    if (t->name_count++ > 2 * t->bucket_count)
+        grow_buckets(t);
+    n = arena_alloc(t->arena, sizeof *n + len + 1);
+    n->hash = hash;
+    n->len = (uint32_t)len;
+    memcpy(n->text, s, len);
+    n->next = t->bucket[hash & (t->bucket_count - 1)];
+    t->bucket[hash & (t->bucket_count - 1)] = n;
+    return n;
+}
+
+uint32_t symbols_depth(const struct symbol_tables *t) { return t->depth; }
+
+void symbols_enter(struct symbol_tables *t)
+{
+    if (t->depth == t->scope_capacity) {
+        struct symbol **grown = arena_new_array(t->arena, struct symbol *, 2 * t->depth);
+        memcpy(grown, t->scope, t->depth * sizeof *grown);
+        t->scope = grown;
+        t->scope_capacity *= 2;
+    }
+    t->scope[t->depth++] = NULL;
+}
+
+static void unlink_symbol(struct symbol *s)
+{
+    struct symbol **at = &s->name->top;
+    while (*at != s)
+        at = &(*at)->outer;
+    *at = s->outer;
+}
+
+void symbols_leave(struct symbol_tables *t)
+{
+    if (t->depth == 1)
+        return;
+    struct symbol *next;
+    for (struct symbol *s = t->scope[--t->depth]; s; s = next) {
+        next = s->next_in_scope;
+        if (s->unlinked)
+            continue;
+        unlink_symbol(s);
+        s->next_in_scope = t->free;
+        t->free = s;
+    }
+}
+
+static struct symbol *find_entry(struct symbol_tables *t, const char *name, size_t len,
+                                 uint32_t depth)
+{
+    struct name *n = find_name(t, name, len, hash_of(name, len));
+    struct symbol *s = n ? n->top : NULL;
+    while (s && s->depth >= depth)
+        s = s->outer;
+    return s;
+}
+
+static struct place place_of(struct symbol *s)
+{
+    if (s && s->is_reference)
+        return s->refers;
+    return (struct place){.symbol = s};
+}
+
+struct place symbols_find(struct symbol_tables *t, const char *name, size_t len,
+                          uint32_t depth)
+{
+    return place_of(find_entry(t, name, len, depth));
+}
+
+static struct symbol *make_entry(struct symbol_tables *t, const char *text, size_t len,
+                                 uint32_t depth)
+{
+    struct name *name = intern(t, text, len);
+    struct symbol **at = &name->top;
+    while (*at && (*at)->depth > depth)
+        at = &(*at)->outer;
+    if (*at && (*at)->depth == depth)
+        return *at;
+    struct symbol *s = t->free;
+    if (s) {
+        t->free = s->next_in_scope;
+        memset(s, 0, sizeof *s);
+    } else {
+        s = arena_new_struct(t->arena, struct symbol);
+    }
+    s->name = name;
+    s->depth = depth;
+    s->outer = *at;
+    *at = s;
+    s->next_in_scope = t->scope[depth];
+    t->scope[depth] = s;
+    return s;
+}
+
+struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
+                          bool local)
+{
+    return place_of(make_entry(t, name, len, local ? t->depth - 1 : 0));
+}
+
+void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
+                   struct place to)
+{
+    struct symbol *s = make_entry(t, name, len, t->depth - 1);
+    s->is_reference = true;
+    s->refers = to;
+}
+
+bool symbols_remove(struct symbol_tables *t, const char *name, size_t len)
+{
+    struct symbol *s = find_entry(t, name, len, t->depth);
+    if (!s)
+        return false;
+    unlink_symbol(s);
+    s->unlinked = true;
+    return true;
+}
+
+const struct value *place_get(struct arena *copies, struct place p)
+{
+    if (p.array)
+        return array_get(copies, p.array, p.index);
+    struct symbol *s = p.symbol;
+    if (!s->value && s->is_number) {
+        struct value *copy = arena_new_struct(copies, struct value);
+        *copy = s->number;
+        s->value = copy;
+    }
+    return s->value;
+}
+
+bool place_set(struct arena *a, struct place p, const struct value *v)
+{
+    if (p.array)
+        return array_set(a, p.array, p.index, v);
+    p.symbol->is_number = v->kind == VALUE_NUMBER;
+    p.symbol->value = p.symbol->is_number ? NULL : v;
+    if (p.symbol->is_number)
+        p.symbol->number = *v;
+    return true;
+}
+
+void place_clear(struct place p)
+{
+    if (p.array) {
+        p.array->set[p.index] = false;
+        return;
+    }
+    p.symbol->is_number = false;
+    p.symbol->value = NULL;
+}
+
+const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len)
+{
+    const char **list = malloc((t->name_count + 1) * sizeof *list);
+    size_t count = 0;
+    for (uint32_t i = 0; list && i < t->bucket_count; i++)
+        for (const struct name *n = t->bucket[i]; n; n = n->next)
+            if (n->top)
+                list[count++] = n->text;
+    const char *found = count ? diag_closest(name, len, list, count) : NULL;
+    free(list);
+    return found;
+}

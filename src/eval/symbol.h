@@ -1,0 +1,53 @@
+#ifndef EVAL_SYMBOL_H
+#define EVAL_SYMBOL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "eval/value.h"
+
+// Names and what they stand for: a stack of scopes (global, then one per open
+// include and macro call), searched newest first (spec/language 3.3).
+struct symbol_tables;
+struct symbol;
+
+// Where a value is kept: a name, or one element of an array.
+struct place {
+    struct symbol *symbol; // NULL: none
+    struct array_value *array;
+    uint32_t index;
+};
+
+struct symbol_tables *symbols_new(void);
+void symbols_free(struct symbol_tables *t);
+
+uint32_t symbols_depth(const struct symbol_tables *t); // 1: only the global scope
+void symbols_enter(struct symbol_tables *t);
+void symbols_leave(struct symbol_tables *t);
+
+// The newest entry of a name in scopes 1..depth, references followed; one with
+// neither symbol nor array when there is none.
+struct place symbols_find(struct symbol_tables *t, const char *name, size_t len,
+                          uint32_t depth);
+// The entry in the current (local) or the global scope, made if it is not there.
+struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
+                          bool local);
+// Makes a name of the current scope stand for another place.
+void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
+                   struct place to);
+// Removes the newest entry; false when there is none.
+bool symbols_remove(struct symbol_tables *t, const char *name, size_t len);
+
+static inline bool place_found(struct place p) { return p.symbol || p.array; }
+// The value now, immutable: numbers are copied into `copies`, once per change.
+// NULL: nothing was assigned yet.
+const struct value *place_get(struct arena *copies, struct place p);
+// False when an array element would change its kind. Numbers cost no memory.
+bool place_set(struct arena *a, struct place p, const struct value *v);
+void place_clear(struct place p);
+
+// The declared names closest to a word, for hints; NULL: none is close.
+const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len);
+
+#endif
