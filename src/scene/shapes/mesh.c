@@ -86,9 +86,11 @@ static uint32_t partition(struct tree *t, uint32_t first, uint32_t count, int de
     int axis = -1, bin = 0;
     double least = INFINITY;
     for (int a = 0; a < 3 && depth < DEPTH_MAX / 2; a++) {
-        const double lo = vec3_axis(centers.min, a), size = vec3_axis(centers.max, a) - lo;
+        const double lo = vec3_axis(centers.min, a),
+                     size = vec3_axis(centers.max, a) - lo;
         int k = 0;
-        const double cost = size > 0 ? split_cost(t, first, count, a, lo, size, &k) : INFINITY;
+        const double cost =
+            size > 0 ? split_cost(t, first, count, a, lo, size, &k) : INFINITY;
         if (cost < least) {
             least = cost;
             axis = a;
@@ -97,7 +99,8 @@ static uint32_t partition(struct tree *t, uint32_t first, uint32_t count, int de
     }
     if (axis < 0)
         return count / 2;
-    const double lo = vec3_axis(centers.min, axis), size = vec3_axis(centers.max, axis) - lo;
+    const double lo = vec3_axis(centers.min, axis),
+                 size = vec3_axis(centers.max, axis) - lo;
     uint32_t i = first, j = first + count;
     while (i < j) {
         if (bin_of(middle(&t->box[order[i]], axis), lo, size) <= bin) {
@@ -153,33 +156,45 @@ void mesh_finish(struct mesh *m, struct arena *a)
 
 // ---- rays -------------------------------------------------------------------------------
 
+// Boxes are widened by the rounding of the triangle test, which works relative to the
+// origin: a ray that touches a corner must not miss its box.
 struct slabs {
     struct vec3 o, inv;
+    double widen;
 };
+
+static bool slab(double min, double max, double o, double inv, double widen,
+                 double *t_min, double *t_max)
+{
+    min -= widen;
+    max += widen;
+    if (isinf(inv)) // along the faces: all or nothing
+        return o >= min && o <= max;
+    const double a = (min - o) * inv, b = (max - o) * inv;
+    const double near = a < b ? a : b, far = a < b ? b : a;
+    *t_min = near > *t_min ? near : *t_min;
+    *t_max = far < *t_max ? far : *t_max;
+    return *t_min <= *t_max ||
+           *t_min - *t_max <= GAMMA(6) * (fabs(*t_min) + fabs(*t_max));
+}
 
 static bool meets(const struct aabb *b, const struct slabs *r, double t_min, double t_max,
                   double *t)
 {
-    const double grow = 1 + 2 * GAMMA(3);
-    const double x0 = (b->min.x - r->o.x) * r->inv.x, x1 = (b->max.x - r->o.x) * r->inv.x;
-    const double y0 = (b->min.y - r->o.y) * r->inv.y, y1 = (b->max.y - r->o.y) * r->inv.y;
-    const double z0 = (b->min.z - r->o.z) * r->inv.z, z1 = (b->max.z - r->o.z) * r->inv.z;
-    const double n[3] = {x0 < x1 ? x0 : x1, y0 < y1 ? y0 : y1, z0 < z1 ? z0 : z1};
-    const double f[3] = {x0 < x1 ? x1 : x0, y0 < y1 ? y1 : y0, z0 < z1 ? z1 : z0};
-    for (int i = 0; i < 3; i++) {
-        // The far side outwards, the near side too when it is negative.
-        const double far = f[i] < 0 ? f[i] / grow : f[i] * grow;
-        const double near = n[i] < 0 ? n[i] * grow : n[i] / grow;
-        t_min = near > t_min ? near : t_min;
-        t_max = far < t_max ? far : t_max;
-    }
+    const bool met =
+        slab(b->min.x, b->max.x, r->o.x, r->inv.x, r->widen, &t_min, &t_max) &&
+        slab(b->min.y, b->max.y, r->o.y, r->inv.y, r->widen, &t_min, &t_max) &&
+        slab(b->min.z, b->max.z, r->o.z, r->inv.z, r->widen, &t_min, &t_max);
     *t = t_min;
-    return t_min <= t_max;
+    return met;
 }
 
-static struct slabs slabs_of(const struct ray *r)
+static struct slabs slabs_of(const struct mesh *m, const struct ray *r)
 {
-    return (struct slabs){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z)};
+    const double size =
+        vec3_max_abs(r->o) + vec3_max_abs(m->bounds.min) + vec3_max_abs(m->bounds.max);
+    return (struct slabs){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z),
+                          GAMMA(16) * size};
 }
 
 static void fill(struct boundary *b, const struct triangle_hit *h, uint32_t face)
@@ -196,7 +211,6 @@ static void fill(struct boundary *b, const struct triangle_hit *h, uint32_t face
 // from the count of crossings, as faces may be turned either way.
 static void alternate(struct boundary_list *out, uint32_t from)
 {
-    boundary_list_sort(out, from);
     for (uint32_t i = from; i < out->count; i++)
         out->at[i].crossing = (i - from) % 2 ? CROSS_EXIT : CROSS_ENTER;
     if ((out->count - from) % 2) // the mesh is not closed along this line
@@ -206,7 +220,7 @@ static void alternate(struct boundary_list *out, uint32_t from)
 void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct mesh *m = shape;
-    const struct slabs s = slabs_of(ray);
+    const struct slabs s = slabs_of(m, ray);
     const struct triangle_ray r = triangle_ray_of(ray);
     const uint32_t from = out->count;
     uint32_t stack[DEPTH_MAX + 4], depth = 0;
@@ -226,10 +240,13 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
             struct vec3 p[3];
             struct triangle_hit h;
             corners(m, m->order[k], p);
-            if (triangle_meet(&r, p, &h))
+            // Of the triangles around a common edge one counts, so that a closed mesh is
+            // left as often as it is entered.
+            if (triangle_meet(&r, p, &h) && (!m->solid || triangle_owns(&r, p)))
                 fill(boundary_list_add(out, h.t, h.dt, CROSS_TOUCH, 0), &h, m->order[k]);
         }
     }
+    boundary_list_sort(out, from);
     if (m->solid)
         alternate(out, from);
 }
@@ -237,7 +254,7 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
 bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     const struct mesh *m = shape;
-    const struct slabs s = slabs_of(ray);
+    const struct slabs s = slabs_of(m, ray);
     const struct triangle_ray r = triangle_ray_of(ray);
     uint32_t stack[DEPTH_MAX + 4], depth = 0;
     double t_max = ray->t_max;

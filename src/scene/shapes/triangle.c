@@ -62,6 +62,31 @@ bool triangle_meet(const struct triangle_ray *r, const struct vec3 p[3],
     return true;
 }
 
+// The sign of the edge function of a and b after moving the ray by (e, -e*e) in the
+// sheared plane, e > 0 as small as you like (Edelsbrunner & Muecke 1990).
+static bool edge_positive(double ax, double ay, double bx, double by)
+{
+    const double e = ax * by - ay * bx;
+    if (e != 0)
+        return e > 0;
+    return ay != by ? ay > by : ax > bx;
+}
+
+bool triangle_owns(const struct triangle_ray *r, const struct vec3 p[3])
+{
+    double x[3], y[3];
+    for (int i = 0; i < 3; i++) {
+        const struct vec3 q = vec3_sub(p[i], r->o);
+        const double k = vec3_axis(q, r->kz);
+        x[i] = vec3_axis(q, r->kx) - r->sx * k;
+        y[i] = vec3_axis(q, r->ky) - r->sy * k;
+    }
+    const bool u = edge_positive(x[2], y[2], x[1], y[1]);
+    const bool v = edge_positive(x[0], y[0], x[2], y[2]);
+    const bool w = edge_positive(x[1], y[1], x[0], y[0]);
+    return u == v && v == w;
+}
+
 struct vec3 triangle_normal(const struct vec3 p[3])
 {
     return vec3_normalize(vec3_cross(vec3_sub(p[2], p[0]), vec3_sub(p[1], p[0])));
@@ -154,9 +179,9 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     out->p = p;
     out->ng = out->ns = s->face;
     if (s->smooth) {
-        const struct vec3 n = vec3_add(
-            vec3_scale(1 - b->u - b->v, s->n[0]),
-            vec3_add(vec3_scale(b->u, s->n[1]), vec3_scale(b->v, s->n[2])));
+        const struct vec3 n =
+            vec3_add(vec3_scale(1 - b->u - b->v, s->n[0]),
+                     vec3_add(vec3_scale(b->u, s->n[1]), vec3_scale(b->v, s->n[2])));
         if (vec3_dot(n, n) > 0)
             out->ns = vec3_normalize(n);
     }

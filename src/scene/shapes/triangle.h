@@ -24,6 +24,11 @@ struct triangle_ray triangle_ray_of(const struct ray *r);
 bool triangle_meet(const struct triangle_ray *r, const struct vec3 p[3],
                    struct triangle_hit *hit);
 
+// Whether a triangle that triangle_meet hit counts for parity: of all triangles around
+// a common edge or corner the ray goes through, those on the side to which the ray, moved
+// a hair, would go. A closed mesh is then crossed an even number of times.
+bool triangle_owns(const struct triangle_ray *r, const struct vec3 p[3]);
+
 // Vertex order (p2 - p0) x (p1 - p0), unit, as the scene language has it; zero when the
 // triangle has no area.
 struct vec3 triangle_normal(const struct vec3 p[3]);

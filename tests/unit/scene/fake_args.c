@@ -1,0 +1,182 @@
+// The readers of scene/args.h over a flat text: numbers, words and { }. Vectors are their
+// components; '<', '>' and ',' are blanks.
+#include "fake_args.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "math/transform.h"
+#include "scene/args.h"
+
+struct args {
+    const char *at;
+    struct arena *arena;
+    struct diag_sink *diags;
+    struct args *parent;
+    bool failed;
+};
+
+struct args *fake_args_new(struct arena *a, struct diag_sink *sink, const char *text)
+{
+    struct args *args = arena_new_struct(a, struct args);
+    args->at = text;
+    args->arena = a;
+    args->diags = sink;
+    return args;
+}
+
+bool fake_args_failed(const struct args *a) { return a->failed; }
+
+static const char *blank(const char *s)
+{
+    while (*s && strchr(" ,<>\n", *s))
+        s++;
+    return s;
+}
+
+bool args_at_number(struct args *a)
+{
+    const char *s = blank(a->at); // '<' stays for args_at_vector
+    return isdigit((unsigned char)*s) || *s == '-' || *s == '.';
+}
+
+bool args_at_vector(struct args *a)
+{
+    while (*a->at == ' ' || *a->at == ',' || *a->at == '>')
+        a->at++;
+    return *a->at == '<';
+}
+
+bool args_float(struct args *a, const char *role, double *out)
+{
+    (void)role;
+    if (!args_at_number(a))
+        return false;
+    char *end;
+    *out = strtod(blank(a->at), &end);
+    a->at = end;
+    return true;
+}
+
+bool args_int(struct args *a, const char *role, long *out)
+{
+    double v;
+    if (!args_float(a, role, &v))
+        return false;
+    *out = (long)v;
+    return true;
+}
+
+bool args_floats(struct args *a, const char *role, double *out, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!args_float(a, role, &out[i]))
+            return false;
+    return true;
+}
+
+bool args_vec2(struct args *a, const char *role, struct vec2 *out)
+{
+    return args_float(a, role, &out->u) && args_float(a, role, &out->v);
+}
+
+bool args_vec3(struct args *a, const char *role, struct vec3 *out)
+{
+    return args_float(a, role, &out->x) && args_float(a, role, &out->y) &&
+           args_float(a, role, &out->z);
+}
+
+bool args_vec4(struct args *a, const char *role, double out[4])
+{
+    return args_floats(a, role, out, 4);
+}
+
+bool args_word(struct args *a, const char *word)
+{
+    a->at = blank(a->at);
+    const size_t n = strlen(word);
+    if (strncmp(a->at, word, n) != 0 || isalnum((unsigned char)a->at[n]) ||
+        a->at[n] == '_' || *blank(a->at + n) == '{')
+        return false;
+    a->at += n;
+    return true;
+}
+
+struct args *args_block(struct args *a, const char *word)
+{
+    a->at = blank(a->at);
+    const size_t n = strlen(word);
+    const char *open = strncmp(a->at, word, n) == 0 ? blank(a->at + n) : "";
+    if (*open != '{')
+        return NULL;
+    const char *end = open + 1;
+    for (int depth = 1; *end && depth; end++)
+        depth += (*end == '{') - (*end == '}');
+    struct args *inner = fake_args_new(
+        a->arena, a->diags, arena_strndup(a->arena, open + 1, (size_t)(end - open - 2)));
+    inner->parent = a;
+    a->at = end;
+    return inner;
+}
+
+bool args_end(struct args *a) { return !*blank(a->at); }
+
+void args_reject(struct args *a, const char *message)
+{
+    (void)message;
+    for (; a; a = a->parent)
+        a->failed = true;
+}
+
+void args_warn(struct args *a, const char *message)
+{
+    (void)a;
+    (void)message;
+}
+
+bool args_string(struct args *a, const char *role, const char **out)
+{
+    (void)a;
+    (void)role;
+    (void)out;
+    return false;
+}
+
+bool args_find_file(struct args *a, const char *role, const char *name,
+                    const char *extension, const char **path)
+{
+    (void)a;
+    (void)role;
+    (void)name;
+    (void)extension;
+    (void)path;
+    return false;
+}
+
+bool args_transforms(struct args *a, struct transform *out)
+{
+    (void)a;
+    *out = transform_identity;
+    return true;
+}
+
+const struct texture *args_texture(struct args *a)
+{
+    (void)a;
+    return NULL;
+}
+
+struct arena *args_arena(struct args *a) { return a->arena; }
+struct diag_sink *args_diags(struct args *a) { return a->diags; }
+struct span args_where(struct args *a)
+{
+    (void)a;
+    return (struct span){0};
+}
+const char *args_owner(struct args *a)
+{
+    (void)a;
+    return "shape";
+}
