@@ -8,3 +8,7 @@ test_lamp_LDADD = $(test_ldadd)
 test_antialias_SOURCES = %D%/test_antialias.c
 test_antialias_CPPFLAGS = $(test_cppflags)
 test_antialias_LDADD = $(test_ldadd)
+check_PROGRAMS += test_shade
+test_shade_SOURCES = %D%/test_shade.c
+test_shade_CPPFLAGS = $(test_cppflags)
+test_shade_LDADD = $(test_ldadd)
