@@ -39,12 +39,12 @@ static void spectrum_height(double wavelength, double h[3])
 {
     const double k = 0.964 - 0.934 * (740 - wavelength) / 365;
     const double red = 5 * (k - 0.75), violet = 4 * (k - 0.12), green = 4.5 * (k - 0.57),
-                 blue = k - 0.28;
+                 blue = 4 * (k - 0.28);
     h[0] = 1.15 - red * red;
     if (h[0] < 0)
         h[0] = fmax(0, 0.12 - violet * violet);
     h[1] = fmax(0, 0.97 * (1.1 - green * green));
-    h[2] = fmax(0, 0.98 * (1 - 4 * blue * blue));
+    h[2] = fmax(0, 0.98 * (1 - blue * blue));
 }
 
 static void spectrum_init(struct job *job)
