@@ -12,8 +12,8 @@
 #define NOISE_FAR 4611686018427387904.0
 
 struct lattice {
-    unsigned x, y, z;    // cell, 0..4095
-    double fx, fy, fz;   // place in it
+    unsigned x, y, z;  // cell, 0..4095
+    double fx, fy, fz; // place in it
 };
 
 static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
@@ -207,10 +207,7 @@ double noise_random(unsigned index)
     return noise_random_table[index % NOISE_RANDOM_COUNT] * 0x1p-32;
 }
 
-static int64_t cell_number(double v)
-{
-    return fabs(v) < NOISE_FAR ? (int64_t)v : 0;
-}
+static int64_t cell_number(double v) { return fabs(v) < NOISE_FAR ? (int64_t)v : 0; }
 
 unsigned noise_cell_hash(double x, double y, double z)
 {

@@ -7,16 +7,12 @@ static bool color_at(const struct pigment *p, struct vec3 place,
                      const struct texture_point *at, struct rgbft *out);
 
 // Blended in single precision, as colours are stored.
-static inline float blend(float a, float b, double f)
-{
-    return a + (float)(f * (b - a));
-}
+static inline float blend(float a, float b, double f) { return a + (float)(f * (b - a)); }
 
 static struct rgbft blend_colors(struct rgbft a, struct rgbft b, double f)
 {
     return (struct rgbft){blend(a.r, b.r, f), blend(a.g, b.g, f), blend(a.b, b.b, f),
-                          blend(a.filter, b.filter, f),
-                          blend(a.transmit, b.transmit, f)};
+                          blend(a.filter, b.filter, f), blend(a.transmit, b.transmit, f)};
 }
 
 static struct rgbft map_color(const struct color_map *m, double v)
@@ -60,8 +56,8 @@ static bool average_pigments(const struct pigment_map *m, struct vec3 place,
         sum.transmit += w * c.transmit;
         total += w;
     }
-    *out = (struct rgbft){sum.r / total, sum.g / total, sum.b / total,
-                          sum.filter / total, sum.transmit / total};
+    *out = (struct rgbft){sum.r / total, sum.g / total, sum.b / total, sum.filter / total,
+                          sum.transmit / total};
     return found;
 }
 

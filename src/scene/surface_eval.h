@@ -7,8 +7,10 @@
 
 static inline struct pattern_context pattern_context_of(const struct texture_point *at)
 {
-    return (struct pattern_context){
-        .p_world = at->p_world, .normal = at->normal_seen, .ray_d = at->ray_d, .uv = at->uv};
+    return (struct pattern_context){.p_world = at->p_world,
+                                    .normal = at->normal_seen,
+                                    .ray_d = at->ray_d,
+                                    .uv = at->uv};
 }
 
 static inline struct vec3 uv_point(const struct texture_point *at)

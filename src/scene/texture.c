@@ -130,7 +130,8 @@ const struct texture *texture_transform(struct arena *a, const struct texture *x
         pattern_add_transform(a, &copy->pattern, t);
         return copy;
     }
-    struct texture_layer *layer = arena_new_array(a, struct texture_layer, x->layer_count);
+    struct texture_layer *layer =
+        arena_new_array(a, struct texture_layer, x->layer_count);
     for (uint32_t i = 0; i < x->layer_count; i++) {
         layer[i] = x->layer[i];
         layer[i].pigment = pigment_transform(a, layer[i].pigment, t);

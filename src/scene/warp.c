@@ -44,8 +44,7 @@ static struct vec3 black_hole(const struct warp *w, struct vec3 p)
     struct vec3 c = w->center;
     const struct vec3 v = w->repeat, u = w->uncertainty;
     if (v.x != 0 || v.y != 0 || v.z != 0) {
-        struct vec3 b =
-            vec3(block_of(p.x, v.x), block_of(p.y, v.y), block_of(p.z, v.z));
+        struct vec3 b = vec3(block_of(p.x, v.x), block_of(p.y, v.y), block_of(p.z, v.z));
         if (u.x != 0 || u.y != 0 || u.z != 0) {
             unsigned n = noise_cell_hash(b.x, b.y, b.z);
             c = vec3_add(c, vec3_mul(vec3(noise_random(n), noise_random(n + 1),
@@ -120,7 +119,7 @@ static struct vec3 cubic(struct vec3 p)
     const double x = p.x, y = p.y, z = p.z;
     const double ax = fabs(x), ay = fabs(y), az = fabs(z);
 #define QUARTER(v) (0.25 * (((v) + 1) / 2))
-#define THIRD(v) ((1.0 / 3) * (((v) + 1) / 2))
+#define THIRD(v)   ((1.0 / 3) * (((v) + 1) / 2))
     if (x >= 0 && x >= ay && x >= az)
         return vec3(0.75 - QUARTER(z / x), 1.0 / 3 + THIRD(y / x), x);
     if (y >= 0 && y >= ax && y >= az)

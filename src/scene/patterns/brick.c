@@ -21,7 +21,8 @@ static double value(const struct pattern *p, struct vec3 at,
     const float m = (float)(p->value[0] - 2 * PATTERN_EDGE);
     const struct vec3 s = p->vector;
     const double move = PATTERN_EDGE + m;
-    const double x = (at.x + move) / s.x, y = (at.y + move) / s.y, z = (at.z + move) / s.z;
+    const double x = (at.x + move) / s.x, y = (at.y + move) / s.y,
+                 z = (at.z + move) / s.z;
     if (fraction(y) <= m / s.y)
         return 0;
     if (fraction(0.5 * y) <= 0.5)

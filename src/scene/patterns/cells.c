@@ -7,7 +7,8 @@ static double value(const struct pattern *p, struct vec3 at,
 {
     (void)p;
     (void)c;
-    return noise_random(noise_cell_hash(floor(at.x + PATTERN_EDGE), floor(at.y + PATTERN_EDGE),
+    return noise_random(noise_cell_hash(floor(at.x + PATTERN_EDGE),
+                                        floor(at.y + PATTERN_EDGE),
                                         floor(at.z + PATTERN_EDGE)));
 }
 

@@ -8,8 +8,9 @@ static double value(const struct pattern *p, struct vec3 at,
     (void)p;
     (void)c;
     // Whole numbers up to 3e17 fit the integer.
-    const int64_t cell = (int64_t)(floor(at.x + PATTERN_EDGE) + floor(at.y + PATTERN_EDGE) +
-                                   floor(at.z + PATTERN_EDGE));
+    const int64_t cell =
+        (int64_t)(floor(at.x + PATTERN_EDGE) + floor(at.y + PATTERN_EDGE) +
+                  floor(at.z + PATTERN_EDGE));
     return (double)(cell & 1);
 }
 

@@ -2,7 +2,7 @@
 
 #include "scene/pattern_math.h"
 
-#define HALF_ROOT3 0.866025404
+#define HALF_ROOT3  0.866025404
 #define THREE_ROOT3 5.196152424
 
 static double floor_down(double v) { return v >= 0 ? floor(v) : -floor(-v) - 1; }

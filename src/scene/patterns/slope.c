@@ -32,7 +32,8 @@ static double value(const struct pattern *p, struct vec3 at,
     const double altitude = vec3_length(p->vector2);
     if (p->point_at || altitude == 0)
         return s == 1 ? 1 - PATTERN_EDGE : wrapped(s);
-    const double h = into_range(vec3_dot(at, vec3_normalize(p->vector2)), p->low2, p->high2);
+    const double h =
+        into_range(vec3_dot(at, vec3_normalize(p->vector2)), p->low2, p->high2);
     const double length = vec3_length(p->vector);
     const double share = length / (float)(length + altitude);
     const double v = share * s + (1 - share) * h;

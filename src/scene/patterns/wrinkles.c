@@ -27,7 +27,8 @@ static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
     double scale = 1;
     for (int i = 0; i < WRINKLES_OCTAVES; i++, scale *= 2) {
         const struct vec3 v = noise_vector(vec3_scale(scale, at));
-        sum = vec3_add(sum, vec3(fabs(v.x) / scale, fabs(v.y) / scale, fabs(v.z) / scale));
+        sum =
+            vec3_add(sum, vec3(fabs(v.x) / scale, fabs(v.y) / scale, fabs(v.z) / scale));
     }
     return vec3_mad(n, amount, sum);
 }

@@ -21,8 +21,8 @@ bool object_inside(const struct object *o, struct vec3 p)
 struct reader {
     struct arena *arena;
     const char *at;
-    char word[64];  // the word or sign that next_word took
-    char bad[64];   // the first thing that was not understood
+    char word[64]; // the word or sign that next_word took
+    char bad[64];  // the first thing that was not understood
     struct pattern pattern;
     int axis; // of the function pattern
     double amount, accuracy;
@@ -348,13 +348,21 @@ static bool read_pattern(struct reader *r)
 // Why a row may be left out. Anything else that is not understood fails.
 static bool excused(const char *word)
 {
-    static const char *const list[] = {
-        "black_hole repeat", // the parser adjusts it
-        "function",          // user code: the evaluator's tests
-        "image_pattern", "density_file",            // image files
-        "pavement", "tiling",                       // not built yet
-        "object", "pigment_pattern", "slope",       // need objects, pigments, surfaces
-        "average", "normal_map", "slope_map", "bump_map", "uv_mapping", "normal"};
+    static const char *const list[] = {"black_hole repeat", // the parser adjusts it
+                                       "function", // user code: the evaluator's tests
+                                       "image_pattern",
+                                       "density_file", // image files
+                                       "pavement",
+                                       "tiling", // not built yet
+                                       "object",
+                                       "pigment_pattern",
+                                       "slope", // need objects, pigments, surfaces
+                                       "average",
+                                       "normal_map",
+                                       "slope_map",
+                                       "bump_map",
+                                       "uv_mapping",
+                                       "normal"};
     for (size_t i = 0; i < sizeof list / sizeof list[0]; i++)
         if (!strcmp(word, list[i]))
             return true;
@@ -382,6 +390,17 @@ static bool row_value(struct reader *r, const char *sdl, const char *expr, struc
     }
     if (!*sdl && !strcmp(expr, "f_noise3d(x,y,z)")) {
         *out = noise_value(p, 2);
+        return true;
+    }
+    // Lists of greys 0.1, 0.2, ...: entry i is (i + 1) / 10.
+    const char *list = strstr(sdl, " rgb 0.1 rgb 0.2 ");
+    if (list && !strcmp(expr, "F(x,y,z).red") &&
+        !strncmp(sdl, "function { pigment { ", 21)) {
+        const struct pattern_ops *ops = pattern_find(sdl + 21, (size_t)(list - sdl - 21));
+        if (!ops)
+            return false;
+        pattern_set_kind(&r->pattern, ops);
+        *out = (pattern_value(&r->pattern, p, &(struct pattern_context){0}) + 1) / 10;
         return true;
     }
     if (strncmp(sdl, head, sizeof head - 1))
@@ -452,8 +471,8 @@ static void pattern_rows(void **state)
     arena_free(arena);
     print_message("# %u rows checked, %u left to others\n", checked, left);
     // Seen only through pigments and surfaces.
-    static const char *const none[] = {"aoi",   "facets", "object",    "pigment_pattern",
-                                       "slope", "square", "triangular"};
+    static const char *const none[] = {"aoi", "facets", "object", "pigment_pattern",
+                                       "slope"};
     for (size_t i = 0; i < pattern_count; i++) {
         bool known = seen[i] > 0;
         for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
@@ -486,9 +505,8 @@ static void normal_rows(void **state)
             continue;
         }
         checked++;
-        struct normal n = {.amount = (float)r.amount,
-                           .delta = (float)r.accuracy,
-                           .pattern = r.pattern};
+        struct normal n = {
+            .amount = (float)r.amount, .delta = (float)r.accuracy, .pattern = r.pattern};
         struct texture_point at = {
             .p = vec3(atof(field[1]), atof(field[2]), atof(field[3])),
             .normal = vec3(atof(field[4]), atof(field[5]), atof(field[6]))};
