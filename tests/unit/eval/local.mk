@@ -1,1 +1,5 @@
 # tests of unit/eval
+check_PROGRAMS += test_values
+test_values_SOURCES = %D%/test_values.c
+test_values_CPPFLAGS = $(test_cppflags)
+test_values_LDADD = $(test_ldadd)

@@ -1,0 +1,130 @@
+#include "test.h"
+
+#include <stdlib.h>
+
+#include "base/arena.h"
+#include "eval/eval.h"
+
+struct output {
+    char text[4096];
+    size_t len;
+};
+
+static void collect(void *user, enum word directive, const char *text)
+{
+    (void)directive;
+    struct output *o = user;
+    o->len += (size_t)snprintf(o->text + o->len, sizeof o->text - o->len, "%s", text);
+}
+
+static void show(void *user, const struct diag *d)
+{
+    (void)user;
+    print_message("%s\n", d->message);
+}
+
+// What #debug said; NULL after an error.
+static bool run(const char *text, struct output *o)
+{
+    struct arena *a = arena_new(1 << 16);
+    struct source_map sources;
+    struct scene scene = {0};
+    struct diag_sink sink = {.emit = show};
+    struct eval_options options = {.message = collect, .message_user = o};
+    o->len = 0;
+    o->text[0] = 0;
+    source_map_init(&sources, a);
+    uint32_t file = source_add(&sources, "t.pov", text, strlen(text), (struct span){0});
+    bool ok = eval_scene(a, &sources, file, &sink, &options, &scene);
+    arena_free(a);
+    return ok;
+}
+
+// Rows: an expression of the language and its text. spec/language Appendix B.
+static const char *const rows[][2] = {
+    {"str(vlength(<1,2>+2),0,5)", "5.00000"},
+    {"str(vlength(2+<1,2>),0,5)", "5.38516"},
+    {"str(vlength(2*<1,2>),0,5)", "4.47214"},
+    {"vstr(3,vrotate(<1,2,3>,<10,20,30>),\" \",0,6)", "1.067425 2.289059 2.760581"},
+    {"vstr(3,vturbulence(2,0.5,6,<.3,.5,.7>),\" \",0,6)", "0.091181 -0.215476 0.213181"},
+    {"str(2.5,0,0)", "2"},
+    {"str(1.2,-8,3)", "0001.200"},
+    {"str(1.5,0,-1)", "1.500000"},
+    {"vstr(3,5,\";\",0,1)", "5.0;0.0;0.0"},
+    {"str(strcmp(\"a\",\"c\"),0,0)", "-2"},
+    {"concat(\"a\",chr(65),substr(\"hello\",2,3),strupr(\"x\"))", "aAellX"},
+    {"str(rand(seed(0)),0,17)", "0.00000287429429658"},
+    {"str(rand(seed(-1)),0,17)", "0.57801287355320830"},
+    {"str(rand(seed(3.9)),0,17)", "0.26597287698322275"},
+    {"str((1 < 2 ? 10 : 20),0,0)", "10"},
+    {"str(select(-1,1,2,3)+min(4,2,3)+max(4,2)+mod(7,4)+div(-7,2),0,0)", "7"},
+    {"str(bitwise_xor(12,10)+bitwise_and(12,10)+bitwise_or(12,10),0,0)", "28"},
+    {"str(-<1,2,3>.y + val(\"1.5x\") + asc(\"A\"),0,1)", "64.5"},
+};
+
+static void check_values(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct output o;
+        char text[400], want[100];
+        snprintf(text, sizeof text, "#debug concat(%s,\"\\n\")", rows[i][0]);
+        snprintf(want, sizeof want, "%s\n", rows[i][1]);
+        assert_true(run(text, &o));
+        assert_string_equal(o.text, want);
+    }
+}
+
+// Statements and what they print.
+static const char *const scripts[][2] = {
+    {"#declare C = rgb 0.1; #debug str(C.red,0,15)", "0.100000001490116"},
+    {"#declare n=0; #for(i,0,1,.1) #declare n=n+1; #end #debug str(n,0,0)", "11"},
+    {"#macro A(x1) x1+1 #end #debug str(A(3)*2,0,0)", "5"},
+    {"#macro M(P) #declare P = 7; #end #declare Q = 1; M(Q) #debug str(Q,0,0)", "7"},
+    {"#macro M(P) #declare P = 7; #end #declare Q = 1; M((Q)) #debug str(Q,0,0)", "1"},
+    {"#declare A = array[2][2] {{1,2},{3,4}} #declare B = A; #declare B[1][0] = 9;"
+     "#debug str(A[1][0]*10+B[1][0],0,0)", "39"},
+    {"#declare F = function(n){sum(i,1,n,i*i)} #debug vstr(3,<F(3),F(2.5),F(0)>,\" \",0,0)",
+     "14 5 0"},
+    {"#declare F = function{x>1 & y<2 | z}"
+     "#debug vstr(3,<F(2,1,0),F(0,1,3),F(2,3,0)>,\" \",0,0)", "1 1 0"},
+    {"#declare F = function{2*-x + -(y) - +z} #debug str(F(1,2,3),0,0)", "-7"},
+    {"#declare S = spline{natural_spline 0,0 1,1 2,0 3,5}"
+     "#debug vstr(3,<S(.5).x,S(1.5).x,S(2.5).x>,\" \",0,2)", "0.85 0.20 1.85"},
+    {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
+};
+
+static void check_scripts(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
+        struct output o;
+        assert_true(run(scripts[i][0], &o));
+        assert_string_equal(o.text, scripts[i][1]);
+    }
+}
+
+static void errors_are_reported(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "#declare A = B;",        "#declare A = array[2]; #declare A[2] = 1;",
+        "#local A = A + 1;",      "#declare A = sqrt(-1);",
+        "#error \"stop\" #debug \"more\"",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct output o;
+        assert_false(run(bad[i], &o));
+        assert_string_equal(o.text, "");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_values),
+        cmocka_unit_test(check_scripts),
+        cmocka_unit_test(errors_are_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
