@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "scene/shapes/sphere.h"
 
 static void build_leaf_tree(struct arena *a, const struct world *w, struct accel *accel,
                             uint32_t object)
@@ -31,6 +32,17 @@ static void build_leaf_tree(struct arena *a, const struct world *w, struct accel
     accel->leaves[object] = bvh8_build(a, box, leaf, n);
     free(box);
     free(leaf);
+}
+
+static struct accel_sphere sphere_of(const struct world *w, uint32_t object)
+{
+    const struct world_object *o = &w->object[object];
+    const struct leaf *l = &w->leaf[o->first_leaf];
+    if (o->is_csg || l->ops != &sphere_ops || !l->transform.identity || !l->drawn ||
+        o->bound_count)
+        return (struct accel_sphere){.flags = o->flags};
+    const struct sphere *s = l->shape;
+    return (struct accel_sphere){s->centre, s->radius, o->flags};
 }
 
 struct accel *accel_build(struct arena *a, const struct world *w)
@@ -63,6 +75,9 @@ struct accel *accel_build(struct arena *a, const struct world *w)
         }
     }
     accel->top = bvh8_build(a, box, object, n);
+    accel->sphere = arena_new_array(a, struct accel_sphere, n + 1);
+    for (uint32_t i = 0; i < n; i++)
+        accel->sphere[i] = sphere_of(w, accel->top.item[i]);
     free(box);
     free(object);
     return accel;

@@ -4,10 +4,19 @@
 #include "trace/bvh8.h"
 #include "trace/world.h"
 
+// An object of the tree that is a bare sphere, copied so that most tests touch nothing
+// else. Same arithmetic, hence same bits, as the shape's own.
+struct accel_sphere {
+    struct vec3 centre;
+    double radius;  // 0: some other object
+    unsigned flags; // of the object
+};
+
 // One world's boxes: over the finite objects, and over the leaves of each large object.
 struct accel {
     struct bvh8 top;
-    uint32_t *infinite; // objects without finite bounds, in order
+    struct accel_sphere *sphere; // for each item of `top`
+    uint32_t *infinite;          // objects without finite bounds, in order
     uint32_t infinite_count;
     struct bvh8 *leaves;  // per object; item_count == 0: few leaves, tested in a row
     uint32_t **unbounded; // per object with a tree: its leaves without finite bounds

@@ -150,79 +150,151 @@ static bool culled(const struct world_object *o, const struct ray *ray)
     return false;
 }
 
-// Keeps the nearest hit; among equal distances the object declared first.
-struct nearest {
+// One ray on its way through the world. The nearest hit so far is kept; among equal
+// distances it is the one of the object declared first.
+struct search {
+    const struct world *w;
+    struct trace_scratch *s;
+    const struct ray_query *q;
+    enum sweep_mode mode;
+    struct box_ray box;
+    double dd;       // d.d
+    double t;        // of the nearest; INFINITY: none
+    uint32_t object; // UINT32_MAX: none
+    bool known; // b is filled; else it is a sphere whose boundary is still to be made
     struct boundary b;
-    uint32_t object; // UINT32_MAX: none yet
 };
+
+static struct search search_of(const struct world *w, struct trace_scratch *s,
+                               const struct ray_query *q, enum sweep_mode mode)
+{
+    return (struct search){.w = w,
+                           .s = s,
+                           .q = q,
+                           .mode = mode,
+                           .box = box_ray_of(&q->ray),
+                           .dd = vec3_dot(q->ray.d, q->ray.d),
+                           .t = INFINITY,
+                           .object = UINT32_MAX,
+                           .b = {.t = INFINITY}};
+}
 
 // The first surface of an object on the ray. A CSG object sees the whole ray whatever
 // was found so far, so that its batches do not depend on the order of the search; what
-// begins beyond `limit` is of no interest.
-static bool object_hit(const struct world *w, struct trace_scratch *s, uint32_t object,
-                       const struct ray_query *q, double limit, enum sweep_mode mode,
-                       struct boundary *out)
+// begins beyond the nearest is of no interest.
+static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
 {
-    const struct world_object *o = &w->object[object];
+    const struct world_object *o = &f->w->object[object];
+    const struct ray_query *q = f->q;
     if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, &q->ray)))
         return false;
-    if (o->is_csg)
-        return sweep_object(w, s, object, &q->ray, limit, mode, out);
+    if (o->is_csg) {
+        double t;
+        f->box.t_max = fmin(q->ray.t_max, f->t);
+        if (aabb_is_finite(o->bounds) && !box_meets(&o->bounds, &f->box, &t))
+            return false;
+        return sweep_object(f->w, f->s, object, &q->ray, f->t, f->mode, out);
+    }
     struct ray ray = q->ray;
     // An equal distance must still be seen: the object may have been declared earlier.
-    if (limit < ray.t_max)
-        ray.t_max = nextafter(limit, INFINITY);
-    return single_leaf(w, s, o, &ray, mode, out);
+    if (f->t < ray.t_max)
+        ray.t_max = nextafter(f->t, INFINITY);
+    return single_leaf(f->w, f->s, o, &ray, f->mode, out);
 }
 
-static bool try_object(const struct world *w, struct trace_scratch *s, uint32_t object,
-                       const struct ray_query *q, struct nearest *best)
+static bool is_nearer(const struct search *f, double t, uint32_t object)
+{
+    return t < f->t || (t == f->t && object < f->object);
+}
+
+static bool try_object(struct search *f, uint32_t object)
 {
     struct boundary b;
-    if (!object_hit(w, s, object, q, best->b.t, SWEEP_CLOSEST, &b))
+    if (!object_hit(f, object, &b) || !is_nearer(f, b.t, object))
         return false;
-    if (b.t > best->b.t || (b.t == best->b.t && object > best->object))
-        return false;
-    best->b = b;
-    best->object = object;
+    f->b = b;
+    f->t = b.t;
+    f->object = object;
+    f->known = true;
     return true;
+}
+
+// The crossings of sphere's intersect (scene/shapes/sphere.c), step by step.
+static bool sphere_meets(const struct search *f, const struct accel_sphere *p, double *t)
+{
+    const struct ray *ray = &f->q->ray;
+    const struct vec3 oc = vec3_sub(ray->o, p->centre);
+    const double s = vec3_dot(ray->d, oc) / f->dd;
+    const struct vec3 near = vec3_mad(oc, -s, ray->d);
+    const double rest = p->radius * p->radius - vec3_dot(near, near);
+    if (!(rest > 0))
+        return false;
+    const double reach = sqrt(rest / f->dd);
+    *t = -s - reach > ray->t_min ? -s - reach : -s + reach;
+    return *t > ray->t_min && *t < ray->t_max;
+}
+
+// Item i of the tree of objects.
+static bool try_item(struct search *f, uint32_t i)
+{
+    const struct accel *a = f->w->accel;
+    const struct accel_sphere *p = &a->sphere[i];
+    double t;
+    if (!(p->radius > 0))
+        return try_object(f, a->top.item[i]);
+    f->s->stats.leaf_tests++;
+    if ((p->flags & f->q->hidden_by) || !sphere_meets(f, p, &t) ||
+        !is_nearer(f, t, a->top.item[i]))
+        return false;
+    // Few spheres are hit: whether one counts as opaque is looked up late.
+    const struct world_object *o = &f->w->object[a->top.item[i]];
+    if (f->mode == SWEEP_OPAQUE && !o->opaque)
+        return false;
+    f->t = t;
+    f->object = a->top.item[i];
+    f->known = false;
+    return true;
+}
+
+// The nearest hit's boundary in full.
+static struct hit search_hit(struct search *f)
+{
+    if (f->object != UINT32_MAX && !f->known) {
+        const uint32_t object = f->object;
+        object_hit(f, object, &f->b);
+    }
+    return (struct hit){f->b};
 }
 
 struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
                            const struct ray_query *q)
 {
     const struct accel *a = w->accel;
-    struct nearest best = {.b = {.t = INFINITY}, .object = UINT32_MAX};
+    struct search f = search_of(w, s, q, SWEEP_CLOSEST);
     s->stats.rays++;
     for (uint32_t i = 0; i < a->infinite_count; i++)
-        try_object(w, s, a->infinite[i], q, &best);
+        try_object(&f, a->infinite[i]);
     struct bvh8_ray r;
-    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, best.b.t), &r))
-        return (struct hit){best.b};
+    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, f.t), &r))
+        return search_hit(&f);
     struct bvh8_walk walk;
     bvh8_walk_begin(&walk, &a->top);
     for (uint32_t first, count; bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
         for (uint32_t i = first; i < first + count; i++)
-            if (try_object(w, s, a->top.item[i], q, &best))
-                bvh8_ray_limit(&r, best.b.t);
+            if (try_item(&f, i))
+                bvh8_ray_limit(&r, f.t);
     s->stats.node_visits += walk.visits;
-    return (struct hit){best.b};
-}
-
-static bool occludes(const struct world *w, struct trace_scratch *s, uint32_t object,
-                     const struct ray_query *q)
-{
-    struct boundary b;
-    return object_hit(w, s, object, q, INFINITY, SWEEP_OPAQUE, &b);
+    return search_hit(&f);
 }
 
 bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
                       const struct ray_query *q)
 {
     const struct accel *a = w->accel;
+    struct search f = search_of(w, s, q, SWEEP_OPAQUE);
     s->stats.shadow_rays++;
     for (uint32_t i = 0; i < a->infinite_count; i++)
-        if (occludes(w, s, a->infinite[i], q))
+        if (try_object(&f, a->infinite[i]))
             return true;
     struct bvh8_ray r;
     if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, q->ray.t_max, &r))
@@ -233,7 +305,7 @@ bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
     for (uint32_t first, count;
          !found && bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
         for (uint32_t i = first; i < first + count && !found; i++)
-            found = occludes(w, s, a->top.item[i], q);
+            found = try_item(&f, i);
     s->stats.node_visits += walk.visits;
     return found;
 }

@@ -166,22 +166,42 @@ static struct context enter(struct build *b, const struct object *o, const struc
 
 // ---- leaves ------------------------------------------------------------------------
 
+static bool same_transform(const struct transform *a, const struct transform *b)
+{
+    return a->identity == b->identity &&
+           (a->identity || (!memcmp(&a->linear, &b->linear, sizeof a->linear) &&
+                            !memcmp(&a->offset, &b->offset, sizeof a->offset)));
+}
+
+static bool same_surface(const struct surface *a, const struct surface *b)
+{
+    return a->texture == b->texture && a->interior_texture == b->interior_texture &&
+           a->interior == b->interior && a->flags == b->flags &&
+           a->light_group == b->light_group &&
+           same_transform(&a->texture_transform, &b->texture_transform) &&
+           same_transform(&a->interior_texture_transform, &b->interior_texture_transform);
+}
+
+// Neighbours in the tree mostly share their surface; they are stored once.
 static uint32_t add_surface(struct build *b, const struct context *c)
 {
-    const uint32_t index = b->surface.count;
-    struct surface *s = vector_add(&b->surface, 1);
-    const struct attached_texture *t = c->texture.texture ? &c->texture : &b->scene->default_texture;
-    s->texture = t->texture;
-    s->texture_transform = t->transform;
-    s->interior_texture = c->interior_texture.texture;
-    s->interior_texture_transform = c->interior_texture.transform;
-    s->interior = c->interior;
-    s->flags = c->flags;
-    s->light_group = c->light_group;
-    s->opaque = texture_is_opaque(s->texture) &&
-                (!s->interior_texture || texture_is_opaque(s->interior_texture));
-    b->has_transparent |= !s->opaque;
-    return index;
+    const struct attached_texture *t =
+        c->texture.texture ? &c->texture : &b->scene->default_texture;
+    struct surface s = {.texture = t->texture,
+                        .texture_transform = t->transform,
+                        .interior_texture = c->interior_texture.texture,
+                        .interior_texture_transform = c->interior_texture.transform,
+                        .interior = c->interior,
+                        .flags = c->flags,
+                        .light_group = c->light_group};
+    const uint32_t count = b->surface.count;
+    if (count && same_surface((struct surface *)b->surface.at + count - 1, &s))
+        return count - 1;
+    s.opaque = texture_is_opaque(s.texture) &&
+               (!s.interior_texture || texture_is_opaque(s.interior_texture));
+    b->has_transparent |= !s.opaque;
+    *(struct surface *)vector_add(&b->surface, 1) = s;
+    return count;
 }
 
 static uint32_t add_leaf(struct build *b, const struct object *o, const struct context *c)
@@ -386,7 +406,7 @@ static bool splits(const struct object *o)
 
 static void add_object(struct build *b, const struct object *o, const struct context *c)
 {
-    const uint32_t first_leaf = b->leaf.count, first_surface = b->surface.count;
+    const uint32_t first_leaf = b->leaf.count;
     const uint32_t root = b->node.count;
     vector_add(&b->node, 1);
     node_at(b, root)->parent = root;
@@ -404,8 +424,11 @@ static void add_object(struct build *b, const struct object *o, const struct con
     w->node_count = b->node.count - root;
     w->is_csg = node_at(b, root)->op != NODE_LEAF;
     w->opaque = true;
-    for (uint32_t i = first_surface; i < b->surface.count; i++)
-        w->opaque &= ((struct surface *)b->surface.at)[i].opaque;
+    for (uint32_t i = first_leaf; i < b->leaf.count; i++) {
+        const struct leaf *l = (struct leaf *)b->leaf.at + i;
+        if (l->drawn)
+            w->opaque &= ((struct surface *)b->surface.at)[l->surface].opaque;
+    }
     w->flags = o->flags | c->flags;
     w->source = o;
     if (o->kind == OBJECT_CSG && o->bound_count) {

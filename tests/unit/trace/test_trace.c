@@ -484,7 +484,7 @@ static void a_ray_leaves_its_surface(void **state)
                 out = vec3_neg(out);
             assert_true(isinf(first_t(f, trace_offset(&at, out), out)));
             struct vec3 in = vec3_neg(at.ng);
-            assert_true(first_t(f, trace_offset(&at, in), in) > .1 * scale[i]);
+            assert_true(first_t(f, trace_offset(&at, in), in) > 1e-6 * scale[i]);
         }
     }
 }
