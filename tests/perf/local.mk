@@ -7,3 +7,6 @@ EXTRA_DIST += $(perf_scenes) %D%/run.sh
 perf: lambert
 	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/run.sh
 .PHONY: perf
+EXTRA_PROGRAMS += trace_bench
+trace_bench_SOURCES = %D%/trace_bench.c
+trace_bench_LDADD = $(lambert_libs)
