@@ -1,1 +1,2 @@
 EXTRA_DIST += %D%/common.sh %D%/files.sh %D%/interrupt.sh %D%/options.sh
+TESTS += %D%/files.sh %D%/interrupt.sh %D%/options.sh
