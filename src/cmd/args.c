@@ -25,7 +25,7 @@ static bool starts_on(const char *value)
            text_same(value, "yes", 3);
 }
 
-int args_set(struct cmd *c, const struct lambert_option *o, const char *value)
+int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
 {
     if (strcmp(o->group, "unbuilt") == 0 &&
         (o->kind != LAMBERT_OPTION_FLAG || starts_on(value)))
@@ -36,7 +36,7 @@ int args_set(struct cmd *c, const struct lambert_option *o, const char *value)
     return CMD_OK;
 }
 
-const struct lambert_option *args_find_keyword(const char *keyword, size_t len)
+const struct lambert_option *cmdline_find_keyword(const char *keyword, size_t len)
 {
     const struct lambert_option *o;
     for (size_t i = 0; (o = lambert_option_at(i)); i++)
@@ -48,7 +48,7 @@ const struct lambert_option *args_find_keyword(const char *keyword, size_t len)
 
 static int set_named(struct cmd *c, const char *name, const char *value)
 {
-    return args_set(c, lambert_option_find(name), value);
+    return cmdline_set(c, lambert_option_find(name), value);
 }
 
 // +F[type][bits][g], the parts behind the type in any order.
@@ -111,7 +111,7 @@ static char *unquoted(const char *text)
     return text_format("%s", text);
 }
 
-int args_switch(struct cmd *c, const char *arg)
+int cmdline_switch(struct cmd *c, const char *arg)
 {
     const char *rest;
     bool on = arg[0] == '+';
@@ -124,22 +124,22 @@ int args_switch(struct cmd *c, const char *arg)
     if (!o)
         return cmd_fail(CMD_USAGE, "'%s' is no option; --help=all lists them", arg);
     if (o->kind == LAMBERT_OPTION_FLAG)
-        return args_set(c, o, on ? "on" : "off");
+        return cmdline_set(c, o, on ? "on" : "off");
     if (o->turns) {
         int code = set_named(c, o->turns, on ? "on" : "off");
         if (code)
             return code;
     }
     char *value = unquoted(rest);
-    int code = args_set(c, o, value);
+    int code = cmdline_set(c, o, value);
     free(value);
     return code;
 }
 
-int args_keyword(struct cmd *c, const char *keyword, const char *value)
+int cmdline_keyword(struct cmd *c, const char *keyword, const char *value)
 {
     size_t len = strlen(keyword);
-    const struct lambert_option *o = args_find_keyword(keyword, len);
+    const struct lambert_option *o = cmdline_find_keyword(keyword, len);
     if (!o)
         return cmd_fail(CMD_USAGE, "'%s' is no INI keyword", keyword);
     if (strcmp(o->name, "include-ini") == 0)
@@ -150,7 +150,7 @@ int args_keyword(struct cmd *c, const char *keyword, const char *value)
                         "%s=%s: only the file types N (PNG), E (EXR) and P "
                         "(PPM) are built",
                         keyword, value);
-    return args_set(c, o, value);
+    return cmdline_set(c, o, value);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -159,7 +159,7 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && text_same(text + n - m, end, m);
 }
 
-int args_file(struct cmd *c, const char *name)
+int cmdline_file(struct cmd *c, const char *name)
 {
     size_t n = strlen(name);
     const char *bracket = strrchr(name, '[');
@@ -205,19 +205,19 @@ static int parse_valued(struct cmd *c, const struct lambert_option *o, const cha
 {
     char first[32];
     if (value)
-        return args_set(c, o, value);
+        return cmdline_set(c, o, value);
     switch (o->kind) {
-    case LAMBERT_OPTION_FLAG: return args_set(c, o, "on");
-    case LAMBERT_OPTION_ACTION: return args_set(c, o, "on");
+    case LAMBERT_OPTION_FLAG: return cmdline_set(c, o, "on");
+    case LAMBERT_OPTION_ACTION: return cmdline_set(c, o, "on");
     default: break;
     }
     if (o->value && o->value[0] == '[') {
         snprintf(first, sizeof first, "%.*s", (int)strcspn(o->choices, "|"), o->choices);
-        return args_set(c, o, first);
+        return cmdline_set(c, o, first);
     }
     if (*at + 1 >= argc)
         return cmd_fail(CMD_USAGE, "--%s needs a value: %s", o->name, o->value);
-    return args_set(c, o, argv[++*at]);
+    return cmdline_set(c, o, argv[++*at]);
 }
 
 static int parse_long(struct cmd *c, int *at, int argc, char **argv)
@@ -229,7 +229,7 @@ static int parse_long(struct cmd *c, int *at, int argc, char **argv)
     if (!o && strncmp(name, "no-", 3) == 0 && !value) {
         o = find_long(name + 3, len - 3);
         if (o && o->kind == LAMBERT_OPTION_FLAG)
-            return args_set(c, o, "off");
+            return cmdline_set(c, o, "off");
         o = NULL;
     }
     if (!o)
@@ -263,7 +263,7 @@ static int parse_keyword(struct cmd *c, const char *arg)
     size_t n = strcspn(arg, "=");
     char *keyword = text_format("%.*s", (int)n, arg);
     char *value = unquoted(arg + n + 1);
-    int code = args_keyword(c, keyword, value);
+    int code = cmdline_keyword(c, keyword, value);
     free(keyword);
     free(value);
     return code;
@@ -278,13 +278,13 @@ static int parse_one(struct cmd *c, int *at, int argc, char **argv)
     if (letter)
         return parse_valued(c, letter, NULL, at, argc, argv);
     if ((arg[0] == '+' || arg[0] == '-') && arg[1])
-        return args_switch(c, arg);
+        return cmdline_switch(c, arg);
     if (is_keyword(arg) && access(arg, F_OK) != 0)
         return parse_keyword(c, arg);
-    return args_file(c, arg);
+    return cmdline_file(c, arg);
 }
 
-int args_parse(struct cmd *c, int argc, char **argv)
+int cmdline_parse(struct cmd *c, int argc, char **argv)
 {
     bool only_files = false;
     for (int i = 1; i < argc; i++) {
@@ -292,7 +292,7 @@ int args_parse(struct cmd *c, int argc, char **argv)
         if (!only_files && strcmp(argv[i], "--") == 0)
             only_files = true;
         else if (only_files)
-            code = args_file(c, argv[i]);
+            code = cmdline_file(c, argv[i]);
         else
             code = parse_one(c, &i, argc, argv);
         if (code)

@@ -47,12 +47,12 @@ double cmd_seconds(void);
 int cmd_exit_code(enum lambert_status status);
 
 // args.c, ini.c: CMD_OK or an exit code after a message.
-int args_parse(struct cmd *c, int argc, char **argv);
-int args_switch(struct cmd *c, const char *arg);                         // +X -X
-int args_keyword(struct cmd *c, const char *keyword, const char *value); // INI
-int args_file(struct cmd *c, const char *name);
-int args_set(struct cmd *c, const struct lambert_option *o, const char *value);
-const struct lambert_option *args_find_keyword(const char *keyword, size_t len);
+int cmdline_parse(struct cmd *c, int argc, char **argv);
+int cmdline_switch(struct cmd *c, const char *arg);                         // +X -X
+int cmdline_keyword(struct cmd *c, const char *keyword, const char *value); // INI
+int cmdline_file(struct cmd *c, const char *name);
+int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value);
+const struct lambert_option *cmdline_find_keyword(const char *keyword, size_t len);
 bool text_same(const char *a, const char *b, size_t n); // ASCII, case ignored
 int ini_read(struct cmd *c, const char *path, const char *section, int depth);
 

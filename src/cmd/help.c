@@ -98,9 +98,8 @@ int help_print(FILE *out, bool all)
         fprintf(out, "  %-42s %s\n", examples[i][0], examples[i][1]);
     if (!all) {
         static const char *const common[] = {
-            "output",  "width",   "height",       "antialias",
-            "quality", "threads", "library-path", "declare",
-            "quiet",   "stats",   "version"};
+            "output",       "width",   "height", "antialias", "quality", "threads",
+            "library-path", "declare", "quiet",  "stats",     "version"};
         fputs("\noptions:\n", out);
         for (size_t i = 0; i < sizeof common / sizeof common[0]; i++) {
             const struct lambert_option *o = lambert_option_find(common[i]);

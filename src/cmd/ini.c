@@ -37,7 +37,7 @@ static bool begins_option(const char *s)
         return true;
     size_t n = strcspn(s, "= \t\r\n;#");
     const char *after = skip_blanks(s + n);
-    return *after == '=' && args_find_keyword(s, n);
+    return *after == '=' && cmdline_find_keyword(s, n);
 }
 
 // The value at s: quoted, one word, or, when no option follows it, all to the end.
@@ -68,7 +68,7 @@ static int take_option(struct ini *in, const char *s, const char **end)
     int code;
     if (*value_at != '=') { // a bare file
         value = take_value(s, false, end);
-        code = args_file(in->cmd, value);
+        code = cmdline_file(in->cmd, value);
         free(value);
         return code;
     }
@@ -78,7 +78,7 @@ static int take_option(struct ini *in, const char *s, const char **end)
     if (text_same(keyword, "Include_INI", 12))
         code = ini_read(in->cmd, value, NULL, in->depth + 1);
     else
-        code = args_keyword(in->cmd, keyword, value);
+        code = cmdline_keyword(in->cmd, keyword, value);
     free(keyword);
     free(value);
     return code;
@@ -103,7 +103,7 @@ static int take_line(struct ini *in, const char *s)
         if (*s == '+' || *s == '-') {
             size_t n = strcspn(s, " \t\r\n;");
             char *arg = text_format("%.*s", (int)n, s);
-            code = args_switch(in->cmd, arg);
+            code = cmdline_switch(in->cmd, arg);
             free(arg);
             s += n;
         } else {

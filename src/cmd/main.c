@@ -113,7 +113,7 @@ static int run(struct cmd *c, int argc, char **argv)
     bool compare = argc > 1 && strcmp(argv[1], "compare") == 0;
     int code = compare ? CMD_OK : read_environment(c);
     if (!code)
-        code = args_parse(c, argc - compare, argv + compare);
+        code = cmdline_parse(c, argc - compare, argv + compare);
     if (code)
         return code;
     if (asked(c, "help"))
