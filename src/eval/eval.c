@@ -154,8 +154,11 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     struct arena *tokens = arena_new(1 << 18);
     struct stream *in = stream_new(tokens, sources, file, diags, eval_host(&e));
     const struct ast *item;
-    while ((item = parse_item(in)))
+    while ((item = parse_item(in))) {
+        if (options->statement)
+            options->statement(options->statement_user, item);
         builder_statement(e.builder, item);
+    }
     if (diags->errors == errors)
         builder_finish(e.builder);
     stream_free(in);
