@@ -49,6 +49,8 @@ static const struct sample samples[] = {
     {"mesh", "triangle { <-1,0,0>, <1,0,0>, <0,1,0> } triangle { <-1,0,0>, <1,0,0>, "
              "<0,0,1> }"},
     {"mesh2", CUBE " inside_vector <.3,1,.2>"},
+    {"polygon", "10, <-1,-1,0>, <1,-1,0>, <1,1,0>, <-1,1,0>, <-1,-1,0>, <-.5,-.5,0>, "
+                "<.5,-.5,0>, <.5,.5,0>, <-.5,.5,0>, <-.5,-.5,0>"},
     {"text", NULL}, // needs a font file
 };
 
@@ -285,6 +287,34 @@ static void mesh_is_watertight(void **state)
     arena_free(a);
 }
 
+// The second loop is a hole; a ray through the height of a corner counts it once.
+static void polygon_has_a_hole(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    const struct sample *s = samples;
+    while (strcmp(s->keyword, "polygon") != 0)
+        s++;
+    void *shape;
+    const struct shape_ops *ops = make(a, s, &shape);
+    static const struct {
+        double x, y;
+        uint32_t count;
+    } rows[] = {{0, 0, 0},     {.75, 0, 1},  {-.75, .5, 1},
+                {.75, -.5, 1}, {1.5, .5, 0}, {0, .75, 1}};
+    struct boundary_list l = {0};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const struct ray r = {vec3(rows[i].x, rows[i].y, -5), vec3(0, 0, 1), 0, INFINITY};
+        l.count = 0;
+        ops->intersect(shape, &r, &l);
+        assert_int_equal(l.count, rows[i].count);
+        if (l.count)
+            assert_near(l.at[0].t, 5, 1e-14);
+    }
+    boundary_list_free(&l);
+    arena_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +322,7 @@ int main(void)
         cmocka_unit_test(crossings_hold_their_promises),
         cmocka_unit_test(absorbed_transforms_change_nothing),
         cmocka_unit_test(mesh_is_watertight),
+        cmocka_unit_test(polygon_has_a_hole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
