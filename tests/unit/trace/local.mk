@@ -12,3 +12,7 @@ check_PROGRAMS += test_shade
 test_shade_SOURCES = %D%/test_shade.c
 test_shade_CPPFLAGS = $(test_cppflags)
 test_shade_LDADD = $(test_ldadd)
+check_PROGRAMS += test_trace
+test_trace_SOURCES = %D%/test_trace.c
+test_trace_CPPFLAGS = $(test_cppflags)
+test_trace_LDADD = $(test_ldadd)
