@@ -34,6 +34,22 @@ static void build_leaf_tree(struct arena *a, const struct world *w, struct accel
     free(leaf);
 }
 
+static void list_required(struct arena *a, const struct world *w, struct accel *accel,
+                          uint32_t object)
+{
+    const struct world_object *o = &w->object[object];
+    const struct leaf *leaf = w->leaf + o->first_leaf;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < o->leaf_count; i++)
+        n += leaf[i].required;
+    uint32_t *list = arena_new_array(a, uint32_t, n + 1);
+    accel->required[object] = list;
+    accel->required_count[object] = n;
+    for (uint32_t i = 0; i < o->leaf_count; i++)
+        if (leaf[i].required)
+            *list++ = o->first_leaf + i;
+}
+
 static struct accel_sphere sphere_of(const struct world *w, uint32_t object)
 {
     const struct world_object *o = &w->object[object];
@@ -55,6 +71,8 @@ struct accel *accel_build(struct arena *a, const struct world *w)
     accel->infinite = arena_new_array(a, uint32_t, w->object_count + 1);
     accel->leaves = arena_new_array(a, struct bvh8, w->object_count + 1);
     accel->unbounded = arena_new_array(a, uint32_t *, w->object_count + 1);
+    accel->required = arena_new_array(a, uint32_t *, w->object_count + 1);
+    accel->required_count = arena_new_array(a, uint32_t, w->object_count + 1);
     accel->unbounded_count = arena_new_array(a, uint32_t, w->object_count + 1);
     uint32_t n = 0;
     for (uint32_t i = 0; i < w->object_count; i++) {
@@ -63,6 +81,8 @@ struct accel *accel_build(struct arena *a, const struct world *w)
             accel->nodes_max = o->node_count;
         if (o->leaf_count > accel->leaves_max)
             accel->leaves_max = o->leaf_count;
+        if (o->is_csg)
+            list_required(a, w, accel, i);
         if (o->leaf_count >= LARGE_OBJECT)
             build_leaf_tree(a, w, accel, i);
         if (aabb_is_empty(o->bounds))

@@ -21,6 +21,8 @@ struct accel {
     struct bvh8 *leaves;  // per object; item_count == 0: few leaves, tested in a row
     uint32_t **unbounded; // per object with a tree: its leaves without finite bounds
     uint32_t *unbounded_count;
+    uint32_t **required; // per object: its required leaves
+    uint32_t *required_count;
     uint32_t nodes_max, leaves_max; // of one object: what scratch must hold
 };
 

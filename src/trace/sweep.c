@@ -189,8 +189,53 @@ static void sort_crossings(struct boundary_list *l)
     }
 }
 
-// Gathers the crossings and puts every leaf in its state at t = -infinity.
-static void start(struct sweep *v, uint32_t object, const struct ray *ray)
+// Adds a leaf's crossings and puts it in its state at t = -infinity.
+static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
+{
+    struct boundary_list *list = &v->s->crossings;
+    const struct leaf *l = &v->w->leaf[leaf];
+    const uint32_t from = list->count;
+    leaf_crossings(v->w, leaf, ray, list);
+    v->s->stats.leaf_tests++;
+    if (!l->solid)
+        return;
+    if (list->count > from)
+        set_leaf(v, leaf, list->at[from].crossing == CROSS_EXIT);
+    else if (!(l->ops->flags & SHAPE_BOUNDED))
+        set_leaf(v, leaf,
+                 l->ops->inside(l->shape, transform_inverse_point(
+                                              &l->transform, ray->o)) != l->inverted);
+}
+
+// Takes the required leaves and narrows *near, the stretch on which the object may have
+// surfaces and other leaves count; false when it is empty. The margins only have to
+// exceed the errors of t: a leaf too many does no harm.
+static bool start_required(struct sweep *v, uint32_t object, const struct ray *ray,
+                           double limit, struct ray *near)
+{
+    const struct accel *a = v->w->accel;
+    const struct boundary_list *list = &v->s->crossings;
+    for (uint32_t i = 0; i < a->required_count[object]; i++) {
+        const uint32_t from = list->count;
+        start_leaf(v, a->required[object][i], ray);
+        if (list->count == from)
+            return false;
+        const struct boundary *in = &list->at[from], *out = &list->at[list->count - 1];
+        const double begin = in->t - in->dt, end = out->t + out->dt;
+        if (in->crossing != CROSS_ENTER || out->crossing != CROSS_EXIT)
+            continue; // the shape left crossings out that it was told not to need
+        if (begin > limit || begin >= ray->t_max || end <= ray->t_min)
+            return false;
+        const double margin =
+            0x1p-10 * (end - begin) + 0x1p-30 * (fabs(begin) + fabs(end));
+        near->t_min = fmax(near->t_min, begin - margin);
+        near->t_max = fmin(near->t_max, end + margin);
+    }
+    return near->t_min <= near->t_max;
+}
+
+// Gathers the crossings and the states before them; false: there is no surface.
+static bool start(struct sweep *v, uint32_t object, const struct ray *ray, double limit)
 {
     struct trace_scratch *s = v->s;
     const struct world_object *o = &v->w->object[object];
@@ -198,25 +243,15 @@ static void start(struct sweep *v, uint32_t object, const struct ray *ray)
         s->inside[i] = v->node[i].base_inside;
     s->crossings.count = 0;
     s->batch++;
-    const uint32_t n = collect(v->w, s, object, ray);
-    for (uint32_t i = 0; i < n; i++) {
-        const struct leaf *l = &v->w->leaf[s->leaves[i]];
-        const uint32_t from = s->crossings.count;
-        leaf_crossings(v->w, s->leaves[i], ray, &s->crossings);
-        if (!l->solid)
-            continue;
-        bool in;
-        if (s->crossings.count > from)
-            in = s->crossings.at[from].crossing == CROSS_EXIT;
-        else if (l->ops->flags & SHAPE_BOUNDED)
-            continue;
-        else
-            in = l->ops->inside(l->shape, transform_inverse_point(&l->transform,
-                                                                  ray->o)) != l->inverted;
-        set_leaf(v, s->leaves[i], in);
-    }
+    struct ray near = *ray;
+    if (!start_required(v, object, ray, limit, &near))
+        return false;
+    const uint32_t n = collect(v->w, s, object, &near);
+    for (uint32_t i = 0; i < n; i++)
+        if (!v->w->leaf[s->leaves[i]].required)
+            start_leaf(v, s->leaves[i], ray);
     sort_crossings(&s->crossings);
-    s->stats.leaf_tests += n;
+    return true;
 }
 
 static bool ends_search(const struct sweep *v, const struct boundary *b,
@@ -230,8 +265,9 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
                   struct boundary *out)
 {
     struct sweep v = {w, s, w->node + w->object[object].root, w->object[object].root};
-    start(&v, object, ray);
     s->stats.csg_tests++;
+    if (!start(&v, object, ray, limit))
+        return false;
     const struct boundary_list *l = &s->crossings;
     for (uint32_t i = 0, end; i < l->count; i = end) {
         double reach = l->at[i].t + l->at[i].dt;

@@ -404,6 +404,19 @@ static bool splits(const struct object *o)
            !(o->flags & (OBJECT_NO_SPLIT | OBJECT_INVERSE));
 }
 
+// Marks the leaves without which there is nothing of the object.
+static void mark_required(struct build *b, uint32_t root, uint32_t first_leaf)
+{
+    for (uint32_t i = first_leaf; i < b->leaf.count; i++) {
+        struct leaf *l = (struct leaf *)b->leaf.at + i;
+        uint32_t n = l->node;
+        while (n != root && node_at(b, node_at(b, n)->parent)->op == NODE_INTERSECTION)
+            n = node_at(b, n)->parent;
+        l->required = n == root && l->solid && !l->inverted &&
+                      (l->ops->flags & SHAPE_BOUNDED) != 0;
+    }
+}
+
 static void add_object(struct build *b, const struct object *o, const struct context *c)
 {
     const uint32_t first_leaf = b->leaf.count;
@@ -416,6 +429,7 @@ static void add_object(struct build *b, const struct object *o, const struct con
         return;
     }
     const struct aabb bounds = bound_nodes(b, root);
+    mark_required(b, root, first_leaf);
     struct world_object *w = vector_add(&b->object, 1);
     w->bounds = bounds;
     w->first_leaf = first_leaf;

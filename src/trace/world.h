@@ -34,6 +34,8 @@ struct leaf {
     uint32_t object;            // index into world objects
     uint32_t node;              // its NODE_LEAF node
     bool solid;                 // false: a sheet, never inside, whatever `inverse` says
+    bool required; // outside this leaf its object has nothing: it is bounded, and only
+                   // intersections lie above it
     bool inverted;
     bool drawn; // false: a clip; its boundaries only change states
 };

@@ -1,7 +1,8 @@
 // Rays per second of the tracer's core on generated worlds: camera rays and the shadow
-// rays of their hits, one thread. Usage: trace_bench [width]
+// rays of their hits, one thread. Usage: trace_bench [width [scene]]
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/arena.h"
@@ -156,6 +157,8 @@ int main(int argc, char **argv)
     } scenes[] = {{"one", one}, {"many", many}, {"spheres", spheres}, {"holes", holes}};
     int width = argc > 1 ? atoi(argv[1]) : 512;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        if (argc > 2 && strcmp(argv[2], scenes[i].name))
+            continue;
         struct maker m = {.a = arena_new(1 << 20), .random = 1};
         m.object = calloc(OBJECTS_MAX, sizeof *m.object);
         if (!m.object)
