@@ -346,6 +346,13 @@ static struct ast *finish(void *user, struct ast *n)
         v = builder_object(e->builder, n);
     else
         return n;
+    if (!v && n->kind == AST_BLOCK) { // reported: a value of nothing, read once only
+        n->kind = AST_VALUE;
+        n->text = NULL;
+        n->len = 0;
+        n->value = NULL;
+        return n;
+    }
     if (!v)
         return NULL;
     become(n, v, n->kind == AST_INDEX);
