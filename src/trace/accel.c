@@ -71,6 +71,9 @@ struct accel *accel_build(struct arena *a, const struct world *w)
     accel->infinite = arena_new_array(a, uint32_t, w->object_count + 1);
     accel->leaves = arena_new_array(a, struct bvh8, w->object_count + 1);
     accel->unbounded = arena_new_array(a, uint32_t *, w->object_count + 1);
+    accel->base_inside = arena_new_array(a, uint32_t, w->node_count + 1);
+    for (uint32_t i = 0; i < w->node_count; i++)
+        accel->base_inside[i] = w->node[i].base_inside;
     accel->required = arena_new_array(a, uint32_t *, w->object_count + 1);
     accel->required_count = arena_new_array(a, uint32_t, w->object_count + 1);
     accel->unbounded_count = arena_new_array(a, uint32_t, w->object_count + 1);

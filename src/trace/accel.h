@@ -23,6 +23,7 @@ struct accel {
     uint32_t *unbounded_count;
     uint32_t **required; // per object: its required leaves
     uint32_t *required_count;
+    uint32_t *base_inside;          // csg_node.base_inside of every node, packed
     uint32_t nodes_max, leaves_max; // of one object: what scratch must hold
 };
 

@@ -191,7 +191,7 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
     if (o->is_csg) {
         double t;
         f->box.t_max = fmin(q->ray.t_max, f->t);
-        if (aabb_is_finite(o->bounds) && !box_meets(&o->bounds, &f->box, &t))
+        if (!box_meets(&o->bounds, &f->box, &t))
             return false;
         return sweep_object(f->w, f->s, object, &q->ray, f->t, f->mode, out);
     }

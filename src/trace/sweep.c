@@ -239,8 +239,8 @@ static bool start(struct sweep *v, uint32_t object, const struct ray *ray, doubl
 {
     struct trace_scratch *s = v->s;
     const struct world_object *o = &v->w->object[object];
-    for (uint32_t i = 0; i < o->node_count; i++)
-        s->inside[i] = v->node[i].base_inside;
+    memcpy(s->inside, v->w->accel->base_inside + o->root,
+           o->node_count * sizeof *s->inside);
     s->crossings.count = 0;
     s->batch++;
     struct ray near = *ray;
