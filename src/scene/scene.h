@@ -24,7 +24,8 @@ struct fog {
 };
 
 struct rainbow {
-    double angle, width, distance, jitter, arc_angle, falloff_angle; // degrees
+    double angle; // degrees, of the inner edge: as written less half the width
+    double width, distance, jitter, arc_angle, falloff_angle; // degrees
     struct vec3 direction, up;
     const struct color_map *colors;
 };

@@ -79,8 +79,7 @@ static bool rainbow_at(const struct rainbow *r, const struct path *path, double 
     const double arc = r->arc_angle * degree / 2, falloff = r->falloff_angle * degree / 2;
     if (along < 0 || around > arc || !r->colors)
         return false;
-    double index = (det_acos(fmin(1, along)) - (r->angle - r->width / 2) * degree) /
-                   (r->width * degree);
+    double index = (det_acos(fmin(1, along)) - r->angle * degree) / (r->width * degree);
     if (r->jitter != 0)
         index += (2 * hash_unit(hash_mix(path->hash, 77)) - 1) * r->jitter;
     if (index < 0 || index > 1 - 1e-10)
