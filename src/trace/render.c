@@ -28,7 +28,7 @@ struct render {
     const struct job *job;
     const struct render_progress *progress;
     struct image *out;
-    struct jitter_tables jitter;
+    struct tile_tables tables;
     uint32_t tiles_across, tiles_total;
     atomic_uint_fast32_t next, done;
     pthread_mutex_t lock; // of progress calls and of stats
@@ -71,7 +71,7 @@ static void *work(void *user)
         if (i >= r->tiles_total)
             break;
         const struct tile tile = tile_at(r, i);
-        tile_render(t, &r->jitter, &tile, r->out);
+        tile_render(t, &r->tables, &tile, r->out);
         pthread_mutex_lock(&r->lock);
         r->stats.pixels += (uint64_t)(tile.x1 - tile.x0) * (uint64_t)(tile.y1 - tile.y0);
         r->stats.tiles_done++;
@@ -147,7 +147,9 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     struct job job;
     job_init(&job, arena, w, &s);
     struct render r = {.job = &job, .progress = progress, .out = out};
-    jitter_tables_init(&r.jitter);
+    jitter_tables_init(&r.tables.jitter);
+    if (camera_has_lens(job.camera))
+        lens_init(&r.tables.lens, arena, job.camera);
     if (s.col_end > s.col_begin && s.row_end > s.row_begin) {
         r.tiles_across =
             (uint32_t)((s.col_end - s.col_begin + s.tile_size - 1) / s.tile_size);

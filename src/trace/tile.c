@@ -71,11 +71,91 @@ static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
     free(color);
 }
 
-void tile_render(struct tracer *t, const struct jitter_tables *jitter,
+// ---- focal blur ----------------------------------------------------------
+struct blurred {
+    double sum[4], square[4];
+    int done; // samples taken
+    bool open;
+};
+
+static bool has_enough(const struct lens *lens, const struct camera *c,
+                       const struct blurred *b)
+{
+    if (b->done < c->blur_samples_min)
+        return false;
+    for (int k = 0; k < 4; k++) {
+        const double mean = b->sum[k] / b->done;
+        const double spread = (b->square[k] / b->done - mean * mean) / b->done;
+        if (spread >= lens->threshold[b->done])
+            return false;
+    }
+    return true;
+}
+
+// Traces the next batch of every pixel that still needs one; returns how many do.
+static int blur_round(struct tracer *t, const struct tile_tables *tables,
+                      const struct tile *tile, struct blurred *pixel)
+{
+    const struct job *job = t->job;
+    const struct lens *lens = &tables->lens;
+    const int width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
+    int open = 0;
+    for (int i = 0; i < count; i++) {
+        struct blurred *b = &pixel[i];
+        if (!b->open)
+            continue;
+        struct tracer_ray ray[8];
+        float color[8][4];
+        const int n = lens_batch(lens, b->done);
+        for (int s = 0; s < n; s++) {
+            struct vec2 on_lens;
+            lens_sample(lens, &tables->jitter, job->camera, tile->x0 + i % width,
+                        tile->y0 + i / width, b->done + s, &ray[s].position, &on_lens);
+            ray[s].exists = camera_lens_ray(job->camera, ray[s].position.u,
+                                            ray[s].position.v, job->settings.width,
+                                            job->settings.height, on_lens, &ray[s].ray);
+        }
+        tracer_rays(t, ray, (uint32_t)n, color);
+        for (int s = 0; s < n; s++) {
+            for (int k = 0; k < 4; k++) {
+                b->sum[k] += (double)color[s][k];
+                b->square[k] += (double)color[s][k] * (double)color[s][k];
+            }
+        }
+        b->done += n;
+        b->open = b->done < lens->count && !has_enough(lens, job->camera, b);
+        open += b->open;
+    }
+    return open;
+}
+
+static void blurred(struct tracer *t, const struct tile_tables *tables,
+                    const struct tile *tile, struct image *out)
+{
+    const int width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
+    struct blurred *pixel = calloc((size_t)count, sizeof *pixel);
+    if (!pixel)
+        abort();
+    for (int i = 0; i < count; i++)
+        pixel[i].open = true;
+    while (blur_round(t, tables, tile, pixel))
+        ;
+    for (int i = 0; i < count; i++) {
+        float mean[4];
+        for (int k = 0; k < 4; k++)
+            mean[k] = (float)(pixel[i].sum[k] / pixel[i].done);
+        store(t->job, image_at(out, tile->x0 + i % width, tile->y0 + i / width), mean);
+    }
+    free(pixel);
+}
+
+void tile_render(struct tracer *t, const struct tile_tables *tables,
                  const struct tile *tile, struct image *out)
 {
-    if (t->job->settings.antialias)
-        smoothed(t, jitter, tile, out);
+    if (camera_has_lens(t->job->camera))
+        blurred(t, tables, tile, out); // the samples lie all over a pixel: smooth too
+    else if (t->job->settings.antialias)
+        smoothed(t, &tables->jitter, tile, out);
     else
         plain(t, tile, out);
 }
