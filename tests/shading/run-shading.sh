@@ -1,0 +1,51 @@
+#!/bin/sh
+# Renders each scene of this folder and checks the pixels it lists (TAP). A scene named
+# in not-built.txt is skipped with the reason given there.
+dir=$top_srcdir/tests/shading
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+number=0
+for scene in "$dir"/*.pov; do
+    name=$(basename "$scene" .pov)
+    number=$((number + 1))
+    reason=$(sed -n "s/^$name: //p" "$dir/not-built.txt")
+    if [ -n "$reason" ]; then
+        echo "ok $number - $name # SKIP $reason"
+        continue
+    fi
+    size=$(sed -n 's,^// size: \([0-9]*\) \([0-9]*\).*,+W\1 +H\2,p' "$scene")
+    options=$(sed -n 's,^// options: ,,p' "$scene")
+    rm -f "$tmp/out.exr"
+    # Sizes and options are words of their own.
+    # shellcheck disable=SC2086
+    "$top_builddir/lambert" "$scene" ${size:-+W4 +H4} $options -o "$tmp/out.exr" \
+        >"$tmp/log" 2>&1
+    if "$top_builddir/check_pixels" "$scene" "$tmp/out.exr"; then
+        echo "ok $number - $name"
+    else
+        sed 's/^/# /' "$tmp/log"
+        echo "not ok $number - $name"
+    fi
+done
+# The same bits for any number of threads, any tiles and any instruction set.
+same()
+{
+    number=$((number + 1))
+    if cmp -s "$tmp/first.exr" "$tmp/other.exr"; then
+        echo "ok $number - $1"
+    else
+        echo "not ok $number - $1"
+    fi
+}
+scene=$dir/290-mixed.pov
+render() { "$top_builddir/lambert" "$scene" +W80 +H60 "$@" >"$tmp/log" 2>&1; }
+render +WT1 -o "$tmp/first.exr"
+render +WT4 -o "$tmp/other.exr"
+same "four threads give the picture of one"
+for isa in base avx2 avx512; do
+    LAMBERT_ISA=$isa
+    export LAMBERT_ISA
+    render -o "$tmp/other.exr"
+    same "$isa gives the same picture"
+done
+echo "1..$number"
