@@ -1,4 +1,5 @@
 #include "math/elementary.h"
+#include "scene/noise.h"
 #include "trace/sky.h"
 
 // The mean density of a ground fog between two heights, in units of its scale: the
@@ -17,10 +18,23 @@ static double ground_density(double h1, double h2)
     return (det_atan(h1) - det_atan(h2)) / (h1 - h2);
 }
 
+// How much turbulence thins a fog at the middle of the way through it.
+static double fog_swirl(const struct job *job, const struct fog *f, struct vec3 middle)
+{
+    const struct turbulence *t = &f->turbulence;
+    const double v = noise_turbulence(vec3_mul(middle, t->amount), (double)t->lambda,
+                                      (double)t->omega, t->octaves,
+                                      job->scene->settings.noise_generator);
+    return fmin(1, v * f->turb_depth);
+}
+
 // How much of what lies behind is seen.
-static float fog_clear(const struct fog *f, struct vec3 o, struct vec3 d, double s)
+static float fog_clear(const struct job *job, const struct fog *f, struct vec3 o,
+                       struct vec3 d, double s)
 {
     double way = s / f->distance;
+    if (f->has_turbulence)
+        way *= 1 - det_exp(-way) * fog_swirl(job, f, vec3_mad(o, s / 2, d));
     if (f->type == FOG_GROUND && f->alt != 0) {
         const double h1 = (vec3_dot(o, f->up) - f->offset) / f->alt;
         const double h2 = (vec3_dot(vec3_mad(o, s, d), f->up) - f->offset) / f->alt;
@@ -43,7 +57,7 @@ struct rgb fog_filter(const struct job *job, struct vec3 o, struct vec3 d, doubl
     for (uint32_t i = job->scene->fog_count; i-- > 0;) {
         const struct fog *f = job->scene->fog[i];
         if (f->distance != 0)
-            pass = rgb_mul(pass, fog_pass(f, fog_clear(f, o, d, s)));
+            pass = rgb_mul(pass, fog_pass(f, fog_clear(job, f, o, d, s)));
     }
     return pass;
 }
@@ -55,7 +69,7 @@ static void fogs_apply(struct tracer *t, struct path *path, double s)
         const struct fog *f = t->job->scene->fog[i];
         if (f->distance == 0)
             continue;
-        const float clear = fog_clear(f, path->o, path->d, s);
+        const float clear = fog_clear(t->job, f, path->o, path->d, s);
         pass = rgb_mul(pass, fog_pass(f, clear));
         glow = rgb_add(glow, rgb_scale(1 - clear, rgbft_rgb(f->color)));
     }

@@ -21,8 +21,8 @@ struct shading {
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
 // Iridescence for light from l (spec/lighting.md 5.3).
-struct rgb irid_factor(const struct job *job, const struct finish *f, struct vec3 n,
-                       struct vec3 l, struct vec3 d);
+struct rgb irid_factor(const struct shading *s, const struct finish *f, struct vec3 n,
+                       struct vec3 l);
 // How metals tint what they mirror; x is a cosine (spec/lighting.md 5.4).
 float metal_angle(double cosine);
 struct rgb metal_tint(struct rgb c, struct rgb tint, float metallic, double cosine);

@@ -1,4 +1,5 @@
 #include "math/elementary.h"
+#include "scene/noise.h"
 #include "trace/area.h"
 #include "trace/shade.h"
 
@@ -21,10 +22,18 @@ struct rgb metal_tint(struct rgb c, struct rgb tint, float metallic, double cosi
                c.b * (1 + k * (tint.b - 1)));
 }
 
-struct rgb irid_factor(const struct job *job, const struct finish *f, struct vec3 n,
-                       struct vec3 l, struct vec3 d)
+struct rgb irid_factor(const struct shading *s, const struct finish *f, struct vec3 n,
+                       struct vec3 l)
 {
-    const double way = 2 * 3.14159265358979323846 * (double)f->irid_thickness *
+    const struct job *job = s->t->job;
+    const struct vec3 d = s->path->d;
+    double thickness = (double)f->irid_thickness;
+    if (f->irid_turbulence != 0)
+        thickness *= 1 + (double)f->irid_turbulence *
+                             (2 * noise_turbulence(s->at.p, 2, 0.5, 5,
+                                                   job->scene->settings.noise_generator) -
+                              1);
+    const double way = 2 * 3.14159265358979323846 * thickness *
                        (fabs(vec3_dot(n, l)) + fabs(vec3_dot(n, d)));
     const struct rgb w = job->irid_wavelength;
     const float a = f->irid;
@@ -86,7 +95,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     if (!back && !lamp->light->shadowless)
         c = rgb_add(c, highlights(l, s->path->d, to, facing));
     if (f->irid != 0)
-        c = rgb_mul(c, irid_factor(s->t->job, f, l->n, to, s->path->d));
+        c = rgb_mul(c, irid_factor(s, f, l->n, to));
     return rgb_mul(c, l->filter);
 }
 

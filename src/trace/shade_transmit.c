@@ -113,7 +113,7 @@ static void mirrors(struct shading *s, const struct plain_result *r,
         p.weight *= l->trans * weight;
         struct rgb irid = {1, 1, 1};
         if (f->irid != 0)
-            irid = irid_factor(s->t->job, f, l->n, p.d, s->path->d);
+            irid = irid_factor(s, f, l->n, p.d);
         const struct rgb factor = rgb_mul(rgb_scale(r->weight, mirror), p.through);
         if (f->reflection_exponent != 1) {
             p.through = irid;
