@@ -42,6 +42,25 @@ struct rgb irid_factor(const struct shading *s, const struct finish *f, struct v
                1 + a * (float)det_cos(way / (double)w.b));
 }
 
+// q^n for a cosine q. Most highlights are far off, or have a whole exponent.
+static double highlight_power(double q, double n)
+{
+    static const double dark = 40; // exp(-40) is below any float next to a colour
+    static const double by_squares = 4096;
+    // 1 - q bounds -log(q) from below, so q^n <= exp(-n (1 - q)).
+    if (n * (1 - q) > dark)
+        return 0;
+    if (n != floor(n) || n < 0 || n > by_squares)
+        return det_pow(q, n);
+    double power = 1;
+    for (uint32_t bits = (uint32_t)n; bits; bits >>= 1) {
+        if (bits & 1)
+            power *= q;
+        q *= q;
+    }
+    return power;
+}
+
 static struct rgb highlights(const struct layer *l, struct vec3 d, struct vec3 to,
                              double facing)
 {
@@ -53,13 +72,13 @@ static struct rgb highlights(const struct layer *l, struct vec3 d, struct vec3 t
         const struct vec3 r = vec3_mad(d, -2 * vec3_dot(d, l->n), l->n);
         const double q = vec3_dot(r, to);
         if (q > 0 && (f->phong_size < sharp || q > sharp_cut))
-            sum += f->phong * (float)det_pow(q, f->phong_size);
+            sum += f->phong * (float)highlight_power(q, (double)f->phong_size);
     }
     if (f->specular != 0) {
         const struct vec3 h = vec3_sub(to, d);
         const double q = vec3_dot(h, l->n), length = vec3_length(h);
         if (q > 0 && length > 0)
-            sum += f->specular * (float)det_pow(q / length, f->roughness);
+            sum += f->specular * (float)highlight_power(q / length, (double)f->roughness);
     }
     if (sum == 0)
         return rgb(0, 0, 0);
