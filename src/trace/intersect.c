@@ -87,24 +87,26 @@ struct box_ray box_ray_of(const struct ray *r)
                             r->t_max};
 }
 
-// A slab's t is off by at most 3 roundings; a zero direction gives infinities, or NaN when
-// the origin lies in the face, which the comparisons below let pass.
-bool box_meets(const struct aabb *b, const struct box_ray *r, double *t)
+// A slab's t is off by at most 3 roundings. Along a zero direction the faces lie at
+// infinity, or at NaN for an origin in the face, which the comparisons let pass: near
+// and far face are told by the direction, so that no NaN takes part in choosing them.
+static void meet_slab(double min, double max, double o, double inv, double *t0,
+                      double *t1)
 {
     const double grow = 1 + 2 * GAMMA(3);
+    const bool back = signbit(inv);
+    const double near = ((back ? max : min) - o) * inv;
+    const double far = ((back ? min : max) - o) * inv * grow;
+    *t0 = near > *t0 ? near : *t0;
+    *t1 = far < *t1 ? far : *t1;
+}
+
+bool box_meets(const struct aabb *b, const struct box_ray *r, double *t)
+{
     double t0 = r->t_min, t1 = r->t_max;
-    const double x0 = (b->min.x - r->o.x) * r->inv.x, x1 = (b->max.x - r->o.x) * r->inv.x;
-    const double y0 = (b->min.y - r->o.y) * r->inv.y, y1 = (b->max.y - r->o.y) * r->inv.y;
-    const double z0 = (b->min.z - r->o.z) * r->inv.z, z1 = (b->max.z - r->o.z) * r->inv.z;
-    const double nx = x0 < x1 ? x0 : x1, fx = (x0 < x1 ? x1 : x0) * grow;
-    const double ny = y0 < y1 ? y0 : y1, fy = (y0 < y1 ? y1 : y0) * grow;
-    const double nz = z0 < z1 ? z0 : z1, fz = (z0 < z1 ? z1 : z0) * grow;
-    t0 = nx > t0 ? nx : t0;
-    t0 = ny > t0 ? ny : t0;
-    t0 = nz > t0 ? nz : t0;
-    t1 = fx < t1 ? fx : t1;
-    t1 = fy < t1 ? fy : t1;
-    t1 = fz < t1 ? fz : t1;
+    meet_slab(b->min.x, b->max.x, r->o.x, r->inv.x, &t0, &t1);
+    meet_slab(b->min.y, b->max.y, r->o.y, r->inv.y, &t0, &t1);
+    meet_slab(b->min.z, b->max.z, r->o.z, r->inv.z, &t0, &t1);
     *t = t0;
     return t0 <= t1;
 }

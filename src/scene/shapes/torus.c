@@ -43,6 +43,44 @@ static bool inside(const void *shape, struct vec3 p)
     return rho * rho + p.y * p.y <= s->minor * s->minor;
 }
 
+// A root of the quartic brought closer by Newton's method on the distance to the tube,
+// h = |(rho - R, y)| - r. The quartic's value is a product of h with lengths of the
+// order of R, so a thin tube loses the digits of r/R in it; h loses none. h is wrong by
+// `noise`, its second derivative at most 1/|(rho - R, y)| + 1/rho; where that leaves the
+// slope in doubt (a graze) or the step leaves the bound (the inner sheet of a spindle
+// torus, where h is not zero) the root stays as it is.
+static void sharpen(struct vec3 o, struct vec3 u, double R, double r, double noise,
+                    struct polynomial_root *root)
+{
+    double t = root->t, dt = root->dt;
+    for (int i = 0; i < 3; i++) {
+        const struct vec3 p = vec3_mad(o, t, u);
+        const double rho = sqrt(p.x * p.x + p.z * p.z), w = rho - R;
+        const double d = sqrt(w * w + p.y * p.y);
+        const double h = d - r;
+        const double slope = (w * (p.x * u.x + p.z * u.z) / rho + p.y * u.y) / d;
+        const double bend = 1 / d + 1 / rho;
+        if (!((noise + fabs(h)) * bend < 0.25 * slope * slope))
+            return;
+        t -= h / slope;
+        dt = 2 * noise / fabs(slope);
+    }
+    if (fabs(t - root->t) <= 4 * root->dt && dt < root->dt) {
+        root->t = t;
+        root->dt = dt;
+    }
+}
+
+// What a root may be off by because the coefficients are differences of numbers of the
+// order of 1, of which little is left when the tube is thin.
+static double coefficient_error(const double c[5], double t)
+{
+    const double error = GAMMA(32);
+    const double slope = fabs(4 * t * t * t + 2 * c[2] * t + c[1]);
+    const double curve = fabs(12 * t * t + 2 * c[2]);
+    return fmin(error / slope, 2 * sqrt(2 * error / curve));
+}
+
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct torus *s = shape;
@@ -57,13 +95,18 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     if (!(reach > 0) || fabs(o.y) > r + fabs(u.y) * 2)
         return;
     const double k = oo + (R - r) * (R + r), q = 4 * R * R;
-    const double c[5] = {k * k - q * (o.x * o.x + o.z * o.z),
+    // At t = 0 as the product of the two circles' terms, which keeps the digits.
+    const double rho = sqrt(o.x * o.x + o.z * o.z), yr = (o.y - r) * (o.y + r);
+    const double c[5] = {((rho - R) * (rho - R) + yr) * ((rho + R) * (rho + R) + yr),
                          -2 * q * (o.x * u.x + o.z * u.z),
                          2 * k - q * (u.x * u.x + u.z * u.z), 0, 1};
     struct polynomial_root root[4];
     const double chord = sqrt(reach) * (1 + 0x1p-40) + 0x1p-40;
     const int n = polynomial_roots(c, 4, -chord, chord, 8, root);
+    const double noise = GAMMA(8) * (2 + fabs(shift) / size);
     for (int i = 0; i < n; i++) {
+        root[i].dt += coefficient_error(c, root[i].t);
+        sharpen(o, u, R, r, noise, &root[i]);
         const double t = size * root[i].t + shift;
         const double dt = size * root[i].dt + GAMMA(8) * (fabs(shift) + size);
         boundary_list_add(out, t / length, dt / length,
