@@ -150,6 +150,11 @@ struct builder *builder_new(struct eval *e)
     return b;
 }
 
+const struct pattern_defaults *builder_pattern_defaults(const struct builder *b)
+{
+    return b->pattern_defaults;
+}
+
 static const struct value *make(struct builder *b, enum value_kind kind, const void *data)
 {
     if (!data)

@@ -18,6 +18,9 @@ bool builder_defaults(struct builder *b, const struct ast *items);
 // Fills what the end of parsing decides: default camera, gamma, background.
 bool builder_finish(struct builder *b);
 
+// What patterns and noise functions ask at any time; follows the settings.
+const struct pattern_defaults *builder_pattern_defaults(const struct builder *b);
+
 bool builder_is_object_word(enum word w);
 bool builder_is_block_word(enum word w);
 

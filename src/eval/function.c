@@ -8,6 +8,7 @@
 #include "eval/builder.h"
 #include "eval/expr.h"
 #include "eval/function_tape.h"
+#include "eval/internal.h"
 
 enum { STEPS_MAX = 65535, NAMES_MAX = FUNCTION_PARAMETERS_MAX + 64 };
 
@@ -359,6 +360,27 @@ static bool compile_block(struct eval *e, const struct ast *body, struct functio
     return v != NULL;
 }
 
+static bool find_internal(struct eval *e, const struct ast *n, struct function *f)
+{
+    double number;
+    if (count_list(n->list) != 1) {
+        diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where, "internal", count_list(n->list));
+        return false;
+    }
+    if (!eval_float(e, n->list, &number))
+        return false;
+    const struct internal_function *i = internal_function(number);
+    if (!i) {
+        diag_at(e->diags, DIAG_DOMAIN, n->where, "internal", "there is no such function");
+        return false;
+    }
+    f->kind = FUNCTION_INTERNAL;
+    f->parameters = 3 + i->parameters;
+    f->width = 1;
+    f->data = i;
+    return true;
+}
+
 const struct value *function_value(struct eval *e, const struct ast *block)
 {
     const struct ast *parameters = NULL, *body = block->list;
@@ -370,13 +392,12 @@ const struct value *function_value(struct eval *e, const struct ast *block)
         diag_at(e->diags, DIAG_FUNCTION_ITEM, block->where, "more or less than one body");
         return NULL;
     }
-    if (body->kind == AST_CALL && body->word == WORD_internal) {
-        diag_at(e->diags, DIAG_NOT_BUILT, body->where, "internal");
-        return NULL;
-    }
     struct function *f = arena_new_struct(e->arena, struct function);
-    bool ok = body->kind == AST_BLOCK ? compile_block(e, body, f)
-                                      : compile_tape(e, parameters, body, f);
+    f->defaults = builder_pattern_defaults(e->builder);
+    bool internal = body->kind == AST_CALL && body->word == WORD_internal;
+    bool ok = internal                  ? find_internal(e, body, f)
+              : body->kind == AST_BLOCK ? compile_block(e, body, f)
+                                        : compile_tape(e, parameters, body, f);
     return ok ? value_new_data(e->arena, VALUE_FUNCTION, f) : NULL;
 }
 

@@ -5,6 +5,7 @@
 
 #include "eval/expr.h"
 #include "eval/function_tape.h"
+#include "eval/internal.h"
 #include "math/elementary.h"
 
 bool function_math_arity(enum word w, int *least, int *most)
@@ -140,6 +141,10 @@ void function_run(const struct function *f, const double *argument, double out[5
     } else if (f->kind == FUNCTION_SPLINE) {
         const struct spline *s = f->data;
         spline_at(s, s->kind, argument[0], out);
+    } else if (f->kind == FUNCTION_INTERNAL) {
+        const struct internal_function *i = f->data;
+        struct vec3 p = vec3(argument[0], argument[1], argument[2]);
+        out[0] = i->value(p, argument + 3, f->defaults);
     } else {
         struct vec3 p = transform_point(f->data, vec3(argument[0], argument[1],
                                                       argument[2]));

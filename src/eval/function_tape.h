@@ -6,7 +6,9 @@
 
 enum { FUNCTION_REGISTERS = 256, FUNCTION_PARAMETERS_MAX = 56 };
 
-enum function_kind { FUNCTION_TAPE, FUNCTION_TRANSFORM, FUNCTION_SPLINE };
+enum function_kind {
+    FUNCTION_TAPE, FUNCTION_TRANSFORM, FUNCTION_SPLINE, FUNCTION_INTERNAL,
+};
 
 enum step_op {
     STEP_CONSTANT, // r[to] = k
@@ -36,7 +38,8 @@ struct function {
     const struct step *step;
     uint32_t step_count;
     uint16_t result;
-    const void *data; // struct transform, struct spline
+    const void *data; // struct transform, struct spline, struct internal_function
+    const struct pattern_defaults *defaults;
 };
 
 // The built-in functions that functions may use, on n arguments.

@@ -10,6 +10,8 @@ liblambert_a_SOURCES += \
 	%D%/array.c %D%/array.h %D%/builder.h %D%/color.c %D%/eval.c %D%/eval.h \
 	%D%/expr.c %D%/expr.h %D%/files.c %D%/function.c %D%/function.h \
 	%D%/function_run.c %D%/function_tape.h %D%/functions.c %D%/functions.def \
-	%D%/functions.h %D%/host.c %D%/random.c %D%/spline.c %D%/spline.h \
+	%D%/functions.h %D%/host.c %D%/internal.c %D%/internal.def \
+	%D%/internal.h %D%/internal_math.h %D%/internal_noise.c \
+	%D%/internal_shapes.c %D%/random.c %D%/spline.c %D%/spline.h \
 	%D%/strings.c %D%/symbol.c %D%/symbol.h %D%/text.c %D%/text.h %D%/value.c \
 	%D%/value.h

@@ -91,6 +91,9 @@ static const char *const scripts[][2] = {
     {"#declare F = function{2*-x + -(y) - +z} #debug str(F(1,2,3),0,0)", "-7"},
     {"#declare S = spline{natural_spline 0,0 1,1 2,0 3,5}"
      "#debug vstr(3,<S(.5).x,S(1.5).x,S(2.5).x>,\" \",0,2)", "0.85 0.20 1.85"},
+    {"#declare F = function{internal(61)} #declare G = function{internal(57)}"
+     "#declare H = function(a,b){F(a,b,0,1) + G(a,b,0)}"
+     "#debug vstr(3,<F(3,4,0,1),G(3,4,0),H(3,4)>,\" \",0,2)", "4.00 5.00 9.00"},
     {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
 };
 
@@ -109,7 +112,7 @@ static void errors_are_reported(void **state)
     (void)state;
     static const char *const bad[] = {
         "#declare A = B;",        "#declare A = array[2]; #declare A[2] = 1;",
-        "#local A = A + 1;",      "#declare A = sqrt(-1);",
+        "#local A = A + 1;",      "#declare A = sqrt(-1);", "#declare F = function{internal(79)}",
         "#error \"stop\" #debug \"more\"",
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
