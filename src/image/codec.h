@@ -29,8 +29,11 @@ bool codec_fail(struct codec_error e, const char *fmt, ...)
 // The samples of row y as integers of options->bits bits, in file order: grey or
 // red, green, blue, then alpha when written (spec/lighting.md 3.4, 3.5).
 int quantize_channels(const struct image_write_options *o);
-void quantize_row(const struct image *im, int y, const struct image_write_options *o,
-                  uint16_t *out);
+struct quantizer; // the codes of one set of options; NULL: out of memory
+struct quantizer *quantizer_new(const struct image_write_options *o);
+void quantizer_free(struct quantizer *q);
+void quantize_row(const struct quantizer *q, const struct image *im, int y,
+                  const struct image_write_options *o, uint16_t *out);
 
 bool png_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e);

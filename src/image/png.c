@@ -8,6 +8,7 @@
 
 // libpng reports through longjmp; what must survive it lives here.
 struct png_job {
+    struct quantizer *quantizer;
     struct codec_error error;
     struct byte_buffer *out;
     const uint8_t *in;
@@ -90,7 +91,7 @@ static void write_rows(png_structp png, const struct image *im,
     bool wide = o->bits > 8;
     int shift = (wide ? 16 : 8) - o->bits;
     for (int y = 0; y < im->height; y++) {
-        quantize_row(im, y, o, job->samples);
+        quantize_row(job->quantizer, im, y, o, job->samples);
         for (size_t i = 0; i < n; i++) {
             unsigned v = (unsigned)job->samples[i] << shift;
             if (wide) {
@@ -112,10 +113,11 @@ bool png_encode(const struct image *im, const struct image_write_options *o,
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     size_t n = (size_t)im->width * 4;
+    job.quantizer = quantizer_new(o);
     job.samples = malloc(n * sizeof *job.samples);
     job.row = malloc(n * 2);
     volatile bool ok = false;
-    if (!info || !job.samples || !job.row) {
+    if (!info || !job.quantizer || !job.samples || !job.row) {
         codec_fail(e, "out of memory");
     } else if (!setjmp(png_jmpbuf(png))) {
         png_set_write_fn(png, &job, on_write, on_flush);
@@ -125,6 +127,7 @@ bool png_encode(const struct image *im, const struct image_write_options *o,
         ok = true;
     }
     png_destroy_write_struct(&png, &info);
+    quantizer_free(job.quantizer);
     free(job.samples);
     free(job.row);
     return ok;

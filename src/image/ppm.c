@@ -33,11 +33,12 @@ bool ppm_encode(const struct image *im, const struct image_write_options *option
     if (o.grey)      // and grey is written without gamma (spec/lighting.md 3.4)
         o.transfer = o.working;
     size_t n = (size_t)im->width * (size_t)quantize_channels(&o);
+    struct quantizer *q = quantizer_new(&o);
     uint16_t *samples = malloc(n * sizeof *samples);
     uint8_t *row = malloc(n * 2);
     write_header(out, im, &o);
-    for (int y = 0; samples && row && y < im->height; y++) {
-        quantize_row(im, y, &o, samples);
+    for (int y = 0; q && samples && row && y < im->height; y++) {
+        quantize_row(q, im, y, &o, samples);
         size_t used = 0;
         for (size_t i = 0; i < n; i++) {
             if (o.bits > 8)
@@ -46,7 +47,8 @@ bool ppm_encode(const struct image *im, const struct image_write_options *option
         }
         byte_buffer_append(out, row, used);
     }
-    bool ok = samples && row && !out->failed;
+    bool ok = q && samples && row && !out->failed;
+    quantizer_free(q);
     free(samples);
     free(row);
     return ok || codec_fail(e, "out of memory");

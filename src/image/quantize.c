@@ -2,6 +2,8 @@
 #include "image/codec.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 // Alpha below this counts as this when colours are divided by it.
 static const double alpha_least = 1e-6;
@@ -43,10 +45,110 @@ static double unpremultiply(double c[3], double alpha)
     return alpha;
 }
 
-void quantize_row(const struct image *im, int y, const struct image_write_options *o,
-                  uint16_t *out)
+// ---- tables -----------------------------------------------------------------------------
+// The encoding is monotone, so a code is found by comparing with the least value of each
+// code: the same result as the formula, without a power per sample.
+
+enum { BUCKET_BITS = 17, BUCKETS = 13 << (23 - BUCKET_BITS), EXPONENT_LEAST = 127 - 13 };
+
+// A table costs more than it saves for files of more bits.
+enum { TABLE_BITS_MAX = 10 };
+
+struct quantizer {
+    double max;
+    double *least;   // least[i]: the least value with code >= i; least[codes] = infinity
+    uint16_t *guess; // the code at the low end of a bucket of float bit patterns
+};
+
+// The least double whose code is at least i: bisection over bit patterns, which are
+// ordered like the positive numbers.
+static double least_of(const struct image_write_options *o, double max, int i)
 {
-    double max = (double)((1 << o->bits) - 1);
+    uint64_t lo = 0, hi = 0x3ff8000000000000u; // 1.5
+    while (lo < hi) {
+        const uint64_t mid = lo + (hi - lo) / 2;
+        double v;
+        memcpy(&v, &mid, sizeof v);
+        if (quantize(encode(o, v), max) >= i)
+            hi = mid;
+        else
+            lo = mid + 1;
+    }
+    double v;
+    memcpy(&v, &lo, sizeof v);
+    return v;
+}
+
+static uint32_t bucket_of(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    const uint32_t first = (uint32_t)EXPONENT_LEAST << (23 - BUCKET_BITS);
+    bits >>= BUCKET_BITS;
+    return bits <= first ? 0 : bits - first >= BUCKETS ? BUCKETS - 1 : bits - first;
+}
+
+struct quantizer *quantizer_new(const struct image_write_options *o)
+{
+    const int codes = 1 << o->bits;
+    struct quantizer *q = malloc(sizeof *q);
+    if (q && o->bits > TABLE_BITS_MAX) {
+        *q = (struct quantizer){codes - 1, NULL, NULL};
+        return q;
+    }
+    double *least = malloc(((size_t)codes + 1) * sizeof *least);
+    uint16_t *guess = malloc(BUCKETS * sizeof *guess);
+    if (!q || !least || !guess) {
+        free(q);
+        free(least);
+        free(guess);
+        return NULL;
+    }
+    *q = (struct quantizer){codes - 1, least, guess};
+    least[0] = -INFINITY;
+    for (int i = 1; i < codes; i++)
+        least[i] = least_of(o, q->max, i);
+    least[codes] = INFINITY;
+    int code = 0;
+    for (uint32_t b = 0; b < BUCKETS; b++) {
+        const uint32_t bits = (b + ((uint32_t)EXPONENT_LEAST << (23 - BUCKET_BITS)))
+                              << BUCKET_BITS;
+        float v;
+        memcpy(&v, &bits, sizeof v);
+        while (least[code + 1] <= (double)v)
+            code++;
+        guess[b] = (uint16_t)code;
+    }
+    return q;
+}
+
+void quantizer_free(struct quantizer *q)
+{
+    if (!q)
+        return;
+    free(q->least);
+    free(q->guess);
+    free(q);
+}
+
+static uint16_t code_of(const struct quantizer *q, const struct image_write_options *o,
+                        double v)
+{
+    if (!(v > 0))
+        return 0; // NaN too
+    if (!q->least)
+        return quantize(encode(o, v), q->max);
+    int i = q->guess[bucket_of((float)v)];
+    while (v < q->least[i])
+        i--;
+    while (v >= q->least[i + 1])
+        i++;
+    return (uint16_t)i;
+}
+
+void quantize_row(const struct quantizer *q, const struct image *im, int y,
+                  const struct image_write_options *o, uint16_t *out)
+{
     for (int x = 0; x < im->width; x++) {
         const float *p = image_at(im, x, y);
         double c[3], alpha = 1;
@@ -55,12 +157,12 @@ void quantize_row(const struct image *im, int y, const struct image_write_option
         if (o->alpha)
             alpha = unpremultiply(c, im->channels == 4 ? (double)p[3] : 1);
         if (o->grey) {
-            *out++ = quantize(encode(o, grey(c)), max);
+            *out++ = code_of(q, o, grey(c));
         } else {
             for (int k = 0; k < 3; k++)
-                *out++ = quantize(encode(o, c[k]), max);
+                *out++ = code_of(q, o, c[k]);
         }
         if (o->alpha)
-            *out++ = quantize(alpha, max);
+            *out++ = quantize(alpha, q->max);
     }
 }

@@ -6,6 +6,8 @@
 
 static const double roundoff = 0x1p-53;
 
+enum { BERNSTEIN_MAX = 8 };
+
 double polynomial_value(const double *c, int degree, double t)
 {
     double v = c[degree];
@@ -43,8 +45,10 @@ static double magnitude(const double *c, int degree, double t)
 }
 
 // The one root of a monotone stretch: Newton from the middle, kept inside the bracket.
+// Stops early within `enough` of the root: an extremum that is off by a small share of
+// the stretch changes the value there by the square of it.
 static double root_between(const double *c, const double *d, int degree, double lo,
-                           double hi, bool rising)
+                           double hi, bool rising, double enough)
 {
     double t = 0.5 * (lo + hi);
     for (int i = 0; i < 200; i++) {
@@ -58,16 +62,66 @@ static double root_between(const double *c, const double *d, int degree, double 
         double next = t - v / polynomial_value(d, degree - 1, t);
         if (!(next > lo && next < hi))
             next = 0.5 * (lo + hi);
-        if (next == t || next <= lo || next >= hi)
+        if (next == t || next <= lo || next >= hi || fabs(next - t) <= enough)
             return next;
         t = next;
     }
     return t;
 }
 
+// Whether all Bernstein coefficients on [lo, hi] have one sign, clear of rounding: then
+// there is no root (Farouki & Rajan 1987).
+static bool certainly_none(const double *c, int degree, double lo, double hi)
+{
+    double b[BERNSTEIN_MAX + 1], size = 0;
+    const double width = hi - lo;
+    for (int i = 0; i <= degree; i++)
+        b[i] = c[i];
+    for (int i = 0; i < degree; i++) // Taylor shift to lo
+        for (int k = degree - 1; k >= i; k--)
+            b[k] += lo * b[k + 1];
+    double scale = 1;
+    for (int i = 0; i <= degree; i++) { // to [0, 1], over the binomials
+        b[i] *= scale;
+        scale *= width * (i + 1) / (degree - i);
+        size += fabs(b[i]);
+    }
+    for (int i = 0; i < degree; i++) // sums of the scaled powers
+        for (int k = degree; k > i; k--)
+            b[k] += b[k - 1];
+    const double noise = 64 * roundoff * (size + magnitude(c, degree, fmax(fabs(lo), fabs(hi))));
+    int above = 0, below = 0;
+    for (int i = 0; i <= degree; i++) {
+        above += b[i] > noise;
+        below += b[i] < -noise;
+    }
+    return above == degree + 1 || below == degree + 1;
+}
+
+// The extrema's candidates for a quadratic: both roots by the stable formula.
+static int quadratic_stops(const double c[3], double lo, double hi, double root[2])
+{
+    const double b = 0.5 * c[1], d = b * b - c[2] * c[0];
+    if (!(d > 0))
+        return 0;
+    const double q = -(b + copysign(sqrt(d), b));
+    double t[2] = {q / c[2], c[0] / q};
+    if (t[0] > t[1]) {
+        const double swap = t[0];
+        t[0] = t[1];
+        t[1] = swap;
+    }
+    int n = 0;
+    for (int i = 0; i < 2; i++)
+        if (t[i] > lo && t[i] < hi)
+            root[n++] = t[i];
+    return n;
+}
+
 // Sign changes of c on (lo, hi), given those of its derivative d.
 static int refine(const double *c, const double *d, int degree, double lo, double hi,
-                  const double *stop, int stops, double *root, bool *first_rising)
+                  const double *stop, int stops, double *root, bool *first_rising,
+                  double enough)
 {
     int n = 0;
     double a = lo;
@@ -80,7 +134,7 @@ static int refine(const double *c, const double *d, int degree, double lo, doubl
         double noise = 2 * degree * roundoff * magnitude(c, degree, b);
         bool above_b = i < stops && fabs(v) <= noise ? above : v >= 0;
         if (above_b != above)
-            root[n++] = root_between(c, d, degree, a, b, above_b);
+            root[n++] = root_between(c, d, degree, a, b, above_b, enough);
         above = above_b;
         a = b;
     }
@@ -96,17 +150,24 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
         degree--;
     if (degree < 1 || degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
         return 0;
+    if (degree > 2 && degree <= BERNSTEIN_MAX && certainly_none(coefficient, degree, lo, hi))
+        return 0;
     memcpy(chain[0], coefficient, (size_t)(degree + 1) * sizeof *coefficient);
     for (int k = 1; k < degree; k++)
         for (int i = 0; i <= degree - k; i++)
             chain[k][i] = (i + 1) * chain[k - 1][i + 1];
     chain[degree][0] = chain[degree - 1][1];
 
-    int stops = 0, use = 0;
+    int stops = 0, use = 0, first = degree - 1;
     bool rising = false;
-    for (int k = degree - 1; k >= 0; k--) {
+    if (degree > 2 && chain[degree - 2][2] != 0) {
+        stops = quadratic_stops(chain[degree - 2], lo, hi, buffer[0]);
+        first = degree - 3;
+    }
+    for (int k = first; k >= 0; k--) {
+        const double enough = k > 0 ? 0x1p-30 * (hi - lo) : 0;
         stops = refine(chain[k], chain[k + 1], degree - k, lo, hi, buffer[use], stops,
-                       buffer[!use], &rising);
+                       buffer[!use], &rising, enough);
         use = !use;
     }
     for (int i = 0; i < stops; i++) {

@@ -27,7 +27,8 @@ struct surface_point {
     struct vec3 p;
     struct vec3 ng; // outward unit normal of the true surface
     struct vec3 ns; // unit shading normal (smooth triangles); else ng
-    struct vec2 uv; // as uv_mapping sees it
+    struct vec2 uv; // as uv_mapping sees it; filled only when want_uv is set
+    bool want_uv;   // by the caller: mapping a sphere costs more than meeting it
 };
 
 // What a kind of shape can do. Each src/scene/shapes/NAME.c defines one table,

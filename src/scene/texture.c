@@ -141,3 +141,19 @@ const struct texture *texture_transform(struct arena *a, const struct texture *x
     copy->layer = layer;
     return copy;
 }
+
+static bool layer_wants_uv(const struct texture_layer *l)
+{
+    const enum pigment_kind k = l->pigment->kind;
+    const bool plain = k == PIGMENT_NONE || k == PIGMENT_SOLID ||
+                       (k == PIGMENT_COLORS && !l->pigment->pattern.pigment);
+    return !plain || (l->normal && (l->normal->kind != NORMAL_PATTERN || l->normal->pattern.pigment));
+}
+
+bool texture_wants_uv(const struct texture *x)
+{
+    bool wants = x->kind != TEXTURE_PLAIN;
+    for (uint32_t i = 0; i < x->layer_count; i++)
+        wants |= layer_wants_uv(&x->layer[i]);
+    return wants;
+}

@@ -164,6 +164,8 @@ int texture_select(const struct texture *x, const struct texture_point *at,
 struct texture_point texture_entry_point(const struct texture *x,
                                          const struct texture_point *at);
 struct vec3 texture_entry_normal(const struct texture *x, struct vec3 n);
+// Whether it may ask for uv coordinates; false only for certain.
+bool texture_wants_uv(const struct texture *x);
 // Whether the texture can never let light through (spec/lighting.md 7.1).
 bool texture_is_opaque(const struct texture *x);
 

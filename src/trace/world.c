@@ -200,6 +200,8 @@ static uint32_t add_surface(struct build *b, const struct context *c)
         return count - 1;
     s.opaque = texture_is_opaque(s.texture) &&
                (!s.interior_texture || texture_is_opaque(s.interior_texture));
+    s.wants_uv = (s.flags & OBJECT_UV_MAPPING) || texture_wants_uv(s.texture) ||
+                 (s.interior_texture && texture_wants_uv(s.interior_texture));
     b->has_transparent |= !s.opaque;
     *(struct surface *)vector_add(&b->surface, 1) = s;
     return count;

@@ -20,6 +20,7 @@ struct surface {
     const struct interior *interior; // never NULL; identity decides refraction
     unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
     bool opaque;                     // never lets light through
+    bool wants_uv;                   // shading may look at uv coordinates
     uint32_t light_group;            // index+1 into world light groups; 0: none
 };
 

@@ -173,7 +173,7 @@ static void alternate(const struct line *l, uint32_t from)
             b->u = (l->ray->d.y < 0) == !in ? 1 : -1;
         } else {
             const struct vec3 p = ray_at(l->ray, b->t);
-            struct surface_point s;
+            struct surface_point s = {.want_uv = false};
             b->u = 1;
             revolve_surface(l->r, b, p, &s);
             if ((vec3_dot(s.ng, l->ray->d) < 0) == in)
@@ -216,9 +216,11 @@ void revolve_surface(const struct revolve *r, const struct boundary *b, struct v
                      struct surface_point *out)
 {
     const double rho2 = p.x * p.x + p.z * p.z;
-    double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
     out->p = p;
-    out->uv.u = turn < 0 ? turn + 1 : turn;
+    if (out->want_uv) {
+        const double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
+        out->uv.u = turn < 0 ? turn + 1 : turn;
+    }
     if (b->part < PART_SEGMENT) {
         out->ng = out->ns = vec3(0, b->u, 0);
         out->uv.v = b->part == PART_LAST_CAP;

@@ -87,6 +87,8 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     const struct vec3 n = vec3_normalize(vec3_sub(p, s->centre));
     out->p = vec3_mad(s->centre, s->radius, n);
     out->ng = out->ns = n;
+    if (!out->want_uv)
+        return;
     const struct mat3 *m = &s->to_uv;
     const double x = n.x * m->m[0][0] + n.y * m->m[1][0] + n.z * m->m[2][0];
     const double y = n.x * m->m[0][1] + n.y * m->m[1][1] + n.z * m->m[2][1];

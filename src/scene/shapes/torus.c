@@ -126,6 +126,8 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
         n = vec3(0, 1, 0);
     out->p = p;
     out->ng = out->ns = vec3_normalize(n);
+    if (!out->want_uv)
+        return;
     out->uv.u = 1 - (det_atan2(p.z, p.x) + pi) / (2 * pi);
     out->uv.v = (det_atan2(p.y, rho - s->major) + pi) / (2 * pi);
 }
