@@ -16,6 +16,7 @@ enum { BLOCK_MAX = 16 << 20 }; // blocks double up to this size
 
 struct arena {
     struct block *head;
+    size_t size; // of all blocks
 };
 
 static struct block *block_new(struct block *prev, size_t size)
@@ -38,6 +39,7 @@ struct arena *arena_new(size_t first_block)
     if (!a)
         abort();
     a->head = block_new(NULL, first_block);
+    a->size = a->head->size;
     return a;
 }
 
@@ -52,13 +54,20 @@ void arena_free(struct arena *a)
     free(a);
 }
 
+size_t arena_size(const struct arena *a) { return a->size; }
+
+static void drop_head(struct arena *a)
+{
+    struct block *b = a->head;
+    a->head = b->prev;
+    a->size -= b->size;
+    free(b);
+}
+
 void arena_reset(struct arena *a)
 {
-    while (a->head->prev) {
-        struct block *b = a->head;
-        a->head = b->prev;
-        free(b);
-    }
+    while (a->head->prev)
+        drop_head(a);
     a->head->used = 0;
 }
 
@@ -69,11 +78,8 @@ struct arena_mark arena_mark(const struct arena *a)
 
 void arena_rewind(struct arena *a, struct arena_mark mark)
 {
-    while (a->head != mark.block) {
-        struct block *b = a->head;
-        a->head = b->prev;
-        free(b);
-    }
+    while (a->head != mark.block)
+        drop_head(a);
     a->head->used = mark.used;
 }
 
@@ -86,6 +92,7 @@ static void *alloc(struct arena *a, size_t size, size_t align)
     if (at > b->size || b->size - at < size) {
         size_t next = b->size < BLOCK_MAX ? 2 * b->size : b->size;
         b = a->head = block_new(b, size > next ? size : next);
+        a->size += b->size;
         at = 0;
     }
     b->used = at + size;

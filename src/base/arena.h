@@ -24,6 +24,8 @@ void arena_rewind(struct arena *a, struct arena_mark mark);
 // Aborts the process when out of memory.
 void *arena_alloc(struct arena *a, size_t size);
 void *arena_alloc_aligned(struct arena *a, size_t size, size_t align);
+// Bytes that the arena holds of the system's memory.
+size_t arena_size(const struct arena *a);
 char *arena_strndup(struct arena *a, const char *s, size_t len);
 char *arena_printf(struct arena *a, const char *fmt, ...)
     __attribute__((format(printf, 2, 3)));

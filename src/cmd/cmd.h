@@ -1,6 +1,7 @@
 #ifndef CMD_CMD_H
 #define CMD_CMD_H
 
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -38,6 +39,8 @@ struct cmd {
     bool quiet, verbose;
     unsigned warnings;
     struct progress progress;
+    pthread_t watch; // the thread that waits for signals
+    bool watched;
 };
 
 // Prints "lambert: ..." and returns the code, so that it can stand after `return`.

@@ -61,15 +61,20 @@ static void *watch_signals(void *user)
 static void start_watch(struct cmd *c)
 {
     sigset_t set;
-    pthread_t thread;
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &set, NULL);
-    if (pthread_create(&thread, NULL, watch_signals, c) == 0)
-        pthread_detach(thread);
-    else
+    c->watched = pthread_create(&c->watch, NULL, watch_signals, c) == 0;
+    if (!c->watched)
         pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+}
+
+// Only when nobody looks at the context any more can it be freed.
+static void stop_watch(struct cmd *c)
+{
+    if (c->watched && pthread_cancel(c->watch) == 0)
+        pthread_join(c->watch, NULL);
 }
 
 // What is already in the environment counts less than anything said on the line.
@@ -147,7 +152,8 @@ int main(int argc, char **argv)
         code = code ? code : cmd_fail(CMD_IO, "cannot write to standard output");
     if (!code && c.warnings && lambert_option_number(c.ctx, "werror"))
         code = CMD_FAILED;
-    // The signal thread may still look at the context: the process ends here anyway.
+    stop_watch(&c);
+    lambert_context_free(c.ctx);
     free(c.file);
     return code;
 }

@@ -28,6 +28,10 @@ struct eval_options {
     int image_width, image_height;
     const char *input_name;
     bool output_alpha;
+    // Limits for scenes of unknown origin: tokens read, those of loops and macros each
+    // time anew, and bytes of all that is kept meanwhile. 0: none.
+    uint64_t steps_max;
+    size_t memory_max;
     // Text of #debug, #warning and so on; NULL: to stderr.
     void (*message)(void *user, enum word directive, const char *text);
     void *message_user;

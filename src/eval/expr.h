@@ -38,6 +38,9 @@ struct place eval_place(struct eval *e, const struct lvalue *to, uint32_t depth)
 bool eval_index(struct eval *e, struct place base, const struct ast *index,
                 struct span where, struct place *out);
 
+// Whether `more` bytes still fit what the caller allows; reports.
+bool eval_has_memory(struct eval *e, struct span where, size_t more);
+
 struct stream_host eval_host(struct eval *e);
 // The file's text through the library path (spec/language 3.11); NULL: not found.
 const char *file_find(struct eval *e, const char *name, const char *const *extensions);

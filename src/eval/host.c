@@ -221,6 +221,18 @@ static bool fill_array(struct eval *e, struct array_value *a, const struct ast *
     return given == a->size[dimension];
 }
 
+// Pointers or numbers come with the first element; a size may be a slip of the pen.
+static bool array_fits(struct eval *e, struct span where, uint32_t dimensions,
+                       const long *size)
+{
+    double bytes = sizeof(double) + sizeof(bool);
+    for (uint32_t i = 0; i < dimensions; i++)
+        bytes *= (double)size[i];
+    const size_t most = e->options->memory_max;
+    return !most || bytes <= 0 ||
+           eval_has_memory(e, where, bytes < (double)most ? (size_t)bytes : most);
+}
+
 const struct value *eval_array(struct eval *e, const struct ast *sizes,
                                const struct ast *elements)
 {
@@ -236,6 +248,8 @@ const struct value *eval_array(struct eval *e, const struct ast *sizes,
             return NULL;
         size[dimensions++] = (long)number_to_int(v + index_slack);
     }
+    if (!array_fits(e, sizes->where, dimensions, size))
+        return NULL;
     struct array_value *a = array_new(e->arena, dimensions, size);
     if (!a) {
         diag_at(e->diags, DIAG_ARRAY_SIZE, sizes->where, "");
@@ -398,6 +412,26 @@ static bool version(void *user, struct span where, double v)
     return true;
 }
 
+static bool may_go_on(void *user, struct span where, uint64_t steps)
+{
+    struct eval *e = user;
+    const struct eval_options *o = e->options;
+    if (o->steps_max && steps > o->steps_max) {
+        diag_at(e->diags, DIAG_TOO_MANY_STEPS, where, (unsigned long long)o->steps_max);
+        return false;
+    }
+    return eval_has_memory(e, where, 0);
+}
+
+bool eval_has_memory(struct eval *e, struct span where, size_t more)
+{
+    const size_t most = e->options->memory_max;
+    if (!most || (more <= most && arena_size(e->arena) + arena_size(e->parse) <= most - more))
+        return true;
+    diag_at(e->diags, DIAG_TOO_MUCH_MEMORY, where, most / 1048576.0);
+    return false;
+}
+
 static bool defaults(void *user, const struct ast *items)
 {
     return builder_defaults(((struct eval *)user)->builder, items);
@@ -445,6 +479,7 @@ struct stream_host eval_host(struct eval *e)
         .finish = finish,
         .message = message,
         .version = version,
+        .may_go_on = may_go_on,
         .defaults = defaults,
         .file_io = file_io,
         .open_include = open_include,

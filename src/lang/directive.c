@@ -22,6 +22,7 @@ bool directive_skip(struct stream *s, uint32_t depth, bool stop_at_else,
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     while (c->at < c->count) {
         const struct token *t = &c->tokens[c->at++];
+        s->steps++;
         if (t->kind != '#' || c->at >= c->count)
             continue;
         *stop = c->tokens[c->at++];

@@ -155,6 +155,9 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
         s->stopped = true;
         count = -1;
     }
+    stream_ask(s, name.where);
+    if (s->stopped)
+        count = -1;
     if (count >= 0 && s->host.enter_scope(s->host.user, name.where)) {
         bool ok = true;
         for (int i = 0; i < count; i++)

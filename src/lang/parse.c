@@ -356,6 +356,7 @@ struct ast *parse_item(struct stream *s)
         struct token t = stream_next(s);
         if (t.kind == TOK_END)
             return NULL;
+        stream_ask(s, t.where);
         if (t.word && run_bare_directive(s, t))
             continue;
         if (t.kind == TOK_NAME && !t.value) {

@@ -99,6 +99,13 @@ struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
     return f;
 }
 
+void stream_ask(struct stream *s, struct span where)
+{
+    if (!s->stopped && s->host.may_go_on &&
+        !s->host.may_go_on(s->host.user, where, s->steps))
+        s->stopped = true;
+}
+
 void stream_give_back(struct stream *s, struct token t)
 {
     s->pending = t;
@@ -178,6 +185,7 @@ struct token raw_take(struct stream *s)
     pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     struct token t = at(c, c->at);
+    s->steps++;
     if (c->at < c->count)
         c->at++;
     return t;
@@ -335,6 +343,9 @@ struct token stream_next(struct stream *s)
         }
         if (t.kind == '#') {
             struct arena_mark mark = arena_mark(s->nodes);
+            stream_ask(s, t.where);
+            if (s->stopped)
+                continue;
             directive_run(s, t);
             arena_rewind(s->nodes, mark);
             continue;

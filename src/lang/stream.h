@@ -91,6 +91,9 @@ struct stream_host {
     // #debug #warning #error #render #statistics
     bool (*message)(void *user, enum word directive, struct span where, const char *text);
     bool (*version)(void *user, struct span where, double version);
+    // Asked before each statement, directive and macro call; may be NULL. False, with a
+    // report: nothing more is read.
+    bool (*may_go_on)(void *user, struct span where, uint64_t steps);
     bool (*defaults)(void *user, const struct ast *items); // #default { }
     // #fopen (items: the path, then AST_WORD read, write or append), #fclose (none),
     // #read (items: places to assign, each an AST_UNDECLARED or AST_VALUE with its

@@ -68,6 +68,7 @@ struct stream {
     struct arena_mark statement;
     int runs;        // of the grammar, inside each other
     double version;
+    uint64_t steps; // tokens taken, those of loops and macros each time anew
     bool stopped;
 };
 
@@ -75,6 +76,8 @@ void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size);
 void stream_push_file(struct stream *s, uint32_t file);
 struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
                                 const struct token *opener);
+// Asks the host before anything that can repeat; stops the stream when it says no.
+void stream_ask(struct stream *s, struct span where);
 void stream_give_back(struct stream *s, struct token t);
 
 // Below the directives: the very next token, and taking it.

@@ -1,10 +1,13 @@
-// Any bytes as a scene: lexer, stream, grammar and evaluation must report and return.
+// Any bytes as a scene: lexer, stream, grammar, evaluation, building and a few rays must
+// report and return.
 #include <stdint.h>
 #include <stddef.h>
 #include <stdlib.h>
 
 #include "base/arena.h"
 #include "eval/eval.h"
+#include "trace/render.h"
+#include "trace/world.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -21,18 +24,39 @@ static void ignore_text(void *user, enum word directive, const char *text)
     (void)text;
 }
 
+static void trace(struct arena *a, const struct scene *scene)
+{
+    struct render_settings settings = render_settings_default;
+    struct image picture = {0};
+    settings.width = settings.col_end = 4;
+    settings.height = settings.row_end = 3;
+    settings.threads = 1;
+    const struct world *w = world_build(a, scene);
+    if (w && image_init(&picture, settings.width, settings.height, 4))
+        render_world(w, &settings, NULL, &picture, NULL);
+    image_free(&picture);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
+    static const char *const library[] = {POVRAY_INCLUDE_DIR};
     struct arena *a = arena_new(1 << 16);
     struct source_map sources;
     source_map_init(&sources, a);
     char *text = arena_strndup(a, size ? (const char *)data : "", size);
     uint32_t file = source_add(&sources, "fuzz.pov", text, size, (struct span){0});
     struct diag_sink diags = {.emit = ignore, .errors_max = 20};
-    struct eval_options options = {.message = ignore_text, .image_width = 8,
-                                   .image_height = 8};
+    // The limits let the endless loops of mutants end.
+    struct eval_options options = {.message = ignore_text,
+                                   .image_width = 4,
+                                   .image_height = 3,
+                                   .library_path = library,
+                                   .library_path_count = 1,
+                                   .steps_max = 200000,
+                                   .memory_max = 256 << 20};
     struct scene scene = {0};
-    eval_scene(a, &sources, file, &diags, &options, &scene);
+    if (eval_scene(a, &sources, file, &diags, &options, &scene))
+        trace(a, &scene);
     arena_free(a);
     return 0;
 }

@@ -1,7 +1,7 @@
 # Replays the corpus and a few mutants of it; the long run takes a larger count.
 noinst_PROGRAMS += fuzz_parse
 fuzz_parse_SOURCES = %D%/fuzz_parse.c %D%/mutate.c
-fuzz_parse_CPPFLAGS = -D_DEFAULT_SOURCE $(test_cppflags)
+fuzz_parse_CPPFLAGS = -D_DEFAULT_SOURCE -DPOVRAY_INCLUDE_DIR='"$(povray_includes)"' $(test_cppflags)
 fuzz_parse_LDADD = $(lambert_libs)
 TESTS += %D%/replay.sh
 EXTRA_DIST += %D%/replay.sh %D%/corpus/blocks.pov %D%/corpus/directives.pov
