@@ -92,7 +92,20 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct vec3 o = vec3_scale(1 / size, vec3_mad(ray->o, shift, u));
     const double R = s->major / size, r = s->minor / size;
     const double oo = vec3_dot(o, o), reach = 1 - oo;
-    if (!(reach > 0) || fabs(o.y) > r + fabs(u.y) * 2)
+    if (!(reach > 0))
+        return;
+    // The chord of the ball, cut by the slab |y| <= r: a little wide, as nothing outside
+    // the torus changes the sign.
+    const double chord = sqrt(reach) * (1 + 0x1p-40) + 0x1p-40, edge = r * (1 + 0x1p-30) + 0x1p-40;
+    double lo = -chord, hi = chord;
+    if (fabs(u.y) > 0x1p-20) {
+        const double t0 = (-edge - o.y) / u.y, t1 = (edge - o.y) / u.y;
+        lo = fmax(lo, fmin(t0, t1));
+        hi = fmin(hi, fmax(t0, t1));
+    } else if (fabs(o.y) > edge + 0x1p-19) {
+        return;
+    }
+    if (!(lo < hi))
         return;
     const double k = oo + (R - r) * (R + r), q = 4 * R * R;
     // At t = 0 as the product of the two circles' terms, which keeps the digits.
@@ -101,8 +114,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
                          -2 * q * (o.x * u.x + o.z * u.z),
                          2 * k - q * (u.x * u.x + u.z * u.z), 0, 1};
     struct polynomial_root root[4];
-    const double chord = sqrt(reach) * (1 + 0x1p-40) + 0x1p-40;
-    const int n = polynomial_roots(c, 4, -chord, chord, 8, root);
+    const int n = polynomial_roots(c, 4, lo, hi, 8, root);
     const double noise = GAMMA(8) * (2 + fabs(shift) / size);
     for (int i = 0; i < n; i++) {
         root[i].dt += coefficient_error(c, root[i].t);
