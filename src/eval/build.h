@@ -177,9 +177,10 @@ bool build_old_setting(struct args *a);
 void settings_finish(struct builder *b);
 
 // ---- patterns --------------------------------------------------------------
-enum body_kind { BODY_PIGMENT, BODY_NORMAL, BODY_TEXTURE, BODY_DENSITY };
+enum body_kind { BODY_PIGMENT, BODY_NORMAL, BODY_TEXTURE, BODY_DENSITY, BODY_FUNCTION };
 
-// Where pattern items write. Exactly one of the three is set.
+// Where pattern items write. One of the three is set;
+// none for BODY_FUNCTION.
 struct body {
     enum body_kind kind;
     struct pattern *pattern;

@@ -146,6 +146,7 @@ static const void *entry_body(struct args *a, enum body_kind kind)
     case BODY_DENSITY: return build_pigment_body(a, &bare);
     case BODY_NORMAL: return build_normal_body(a, layer->normal);
     case BODY_TEXTURE: return build_texture_body(a);
+    case BODY_FUNCTION: break;
     }
     return NULL;
 }

@@ -74,6 +74,7 @@ static const void *list_block(struct args *a, struct body *body)
     case BODY_NORMAL:
         return args_at_block(a) == WORD_normal ? build_normal(a, args_next(a), d->normal)
                                                : NULL;
+    case BODY_FUNCTION: break;
     case BODY_TEXTURE:
         return args_at_block(a) == WORD_texture ? build_texture(a, args_next(a)) : NULL;
     }
@@ -155,6 +156,8 @@ static void list(struct args *a, struct body *body, int n)
     bool blocks = body->kind == BODY_NORMAL || body->kind == BODY_TEXTURE ||
                   args_at_block(a) == WORD_pigment || args_at_block(a) == WORD_density;
     body->list = true;
+    if (body->kind == BODY_FUNCTION)
+        return; // the number of the entry is what counts
     if (blocks)
         list_blocks(a, body, (uint32_t)n);
     else
@@ -275,7 +278,7 @@ bool build_pattern(struct args *a, struct body *body)
             body->pigment->kind = PIGMENT_AVERAGE;
         else if (body->normal)
             body->normal->kind = NORMAL_AVERAGE;
-        else
+        else if (body->texture)
             body->texture->kind = TEXTURE_AVERAGE;
         return true;
     }

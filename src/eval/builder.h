@@ -3,6 +3,10 @@
 
 #include "eval/eval.h"
 
+struct pattern_defaults;
+struct pattern;
+struct pigment;
+
 // Turns blocks into parts of the scene. One per evaluation.
 struct builder *builder_new(struct eval *e);
 
@@ -20,6 +24,12 @@ bool builder_finish(struct builder *b);
 
 // What patterns and noise functions ask at any time; follows the settings.
 const struct pattern_defaults *builder_pattern_defaults(const struct builder *b);
+
+// `pigment { }` and `pattern { }` of a function; NULL after an error.
+const struct pigment *builder_function_pigment(struct builder *b,
+                                               const struct ast *block);
+const struct pattern *builder_function_pattern(struct builder *b,
+                                               const struct ast *block);
 
 bool builder_is_object_word(enum word w);
 bool builder_is_block_word(enum word w);

@@ -345,20 +345,41 @@ static bool compile_tape(struct eval *e, const struct ast *parameters,
 static bool compile_block(struct eval *e, const struct ast *body, struct function *f)
 {
     const struct value *v = NULL;
-    if (body->word == WORD_spline && (v = spline_value(e, body))) {
+    f->parameters = 3;
+    switch (body->word) {
+    case WORD_spline:
+        if (!(v = spline_value(e, body)))
+            return false;
         f->kind = FUNCTION_SPLINE;
         f->parameters = 1;
         f->width = ((const struct spline *)v->data)->width;
-    } else if (body->word == WORD_transform && (v = builder_block(e->builder, body))) {
+        break;
+    case WORD_transform:
         f->kind = FUNCTION_TRANSFORM;
-        f->parameters = f->width = 3;
-    } else if (body->word != WORD_spline && body->word != WORD_transform) {
-        diag_at(e->diags, DIAG_NOT_BUILT, body->where, word_text(body->word));
+        f->width = 3;
+        v = builder_block(e->builder, body);
+        break;
+    case WORD_pigment:
+        f->kind = FUNCTION_PIGMENT;
+        f->width = 5;
+        f->data = builder_function_pigment(e->builder, body);
+        return f->data != NULL;
+    case WORD_pattern:
+        f->kind = FUNCTION_PATTERN;
+        f->width = 1;
+        f->data = builder_function_pattern(e->builder, body);
+        return f->data != NULL;
+    default:
+        diag_at(e->diags, DIAG_FUNCTION_ITEM, body->where,
+                word_text((enum word)body->word));
     }
     if (v)
         f->data = v->data;
     return v != NULL;
 }
+
+// internal() has its own parameters whatever list is written.
+static bool is_expression(const struct ast *body) { return body->kind != AST_BLOCK; }
 
 static bool find_internal(struct eval *e, const struct ast *n, struct function *f)
 {
@@ -394,6 +415,10 @@ const struct value *function_value(struct eval *e, const struct ast *block)
     }
     struct function *f = arena_new_struct(e->arena, struct function);
     f->defaults = builder_pattern_defaults(e->builder);
+    if (parameters && !is_expression(body)) {
+        diag_at(e->diags, DIAG_FUNCTION_ITEM, parameters->where, "a parameter list");
+        return NULL;
+    }
     bool internal = body->kind == AST_CALL && body->word == WORD_internal;
     bool ok = internal                  ? find_internal(e, body, f)
               : body->kind == AST_BLOCK ? compile_block(e, body, f)

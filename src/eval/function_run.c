@@ -7,6 +7,7 @@
 #include "eval/function_tape.h"
 #include "eval/internal.h"
 #include "math/elementary.h"
+#include "scene/texture.h"
 
 bool function_math_arity(enum word w, int *least, int *most)
 {
@@ -134,20 +135,49 @@ static double run_tape(const struct function *f, const double *argument)
     return r[f->result];
 }
 
+// No surface is there: slopes are 0.
+static void run_pigment(const struct pigment *pigment, struct vec3 p, double out[5])
+{
+    const struct texture_point at = {.p = p, .p_world = p, .uv = {p.x, p.y}};
+    struct rgbft c = {0};
+    pigment_color(pigment, &at, &c);
+    out[0] = c.r;
+    out[1] = c.g;
+    out[2] = c.b;
+    out[3] = c.filter;
+    out[4] = c.transmit;
+}
+
+static double run_pattern(const struct pattern *pattern, struct vec3 p)
+{
+    const struct pattern_context none = {.p_world = p, .uv = {p.x, p.y}};
+    return pattern_value(pattern, p, &none);
+}
+
+static double run_internal(const struct function *f, struct vec3 p, const double *more)
+{
+    const struct internal_function *i = f->data;
+    return i->value(p, more, f->defaults);
+}
+
 void function_run(const struct function *f, const double *argument, double out[5])
 {
     if (f->kind == FUNCTION_TAPE) {
         out[0] = run_tape(f, argument);
-    } else if (f->kind == FUNCTION_SPLINE) {
+        return;
+    }
+    if (f->kind == FUNCTION_SPLINE) {
         const struct spline *s = f->data;
         spline_at(s, s->kind, argument[0], out);
-    } else if (f->kind == FUNCTION_INTERNAL) {
-        const struct internal_function *i = f->data;
-        struct vec3 p = vec3(argument[0], argument[1], argument[2]);
-        out[0] = i->value(p, argument + 3, f->defaults);
-    } else {
-        struct vec3 p = transform_point(f->data, vec3(argument[0], argument[1],
-                                                      argument[2]));
+        return;
+    }
+    struct vec3 p = vec3(argument[0], argument[1], argument[2]);
+    switch (f->kind) {
+    case FUNCTION_INTERNAL: out[0] = run_internal(f, p, argument + 3); break;
+    case FUNCTION_PIGMENT: run_pigment(f->data, p, out); break;
+    case FUNCTION_PATTERN: out[0] = run_pattern(f->data, p); break;
+    default:
+        p = transform_point(f->data, p);
         out[0] = p.x;
         out[1] = p.y;
         out[2] = p.z;

@@ -8,6 +8,7 @@ enum { FUNCTION_REGISTERS = 256, FUNCTION_PARAMETERS_MAX = 56 };
 
 enum function_kind {
     FUNCTION_TAPE, FUNCTION_TRANSFORM, FUNCTION_SPLINE, FUNCTION_INTERNAL,
+    FUNCTION_PIGMENT, FUNCTION_PATTERN,
 };
 
 enum step_op {
@@ -38,7 +39,7 @@ struct function {
     const struct step *step;
     uint32_t step_count;
     uint16_t result;
-    const void *data; // struct transform, struct spline, struct internal_function
+    const void *data; // struct transform, spline, internal_function, pigment, pattern
     const struct pattern_defaults *defaults;
 };
 

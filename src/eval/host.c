@@ -47,7 +47,7 @@ static bool number(void *user, const struct ast *expr, double *out)
 
 static bool string(void *user, const struct ast *expr, const char **out)
 {
-    return eval_path(user, expr, out);
+    return eval_string(user, expr, out);
 }
 
 // ---- places ------------------------------------------------------------------

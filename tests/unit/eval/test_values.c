@@ -94,6 +94,20 @@ static const char *const scripts[][2] = {
     {"#declare F = function{internal(61)} #declare G = function{internal(57)}"
      "#declare H = function(a,b){F(a,b,0,1) + G(a,b,0)}"
      "#debug vstr(3,<F(3,4,0,1),G(3,4,0),H(3,4)>,\" \",0,2)", "4.00 5.00 9.00"},
+    {"#declare F = function{pigment{rgb <1,.5,.25>}} #declare P = function{pigment{}}"
+     "#declare G = function(a){F(a,a,a).gray + P(a,a,a).red + F(0,0,0).transmit}"
+     "#debug vstr(3,<F(0,0,0).gray,F(1,1,1).y,G(1)>,\" \",0,6)",
+     "0.620000 0.500000 0.620000"},
+    {"#declare Q = function{pigment{checker rgb 1 rgb <.2,.3,.4> scale 2}}"
+     "#debug vstr(5,Q(2.1,.2,.3),\",\",0,8)",
+     "0.20000000,0.30000001,0.40000001,0.00000000,0.00000000"},
+    // As POV-Ray 3.7 gives them.
+    {"#declare S = function{pattern{bozo turbulence .3 scale .7 frequency 2 phase .3"
+     " sine_wave}} #declare X = function{pattern{checker scale .3}}"
+     "#declare L = function{pattern{leopard}}"
+     "#debug concat(str(S(.1,.2,.7),0,12),str(X(.1,.2,.7),2,0),str(X(.4,.2,.1),2,0),"
+     "str(L(.1,.3,.7),0,12))", "0.976496856000 0 10.120078723301"},
+    {"#debug \"a\\nb\"", "a\nb"},
     {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
 };
 
@@ -113,6 +127,8 @@ static void errors_are_reported(void **state)
     static const char *const bad[] = {
         "#declare A = B;",        "#declare A = array[2]; #declare A[2] = 1;",
         "#local A = A + 1;",      "#declare A = sqrt(-1);", "#declare F = function{internal(79)}",
+        "#declare F = function{pattern{slope y}}",
+        "#declare F = function(a){pattern{bozo}}",
         "#error \"stop\" #debug \"more\"",
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
