@@ -7,4 +7,9 @@
 #define ROUNDOFF 0x1p-53
 #define GAMMA(n) ((n) * ROUNDOFF / (1 - (n) * ROUNDOFF))
 
+// Whether a direction whose largest component is `size` runs along a plane: `down`, its
+// component across the plane, is no more than its own rounding error. Such a crossing
+// could be anywhere on the line; its error bound would swallow all others.
+#define RUNS_ALONG(down, size) (!(fabs(down) > GAMMA(12) * (size)))
+
 #endif

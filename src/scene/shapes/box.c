@@ -2,8 +2,6 @@
 
 #include "scene/shapes/box.h"
 
-#include <float.h>
-
 #include "math/gamma.h"
 #include "scene/args.h"
 #include "scene/shape.h"
@@ -58,12 +56,12 @@ static bool inside(const void *shape, struct vec3 p)
            p.z >= b->min.z && p.z <= b->max.z;
 }
 
-// The stretch of the ray between one pair of faces. A direction component whose
-// reciprocal would overflow counts as parallel: then all of the line or none of it is
-// between the closed faces.
-static void slab(double min, double max, double o, double d, double *t0, double *t1)
+// The stretch of the ray between one pair of faces. Along the faces all of
+// the line or none of it is between them, which are closed.
+static void slab(double min, double max, double o, double d, double longest, double *t0,
+                 double *t1)
 {
-    if (fabs(d) < DBL_MIN) {
+    if (RUNS_ALONG(d, longest)) {
         bool in = o >= min && o <= max;
         *t0 = in ? -INFINITY : INFINITY;
         *t1 = -*t0;
@@ -88,12 +86,13 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const double d[3] = {ray->d.x, ray->d.y, ray->d.z};
     const double min[3] = {b->min.x, b->min.y, b->min.z};
     const double max[3] = {b->max.x, b->max.y, b->max.z};
+    const double longest = vec3_max_abs(ray->d);
     double entry, leave;
     int entry_axis = 0, leave_axis = 0;
-    slab(min[0], max[0], o[0], d[0], &entry, &leave);
+    slab(min[0], max[0], o[0], d[0], longest, &entry, &leave);
     for (int i = 1; i < 3; i++) {
         double t0, t1;
-        slab(min[i], max[i], o[i], d[i], &t0, &t1);
+        slab(min[i], max[i], o[i], d[i], longest, &t0, &t1);
         if (t0 > entry) {
             entry = t0;
             entry_axis = i;

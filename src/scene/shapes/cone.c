@@ -2,8 +2,6 @@
 
 #include "scene/shapes/cone.h"
 
-#include <float.h>
-
 #include "math/gamma.h"
 #include "math/quadratic.h"
 #include "scene/args.h"
@@ -87,7 +85,8 @@ static int double_cone(double a, double b, double c, struct stretch s[2], double
         return 1;
     }
     if (a == 0) { // the side where b t falls
-        s[0] = b > 0 ? (struct stretch){{-INFINITY, t2}} : (struct stretch){{t2, INFINITY}};
+        s[0] =
+            b > 0 ? (struct stretch){{-INFINITY, t2}} : (struct stretch){{t2, INFINITY}};
         return 1;
     }
     s[0] = (struct stretch){{-INFINITY, lo}};
@@ -103,7 +102,7 @@ struct slab {
 static bool slab_of(const struct cone *c, struct vec3 o, struct vec3 d, struct slab *s)
 {
     *s = (struct slab){{-INFINITY, INFINITY}, {CONE_BASE, CONE_TOP}};
-    if (fabs(d.z) < DBL_MIN)
+    if (RUNS_ALONG(d.z, vec3_max_abs(d)))
         return o.z >= 0 && o.z <= c->length;
     const double inv = 1 / d.z;
     const double ta = (0 - o.z) * inv, tb = (c->length - o.z) * inv;
@@ -160,8 +159,9 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const double dt_side = e_f / fmax(2 * sqrt(fmax(disc, 0)), sqrt(fabs(a) * e_f));
     const double dt_cap = e_p / fabs(d.z);
     const bool side_in = entry > slab.t[0], side_out = leave < slab.t[1];
-    struct boundary *at = boundary_list_add(out, entry, side_in ? dt_side : dt_cap, CROSS_ENTER,
-                                            side_in ? CONE_SIDE : slab.part[0]);
+    struct boundary *at =
+        boundary_list_add(out, entry, side_in ? dt_side : dt_cap, CROSS_ENTER,
+                          side_in ? CONE_SIDE : slab.part[0]);
     at->drawn = side_in || !c->open;
     at = boundary_list_add(out, leave, side_out ? dt_side : dt_cap, CROSS_EXIT,
                            side_out ? CONE_SIDE : slab.part[1]);

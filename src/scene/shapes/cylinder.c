@@ -2,8 +2,6 @@
 
 #include "scene/shapes/cylinder.h"
 
-#include <float.h>
-
 #include "math/gamma.h"
 #include "math/quadratic.h"
 #include "scene/args.h"
@@ -58,8 +56,7 @@ static bool inside(const void *shape, struct vec3 p)
 {
     const struct cylinder *c = shape;
     const struct vec3 q = frame_coordinates(&c->frame, vec3_sub(p, c->frame.origin));
-    return q.x * q.x + q.y * q.y <= c->radius * c->radius && q.z >= 0 &&
-           q.z <= c->length;
+    return q.x * q.x + q.y * q.y <= c->radius * c->radius && q.z >= 0 && q.z <= c->length;
 }
 
 // o = frame coordinates of the origin, d = of the direction.
@@ -67,8 +64,7 @@ static bool inside(const void *shape, struct vec3 p)
 // Side: a = d.x^2 + d.y^2, s = (d.x*o.x + d.y*o.y)/a, near = o.xy - s*d.xy,
 // rest = r*r - near.near, reach = sqrt(rest/a), t = -s -+ reach.
 // The line is inside on [max of the entries, min of the exits]; a tie takes the side.
-// Parallel to the axis or to the caps (a or |d.z| below the least normal number): all
-// or nothing, closed.
+// Along the axis or the caps: all or nothing, closed.
 //
 // Error: as for the sphere, with e_p the uncertainty of the point in the frame.
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
@@ -78,9 +74,9 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct vec3 d = frame_coordinates(&c->frame, ray->d);
     const double r = c->radius;
 
-    const double a = d.x * d.x + d.y * d.y;
+    const double a = d.x * d.x + d.y * d.y, longest = vec3_max_abs(d);
     double entry = -INFINITY, leave = INFINITY, rest = 0;
-    if (a < DBL_MIN) {
+    if (RUNS_ALONG(sqrt(a), longest)) {
         if (!(o.x * o.x + o.y * o.y <= r * r))
             return;
     } else {
@@ -95,7 +91,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     }
 
     uint32_t entry_part = CYLINDER_SIDE, leave_part = CYLINDER_SIDE;
-    if (fabs(d.z) < DBL_MIN) {
+    if (RUNS_ALONG(d.z, longest)) {
         if (!(o.z >= 0 && o.z <= c->length))
             return;
     } else {

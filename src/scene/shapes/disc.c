@@ -68,14 +68,14 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     const struct disc *s = shape;
     const double down = vec3_dot(s->normal, ray->d);
+    if (RUNS_ALONG(down, vec3_max_abs(ray->d)))
+        return;
     const struct vec3 to = vec3_sub(s->centre, ray->o);
     const double t = vec3_dot(s->normal, to) / down;
-    if (!isfinite(t))
-        return;
     const struct vec3 q = vec3_sub(vec3_scale(t, ray->d), to);
     const double d2 = vec3_dot(q, q);
-    const double size = vec3_max_abs(ray->o) + vec3_max_abs(s->centre) +
-                        fabs(t) * vec3_max_abs(ray->d);
+    const double size =
+        vec3_max_abs(ray->o) + vec3_max_abs(s->centre) + fabs(t) * vec3_max_abs(ray->d);
     struct boundary *b = boundary_list_add(out, t, GAMMA(12) * size / fabs(down),
                                            down < 0 ? CROSS_ENTER : CROSS_EXIT, 0);
     b->drawn = d2 <= s->radius * s->radius && d2 >= s->hole * s->hole;

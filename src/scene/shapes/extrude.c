@@ -51,9 +51,9 @@ static void add_walls(const struct outline *o, const struct extrude_ray *r,
     double k[3];
     plane_line(r, k);
     const double dd = r->d[0] * r->d[0] + r->d[1] * r->d[1];
-    const double size = fmax(fmax(fabs(o->min.u), fabs(o->max.u)),
-                             fmax(fabs(o->min.v), fabs(o->max.v))) +
-                        fmax(fabs(r->o[0]), fabs(r->o[1]));
+    const double size =
+        fmax(fmax(fabs(o->min.u), fabs(o->max.u)), fmax(fabs(o->min.v), fabs(o->max.v))) +
+        fmax(fabs(r->o[0]), fabs(r->o[1]));
     for (uint32_t i = 0; i < o->count; i++) {
         const struct outline_segment *s = &o->segment[i];
         double w[OUTLINE_ROOTS];
@@ -62,14 +62,14 @@ static void add_walls(const struct outline *o, const struct extrude_ray *r,
         const int n = outline_roots(s, k, w);
         for (int j = 0; j < n; j++) {
             const struct vec2 p = outline_point(s, w[j]), c = outline_tangent(s, w[j]);
-            const double t =
-                ((p.u - r->o[0]) * r->d[0] + (p.v - r->o[1]) * r->d[1]) / dd;
+            const double t = ((p.u - r->o[0]) * r->d[0] + (p.v - r->o[1]) * r->d[1]) / dd;
             // Along a grazed curve an error across the line becomes one along it.
             const double across = fabs(c.u * r->d[1] - c.v * r->d[0]);
             const double along = fabs(c.u * r->d[0] + c.v * r->d[1]);
             const double error = GAMMA(16) * size / sqrt(dd);
             const double dt = across > 0 ? error * (1 + along / across) : error;
-            struct boundary *b = boundary_list_add(out, t, dt, CROSS_ENTER, EXTRUDE_WALL + i);
+            struct boundary *b =
+                boundary_list_add(out, t, dt, CROSS_ENTER, EXTRUDE_WALL + i);
             b->v = w[j];
             b->u = c.v * r->d[0] - c.u * r->d[1] < 0 ? 1 : -1; // faces the ray
         }
@@ -85,13 +85,13 @@ struct slab {
 static bool slab_of(const struct extrude_ray *r, double low, double high, struct slab *s)
 {
     *s = (struct slab){{-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
-    if (r->d[2] == 0)
+    if (RUNS_ALONG(r->d[2], fmax(fabs(r->d[0]), fabs(r->d[1]))))
         return r->o[2] >= low && r->o[2] <= high;
     const bool up = r->d[2] > 0;
     s->always = false;
     s->t[0] = ((up ? low : high) - r->o[2]) / r->d[2];
     s->t[1] = ((up ? high : low) - r->o[2]) / r->d[2];
-    s->dt = GAMMA(3) * (fabs(r->o[2]) + fmax(fabs(low), fabs(high))) / fabs(r->d[2]);
+    s->dt = GAMMA(12) * (fabs(r->o[2]) + fmax(fabs(low), fabs(high))) / fabs(r->d[2]);
     s->part[0] = up ? EXTRUDE_LOW : EXTRUDE_HIGH;
     s->part[1] = up ? EXTRUDE_HIGH : EXTRUDE_LOW;
     return true;
@@ -99,9 +99,8 @@ static bool slab_of(const struct extrude_ray *r, double low, double high, struct
 
 static void add_cap(struct boundary_list *out, const struct slab *s, int which, bool open)
 {
-    struct boundary *b = boundary_list_add(out, s->t[which], s->dt,
-                                           which ? CROSS_EXIT : CROSS_ENTER,
-                                           s->part[which]);
+    struct boundary *b = boundary_list_add(
+        out, s->t[which], s->dt, which ? CROSS_EXIT : CROSS_ENTER, s->part[which]);
     b->drawn = !open;
 }
 
@@ -154,7 +153,7 @@ void extrude_intersect(const struct outline *o, double low, double high, bool op
     struct slab slab;
     if (o->count == 0 || !slab_of(ray, low, high, &slab))
         return;
-    if (ray->d[0] == 0 && ray->d[1] == 0) {
+    if (RUNS_ALONG(fmax(fabs(ray->d[0]), fabs(ray->d[1])), fabs(ray->d[2]))) {
         along_the_axis(o, &slab, open, ray, out);
         return;
     }

@@ -51,7 +51,7 @@ static bool inside(const void *shape, struct vec3 at)
     return vec3_dot(p->normal, vec3_sub(at, p->point)) <= 0;
 }
 
-// down = n.d, t = (n.(point - o)) / down; no crossing when down == 0. Entering when
+// down = n.d, t = (n.(point - o)) / down; none along the plane. Entering when
 // down < 0. The difference point - o comes first, so that a plane far from the origin
 // but near the ray keeps its digits.
 //
@@ -61,11 +61,11 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     const struct plane *p = shape;
     const double down = vec3_dot(p->normal, ray->d);
-    const double t = vec3_dot(p->normal, vec3_sub(p->point, ray->o)) / down;
-    if (!isfinite(t))
+    if (RUNS_ALONG(down, vec3_max_abs(ray->d)))
         return;
-    const double size = vec3_max_abs(ray->o) + vec3_max_abs(p->point) +
-                        fabs(t) * vec3_max_abs(ray->d);
+    const double t = vec3_dot(p->normal, vec3_sub(p->point, ray->o)) / down;
+    const double size =
+        vec3_max_abs(ray->o) + vec3_max_abs(p->point) + fabs(t) * vec3_max_abs(ray->d);
     boundary_list_add(out, t, GAMMA(12) * size / fabs(down),
                       down < 0 ? CROSS_ENTER : CROSS_EXIT, 0);
 }
