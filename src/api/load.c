@@ -1,5 +1,6 @@
 // From a scene file to what the tracer takes.
 #include "api/context.h"
+#include "api/probe.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -222,8 +223,12 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
         o.statement_user = ast;
     }
     ctx->scene = (struct scene){0};
+    struct probe *probe = probe_new();
+    o.trace = probe_trace;
+    o.trace_user = probe;
     bool ok =
         eval_scene(ctx->scene_arena, &ctx->sources, file, &ctx->diags, &o, &ctx->scene);
+    probe_free(probe);
     ctx->stats.parse_seconds = context_seconds() - start;
     ctx->stats.errors = ctx->diags.errors;
     ctx->stats.warnings = ctx->diags.warnings;

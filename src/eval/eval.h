@@ -38,6 +38,10 @@ struct eval_options {
     // Sees each statement the grammar hands over, before it is carried out; or NULL.
     void (*statement)(void *user, const struct ast *item);
     void *statement_user;
+    // The first surface of an object along a unit direction, for trace(); or NULL.
+    bool (*trace)(void *user, const struct object *o, struct vec3 from, struct vec3 d,
+                  struct vec3 *hit, struct vec3 *normal);
+    void *trace_user;
 };
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.

@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "eval/array.h"
+#include "eval/symbol.h"
 #include "math/elementary.h"
 #include "scene/noise.h"
 #include "scene/object.h"
@@ -306,6 +307,35 @@ static bool give_extent(struct call *c, bool max)
     struct aabb b = object_bounds(o);
     struct vec3 v = max ? b.max : b.min;
     return give_vector(c, vec3(extent(v.x), extent(v.y), extent(v.z)));
+}
+
+// trace(OBJ, from, direction, NORMAL): NORMAL is a name that holds a vector.
+static bool set_normal(struct call *c, struct vec3 n)
+{
+    const struct ast *name = c->arg[3].node;
+    const struct value *old = c->arg[3].o;
+    struct eval *e = c->e;
+    struct place p = {0};
+    if (old && old->kind == VALUE_NUMBER && old->width == 3 && name->len)
+        p = symbols_find(e->symbols, name->text, name->len, symbols_depth(e->symbols));
+    if (!p.symbol)
+        return call_domain(c, "the name of a vector is expected last");
+    struct value v = value_of_number((const double[]){n.x, n.y, n.z}, 3);
+    return place_set(e->arena, p, &v);
+}
+
+bool call_trace(struct call *c)
+{
+    const struct object *o = object_argument(c);
+    const struct eval_options *options = c->e->options;
+    struct vec3 hit = vec3(0, 0, 0), normal = hit;
+    struct vec3 d = vec3_normalize(c->arg[2].v);
+    if (!o || !options->trace)
+        return call_domain(c, "expected an object that rays can meet");
+    if (vec3_max_abs(d) > 0 &&
+        !options->trace(options->trace_user, o, c->arg[1].v, d, &hit, &normal))
+        hit = normal = vec3(0, 0, 0);
+    return (c->count < 4 || set_normal(c, normal)) && give_vector(c, hit);
 }
 
 bool call_min_extent(struct call *c) { return give_extent(c, false); }
