@@ -45,9 +45,11 @@ bool ast_is_color_start(const struct ast *n)
            n->value->width == 5 && n->len;
 }
 
-static double srgb_decode(double v)
+// In single precision as in POV-Ray, whose last digits show in printed values.
+static float srgb_decode(float v)
 {
-    return v <= 0.04045 ? v / 12.92 : det_pow((v + 0.055) / 1.055, 2.4);
+    return v <= 0.04045f ? v / 12.92f
+                         : (float)det_pow((v + 0.055f) / 1.055f, (double)2.4f);
 }
 
 static bool decode(struct eval *e, struct span where, double c[5])
@@ -58,7 +60,7 @@ static bool decode(struct eval *e, struct span where, double c[5])
         return false;
     }
     for (int i = 0; i < 3 && s->gamma_mode == GAMMA_POWER; i++) {
-        c[i] = srgb_decode(c[i]);
+        c[i] = srgb_decode((float)c[i]);
         if (s->assumed_gamma != 1)
             c[i] = det_pow(c[i], 1 / s->assumed_gamma);
     }

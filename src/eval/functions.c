@@ -296,7 +296,7 @@ bool call_inside(struct call *c)
 static double extent(double v)
 {
     const double far = 1e10 / 2;
-    return v > far ? far : v < -far ? -far : v;
+    return v > far ? far : v < -far ? -far : v + 0.0; // no -0
 }
 
 static bool give_extent(struct call *c, bool max)

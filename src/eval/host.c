@@ -50,6 +50,11 @@ static bool string(void *user, const struct ast *expr, const char **out)
     return eval_string(user, expr, out);
 }
 
+static bool path(void *user, const struct ast *expr, const char **out)
+{
+    return eval_path(user, expr, out);
+}
+
 // ---- places ------------------------------------------------------------------
 
 bool eval_index(struct eval *e, struct place base, const struct ast *index,
@@ -466,6 +471,7 @@ struct stream_host eval_host(struct eval *e)
         .lookup = lookup,
         .number = number,
         .string = string,
+        .path = path,
         .is_declared = is_declared,
         .declare_begin = declare_begin,
         .declare = declare,

@@ -130,7 +130,7 @@ void directive_include(struct stream *s, struct token word)
         return;
     if (path->kind == AST_STRING) // no escapes in a path
         name = arena_strndup(s->nodes, path->text, path->len);
-    else if (!s->host.string(s->host.user, path, &name))
+    else if (!s->host.path(s->host.user, path, &name))
         return;
     if (s->includes >= INCLUDES_MAX) {
         diag_at(s->diags, DIAG_TOO_DEEP, word.where, "include files", (int)INCLUDES_MAX);

@@ -58,6 +58,7 @@ struct stream_host {
     struct name_info (*lookup)(void *user, const char *name, size_t len);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
+    bool (*path)(void *user, const struct ast *expr, const char **out);   // no escapes
     bool (*is_declared)(void *user, const struct lvalue *name); // #ifdef, defined()
 
     // #declare / #local: begin makes the empty local entry before the right side

@@ -232,7 +232,7 @@ static int run(struct fake *f, const char *text)
     source_map_init(&sources, f->arena);
     uint32_t file = source_add(&sources, "t.pov", text, strlen(text), (struct span){0});
     struct stream_host host = {
-        .user = f, .lookup = lookup, .number = number, .string = string,
+        .user = f, .lookup = lookup, .number = number, .string = string, .path = string,
         .is_declared = is_declared, .declare_begin = declare_begin, .declare = declare,
         .declare_number = declare_number, .undef = undef, .define_macro = define_macro,
         .enter_scope = enter_scope, .leave_scope = leave_scope,
