@@ -16,6 +16,7 @@ include %D%/unit/scene/local.mk
 include %D%/unit/eval/local.mk
 include %D%/unit/trace/local.mk
 include %D%/cli/local.mk
+include %D%/lang/local.mk
 include %D%/compare/local.mk
 include %D%/stability/local.mk
 include %D%/shading/local.mk

@@ -1,0 +1,75 @@
+#!/bin/sh
+# run-scene.sh SCENE: reads a scene and compares with what its comments promise.
+#   // debug: TEXT           the lines of the debug stream, in order
+#   // expect: TEXT          the lines of --dump-csg, in order
+#   // message: TEXT         the lines of the messages, in order (last line left out)
+#   // expect error: Ennnn   an error that is reported on this line, and the same
+#   // expect warning: Ennnn with warnings; no other error may appear
+scene=$1
+lambert=$(cd "${top_builddir:-.}" && pwd)/lambert
+case $scene in /*) ;; *) scene=$(pwd)/$scene ;; esac
+folder=$(cd "$(dirname "$scene")" && pwd)
+name=$(basename "$scene")
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+unset POVINI POVINC LAMBERT_PATH
+n=0 failed=0
+
+# compare NAME: file wanted against file got
+compare()
+{
+  n=$((n + 1))
+  if diff wanted got >difference; then
+    echo "ok $n - $1"
+  else
+    echo "not ok $n - $1"
+    sed 's/^/# /' difference
+    failed=1
+  fi
+}
+
+read_scene()
+{
+  "$lambert" "$scene" "--library-path=$folder" --width=4 --height=4 --dump-csg "$@" \
+    >out 2>err
+}
+
+read_scene --diagnostics=json
+code=$?
+grep -v -e '^{"v":' -e '^lambert: ' err >got
+sed -n 's|^// debug: \{0,1\}||p' "$scene" >wanted
+compare 'debug stream'
+
+sed -n 's/.*"sev":"\([a-z]*\)","code":"\(E[0-9]*\)","file":"[^"]*'"$name"'","line":\([0-9]*\).*/\3 \1 \2/p' \
+  err >found
+if grep -q '// expect warning:' "$scene"; then cat found; else grep ' error ' found; fi |
+  sort -u >got
+awk 'match($0, /\/\/ expect (error|warning): E[0-9]+/) {
+       n = split(substr($0, RSTART, RLENGTH), w, " "); sub(":", "", w[3]); print NR, w[3], w[4]
+     }' "$scene" | sort -u >wanted
+compare 'errors and their lines'
+
+n=$((n + 1))
+if grep -q '// expect error:' "$scene"; then code_wanted=1; else code_wanted=0; fi
+if test $code = $code_wanted; then
+  echo "ok $n - exit code"
+else
+  echo "not ok $n - exit code $code, not $code_wanted"
+  sed 's/^/# /' err
+  failed=1
+fi
+
+if grep -q '^// expect:' "$scene"; then
+  sed -n 's|^// expect: \{0,1\}||p' "$scene" >wanted
+  cp out got
+  compare 'objects'
+fi
+if grep -q '^// message:' "$scene"; then
+  sed -n 's|^// message: \{0,1\}||p' "$scene" >wanted
+  read_scene --diagnostics=text --color=never
+  sed -e "s|^$folder/||" -e '/^lambert: /d' err >got
+  compare 'messages'
+fi
+echo "1..$n"
+exit $failed
