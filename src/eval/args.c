@@ -16,6 +16,12 @@ static const struct ast *number_item(struct args *a, const char *role, const cha
 {
     if (a->at && ast_is_number(a->at))
         return args_next(a);
+    double unused;
+    if (a->at && a->at->kind == AST_UNDECLARED) { // says so, with the closest name
+        eval_float(a->b->e, args_next(a), &unused);
+        args_fail(a);
+        return NULL;
+    }
     expected(a, role, type);
     return NULL;
 }
