@@ -16,12 +16,12 @@ struct aabb aabb_infinite(void)
 
 static struct vec3 lower(struct vec3 a, struct vec3 b)
 {
-    return vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+    return vec3(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
 }
 
 static struct vec3 upper(struct vec3 a, struct vec3 b)
 {
-    return vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+    return vec3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
 struct aabb aabb_join(struct aabb a, struct aabb b)

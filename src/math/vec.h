@@ -59,9 +59,12 @@ static inline struct vec3 vec3_normalize(struct vec3 a)
     double l = vec3_length(a);
     return l > 0 ? vec3(a.x / l, a.y / l, a.z / l) : a;
 }
+// Not fmax, which is a call: its care for NaN is not wanted here.
 static inline double vec3_max_abs(struct vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    const double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z);
+    const double xy = x > y ? x : y;
+    return xy > z ? xy : z;
 }
 static inline double vec3_axis(struct vec3 a, int axis)
 {
