@@ -30,7 +30,7 @@ void load(struct loaded *l, const char *format, ...)
     va_start(args, format);
     char *text = text_of(format, args);
     va_end(args);
-    l->arena = arena_new(1 << 16);
+    *l = (struct loaded){.arena = arena_new(1 << 16)};
     struct source_map *sources = arena_new_struct(l->arena, struct source_map);
     source_map_init(sources, l->arena);
     uint32_t file = source_add(sources, "case.scn", text, strlen(text), (struct span){0});

@@ -3,3 +3,7 @@ check_PROGRAMS += test_stability
 test_stability_SOURCES = %D%/test_stability.c %D%/cases.def %D%/cases.h $(stability_sources)
 test_stability_CPPFLAGS = $(test_cppflags)
 test_stability_LDADD = $(test_ldadd)
+check_PROGRAMS += test_pictures
+test_pictures_SOURCES = %D%/test_pictures.c $(stability_sources)
+test_pictures_CPPFLAGS = $(test_cppflags)
+test_pictures_LDADD = $(test_ldadd)
