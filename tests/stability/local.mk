@@ -7,3 +7,7 @@ check_PROGRAMS += test_pictures
 test_pictures_SOURCES = %D%/test_pictures.c $(stability_sources)
 test_pictures_CPPFLAGS = $(test_cppflags)
 test_pictures_LDADD = $(test_ldadd)
+check_PROGRAMS += test_nested
+test_nested_SOURCES = %D%/test_nested.c $(stability_sources)
+test_nested_CPPFLAGS = $(test_cppflags)
+test_nested_LDADD = $(test_ldadd)
