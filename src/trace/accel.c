@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "scene/shapes/sphere.h"
+#include "trace/packet.h"
 
 static void build_leaf_tree(struct arena *a, const struct world *w, struct accel *accel,
                             uint32_t object)
@@ -61,6 +62,30 @@ static struct accel_sphere sphere_of(const struct world *w, uint32_t object)
     return (struct accel_sphere){s->centre, s->radius, o->flags};
 }
 
+static enum packet_shape shape_of_leaf(const struct leaf *l)
+{
+    if (l->ops == &sphere_ops)
+        return PACKET_SPHERE;
+    if (l->ops == &box_ops)
+        return PACKET_BOX;
+    if (l->ops == &plane_ops)
+        return PACKET_PLANE;
+    return PACKET_NONE;
+}
+
+static void classify(struct arena *a, const struct world *w, struct accel *accel)
+{
+    accel->leaf_shape = arena_new_array(a, uint8_t, w->leaf_count + 1);
+    accel->object_shape = arena_new_array(a, uint8_t, w->object_count + 1);
+    for (uint32_t i = 0; i < w->leaf_count; i++)
+        accel->leaf_shape[i] = (uint8_t)shape_of_leaf(&w->leaf[i]);
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const struct world_object *o = &w->object[i];
+        if (!o->is_csg && !o->bound_count && w->leaf[o->first_leaf].drawn)
+            accel->object_shape[i] = accel->leaf_shape[o->first_leaf];
+    }
+}
+
 struct accel *accel_build(struct arena *a, const struct world *w)
 {
     struct accel *accel = arena_new_struct(a, struct accel);
@@ -99,8 +124,18 @@ struct accel *accel_build(struct arena *a, const struct world *w)
     }
     accel->top = bvh8_build(a, box, object, n);
     accel->sphere = arena_new_array(a, struct accel_sphere, n + 1);
-    for (uint32_t i = 0; i < n; i++)
-        accel->sphere[i] = sphere_of(w, accel->top.item[i]);
+    for (int k = 0; k < 4; k++) // a block of eight may begin at the last
+        accel->ball[k] = arena_new_array(a, double, n + 8);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct accel_sphere s = sphere_of(w, accel->top.item[i]);
+        accel->sphere[i] = s;
+        accel->ball[0][i] = s.centre.x;
+        accel->ball[1][i] = s.centre.y;
+        accel->ball[2][i] = s.centre.z;
+        accel->ball[3][i] = s.radius;
+    }
+    classify(a, w, accel);
+    accel->kernels = packet_kernels_choose();
     free(box);
     free(object);
     return accel;

@@ -12,10 +12,24 @@ struct accel_sphere {
     unsigned flags; // of the object
 };
 
+// The shapes of which packets know the crossings, and how they take an object.
+enum packet_shape {
+    PACKET_NONE,
+    PACKET_SPHERE,
+    PACKET_BOX,
+    PACKET_PLANE,
+    PACKET_CYLINDER,
+    PACKET_PRODUCT // of objects: an intersection of such shapes and their complements
+};
+
 // One world's boxes: over the finite objects, and over the leaves of each large object.
 struct accel {
     struct bvh8 top;
     struct accel_sphere *sphere; // for each item of `top`
+    double *ball[4];             // the same spheres' x, y, z and radius
+    uint8_t *leaf_shape;         // enum packet_shape, per leaf
+    uint8_t *object_shape;       // enum packet_shape, per object
+    const struct packet_kernels *kernels;
     uint32_t *infinite;          // objects without finite bounds, in order
     uint32_t infinite_count;
     struct bvh8 *leaves;  // per object; item_count == 0: few leaves, tested in a row

@@ -18,8 +18,6 @@ enum {
 // The error of a test in units of the half extent of the tree: rounding the moved
 // origin, subtracting and multiplying cost at most 4 half-ulps of it (2^-24 each).
 static const double PAD = 0x1p-21;
-// The same as a relative error of a t.
-static const float T_SLACK = 1 + 0x1p-20f;
 
 struct range {
     uint32_t first, count;
@@ -294,7 +292,7 @@ bool bvh8_ray_begin(const struct bvh8 *b, const struct ray *ray, double t_min,
 void bvh8_ray_limit(struct bvh8_ray *r, double t)
 {
     double far = (t - r->t_begin) * r->scale;
-    r->t_far = far < 1e30 ? (float)far * T_SLACK : 1e30f;
+    r->t_far = far < 1e30 ? (float)far * BVH8_SLACK : 1e30f;
 }
 
 void bvh8_walk_begin(struct bvh8_walk *w, const struct bvh8 *b)
@@ -311,7 +309,7 @@ static unsigned node_hits(const struct bvh8_node *n, const struct bvh8_ray *r,
 {
     unsigned bits = 0;
 #ifdef __SSE2__
-    const __m128 slack = _mm_set1_ps(T_SLACK);
+    const __m128 slack = _mm_set1_ps(BVH8_SLACK);
     for (int half = 0; half < 8; half += 4) {
         __m128 near = _mm_setzero_ps(), far = _mm_set1_ps(r->t_far);
         for (int a = 0; a < 3; a++) {
@@ -335,7 +333,7 @@ static unsigned node_hits(const struct bvh8_node *n, const struct bvh8_ray *r,
             far = q < far ? q : far;
         }
         near_t[k] = near;
-        bits |= (unsigned)(near <= far * T_SLACK) << k;
+        bits |= (unsigned)(near <= far * BVH8_SLACK) << k;
     }
 #endif
     return bits;
@@ -360,7 +358,7 @@ bool bvh8_walk_next(struct bvh8_walk *w, const struct bvh8 *b, const struct bvh8
 {
     while (w->depth) {
         struct bvh8_entry e = w->stack[--w->depth];
-        if (e.t > r->t_far * T_SLACK)
+        if (e.t > r->t_far * BVH8_SLACK)
             continue;
         if (e.child < 0) {
             *first = bvh8_leaf_first(e.child);

@@ -17,6 +17,9 @@ struct bvh8_node {
 
 enum { BVH8_EMPTY = -1, BVH8_LEAF_MAX = 8, BVH8_STACK = 320 };
 
+// The error of a test of boxes as a relative error of a t.
+#define BVH8_SLACK (1 + 0x1p-20f)
+
 struct bvh8 {
     struct bvh8_node *node; // NULL: no boxes
     uint32_t node_count;

@@ -4,6 +4,7 @@
 
 #include "math/gamma.h"
 #include "trace/accel.h"
+#include "trace/packet.h"
 #include "trace/scratch.h"
 
 // ---- scratch, batches ---------------------------------------------------------------
@@ -152,23 +153,8 @@ static bool culled(const struct world_object *o, const struct ray *ray)
     return false;
 }
 
-// One ray on its way through the world. The nearest hit so far is kept; among equal
-// distances it is the one of the object declared first.
-struct search {
-    const struct world *w;
-    struct trace_scratch *s;
-    const struct ray_query *q;
-    enum sweep_mode mode;
-    struct box_ray box;
-    double dd;       // d.d
-    double t;        // of the nearest; INFINITY: none
-    uint32_t object; // UINT32_MAX: none
-    bool known; // b is filled; else it is a sphere whose boundary is still to be made
-    struct boundary b;
-};
-
-static struct search search_of(const struct world *w, struct trace_scratch *s,
-                               const struct ray_query *q, enum sweep_mode mode)
+struct search search_of(const struct world *w, struct trace_scratch *s,
+                        const struct ray_query *q, enum sweep_mode mode)
 {
     return (struct search){.w = w,
                            .s = s,
@@ -204,15 +190,10 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
     return single_leaf(f->w, f->s, o, &ray, f->mode, out);
 }
 
-static bool is_nearer(const struct search *f, double t, uint32_t object)
-{
-    return t < f->t || (t == f->t && object < f->object);
-}
-
-static bool try_object(struct search *f, uint32_t object)
+bool search_try_object(struct search *f, uint32_t object)
 {
     struct boundary b;
-    if (!object_hit(f, object, &b) || !is_nearer(f, b.t, object))
+    if (!object_hit(f, object, &b) || !search_is_nearer(f, b.t, object))
         return false;
     f->b = b;
     f->t = b.t;
@@ -221,45 +202,8 @@ static bool try_object(struct search *f, uint32_t object)
     return true;
 }
 
-// The crossings of sphere's intersect (scene/shapes/sphere.c), step by step.
-static bool sphere_meets(const struct search *f, const struct accel_sphere *p, double *t)
-{
-    const struct ray *ray = &f->q->ray;
-    const struct vec3 oc = vec3_sub(ray->o, p->centre);
-    const double s = vec3_dot(ray->d, oc) / f->dd;
-    const struct vec3 near = vec3_mad(oc, -s, ray->d);
-    const double rest = p->radius * p->radius - vec3_dot(near, near);
-    if (!(rest > 0))
-        return false;
-    const double reach = sqrt(rest / f->dd);
-    *t = -s - reach > ray->t_min ? -s - reach : -s + reach;
-    return *t > ray->t_min && *t < ray->t_max;
-}
-
-// Item i of the tree of objects.
-static bool try_item(struct search *f, uint32_t i)
-{
-    const struct accel *a = f->w->accel;
-    const struct accel_sphere *p = &a->sphere[i];
-    double t;
-    if (!(p->radius > 0))
-        return try_object(f, a->top.item[i]);
-    f->s->stats.leaf_tests++;
-    if ((p->flags & f->q->hidden_by) || !sphere_meets(f, p, &t) ||
-        !is_nearer(f, t, a->top.item[i]))
-        return false;
-    // Few spheres are hit: whether one counts as opaque is looked up late.
-    const struct world_object *o = &f->w->object[a->top.item[i]];
-    if (f->mode == SWEEP_OPAQUE && !o->opaque)
-        return false;
-    f->t = t;
-    f->object = a->top.item[i];
-    f->known = false;
-    return true;
-}
-
 // The nearest hit's boundary in full.
-static struct hit search_hit(struct search *f)
+struct hit search_hit(struct search *f)
 {
     if (f->object != UINT32_MAX && !f->known) {
         const uint32_t object = f->object;
@@ -275,17 +219,10 @@ struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
     struct search f = search_of(w, s, q, SWEEP_CLOSEST);
     s->stats.rays++;
     for (uint32_t i = 0; i < a->infinite_count; i++)
-        try_object(&f, a->infinite[i]);
+        search_try_object(&f, a->infinite[i]);
     struct bvh8_ray r;
-    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, f.t), &r))
-        return search_hit(&f);
-    struct bvh8_walk walk;
-    bvh8_walk_begin(&walk, &a->top);
-    for (uint32_t first, count; bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
-        for (uint32_t i = first; i < first + count; i++)
-            if (try_item(&f, i))
-                bvh8_ray_limit(&r, f.t);
-    s->stats.node_visits += walk.visits;
+    if (bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, f.t), &r))
+        a->kernels->walk(&f, &r, 0);
     return search_hit(&f);
 }
 
@@ -296,48 +233,12 @@ bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
     struct search f = search_of(w, s, q, SWEEP_OPAQUE);
     s->stats.shadow_rays++;
     for (uint32_t i = 0; i < a->infinite_count; i++)
-        if (try_object(&f, a->infinite[i]))
+        if (search_try_object(&f, a->infinite[i]))
             return true;
     struct bvh8_ray r;
-    if (!bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, q->ray.t_max, &r))
-        return false;
-    struct bvh8_walk walk;
-    bool found = false;
-    bvh8_walk_begin(&walk, &a->top);
-    for (uint32_t first, count;
-         !found && bvh8_walk_next(&walk, &a->top, &r, &first, &count);)
-        for (uint32_t i = first; i < first + count && !found; i++)
-            found = try_item(&f, i);
-    s->stats.node_visits += walk.visits;
-    return found;
-}
-
-// ---- batches -----------------------------------------------------------------------------
-
-static struct ray_query query_of(const struct ray_batch *r, uint32_t i)
-{
-    return (struct ray_query){.ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
-                                      vec3(r->d[0][i], r->d[1][i], r->d[2][i]),
-                                      r->t_min[i], r->t_max[i]},
-                              .hidden_by = r->hidden_by[i]};
-}
-
-void trace_closest(const struct world *w, struct trace_scratch *s,
-                   const struct ray_batch *rays, struct hit *out)
-{
-    for (uint32_t i = 0; i < rays->count; i++) {
-        const struct ray_query q = query_of(rays, i);
-        out[i] = trace_closest_1(w, s, &q);
-    }
-}
-
-void trace_occluded(const struct world *w, struct trace_scratch *s,
-                    const struct ray_batch *rays, uint8_t *out)
-{
-    for (uint32_t i = 0; i < rays->count; i++) {
-        const struct ray_query q = query_of(rays, i);
-        out[i] = trace_occluded_1(w, s, &q);
-    }
+    if (bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, q->ray.t_max, &r))
+        a->kernels->walk(&f, &r, 0);
+    return f.object != UINT32_MAX;
 }
 
 // ---- points -------------------------------------------------------------------------------

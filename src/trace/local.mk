@@ -9,3 +9,25 @@ liblambert_a_SOURCES += \
 	%D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/shadow.c %D%/sky.c %D%/sky.h \
 	%D%/tile.c %D%/tile.h %D%/tracer.h %D%/wave.c
+
+# The packet kernels, once per instruction set.
+packet_sources = %D%/packet_kernel.c %D%/packet.h %D%/packet_shapes.h %D%/lanes.h
+noinst_LIBRARIES += libpacket_base.a
+libpacket_base_a_SOURCES = $(packet_sources)
+libpacket_base_a_CPPFLAGS = $(AM_CPPFLAGS) -DISA=base
+liblambert_a_SOURCES += %D%/packet.c
+packet_objects = $(libpacket_base_a_OBJECTS)
+if X86
+noinst_LIBRARIES += libpacket_avx2.a libpacket_avx512.a
+libpacket_avx2_a_SOURCES = $(packet_sources)
+libpacket_avx2_a_CPPFLAGS = $(AM_CPPFLAGS) -DISA=avx2
+libpacket_avx2_a_CFLAGS = $(AM_CFLAGS) -mavx2 -mbmi -mbmi2 -mlzcnt -mpopcnt
+libpacket_avx512_a_SOURCES = $(packet_sources)
+libpacket_avx512_a_CPPFLAGS = $(AM_CPPFLAGS) -DISA=avx512
+libpacket_avx512_a_CFLAGS = $(libpacket_avx2_a_CFLAGS) \
+	-mavx512f -mavx512dq -mavx512vl -mavx512bw
+liblambert_a_CPPFLAGS += -DLAMBERT_X86
+packet_objects += $(libpacket_avx2_a_OBJECTS) $(libpacket_avx512_a_OBJECTS)
+endif
+liblambert_a_LIBADD += $(packet_objects)
+EXTRA_liblambert_a_DEPENDENCIES = $(packet_objects)

@@ -16,3 +16,7 @@ check_PROGRAMS += test_trace
 test_trace_SOURCES = %D%/test_trace.c
 test_trace_CPPFLAGS = $(test_cppflags)
 test_trace_LDADD = $(test_ldadd)
+check_PROGRAMS += test_packet
+test_packet_SOURCES = %D%/test_packet.c
+test_packet_CPPFLAGS = $(test_cppflags)
+test_packet_LDADD = $(test_ldadd)

@@ -1,0 +1,73 @@
+#ifndef TRACE_PACKET_H
+#define TRACE_PACKET_H
+
+#include "trace/accel.h"
+#include "trace/scratch.h"
+
+// One ray on its way through the world. The nearest hit so far is kept; among equal
+// distances it is the one of the object declared first.
+struct search {
+    const struct world *w;
+    struct trace_scratch *s;
+    const struct ray_query *q;
+    enum sweep_mode mode;
+    struct box_ray box;
+    double dd;       // d.d
+    double t;        // of the nearest; INFINITY: none
+    uint32_t object; // UINT32_MAX: none
+    bool known; // b is filled; else the boundary is still to be made
+    struct boundary b;
+};
+
+struct search search_of(const struct world *w, struct trace_scratch *s,
+                        const struct ray_query *q, enum sweep_mode mode);
+// Whether the object is hit nearer than all before; then it is the nearest.
+bool search_try_object(struct search *f, uint32_t object);
+// The nearest hit's boundary in full.
+struct hit search_hit(struct search *f);
+
+static inline bool search_is_nearer(const struct search *f, double t, uint32_t object)
+{
+    return t < f->t || (t == f->t && object < f->object);
+}
+
+// Eight rays side by side. Lanes that are not `alive` hold copies of one that is.
+struct packet {
+    double o[3][8], d[3][8], t_min[8], t_max[8];
+    double t[8]; // as in search, when the lane has no search of its own yet
+    // In terms of the tree of objects, as bvh8_ray; < 0: the lane wants no more.
+    float tree_o[3][8], tree_inverse[3][8], t_far[8];
+    double t_begin[8], scale[8];
+    uint32_t object[8]; // UINT32_MAX: none
+    uint32_t leaf[8];   // of an unknown boundary
+    unsigned alive, known, searching;
+    unsigned hidden_any, hidden_by[8];
+    const struct world *w;
+    struct trace_scratch *s;
+    enum sweep_mode mode;
+    struct ray_query query[8];
+    struct search search[8]; // filled where `searching`
+};
+
+// Tries the object with the rays of `lanes` one by one; says where it became the nearest.
+unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object);
+// The search that continues the lane, and its end.
+struct search *packet_lane_begin(struct packet *p, int lane);
+void packet_lane_end(struct packet *p, int lane);
+
+// What is compiled once per instruction set.
+struct packet_kernels {
+    const char *name;
+    // Finds the nearest (or, opaque, any) hit of the alive lanes.
+    void (*trace)(struct packet *p);
+    // Continues a search among the objects below a child of the tree.
+    void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
+};
+
+extern const struct packet_kernels packet_kernels_base, packet_kernels_avx2,
+    packet_kernels_avx512;
+// The best this processor has, or what the environment variable LAMBERT_ISA names if it
+// is there.
+const struct packet_kernels *packet_kernels_choose(void);
+
+#endif

@@ -1,0 +1,116 @@
+#ifndef TRACE_PACKET_SHAPES_H
+#define TRACE_PACKET_SHAPES_H
+
+// The crossings of eight lines with one convex shape, operation by operation as in
+// scene/shapes/NAME.c, so that every t has the same bits.
+#include <float.h>
+
+#include "math/gamma.h"
+#include "scene/shapes/box.h"
+#include "scene/shapes/plane.h"
+#include "scene/shapes/sphere.h"
+#include "trace/lanes.h"
+
+struct ray8 {
+    struct vec8 o, d;
+    struct real8 dd;     // d.d
+    struct real8 length; // at most |d|, nearly
+    struct real8 o_max;  // the largest coordinate of o
+};
+
+struct span8 {
+    struct real8 in, out;     // -+infinity: does not begin, does not end
+    struct real8 in_e, out_e; // at least the shape's error bounds dt
+    struct mask8 met;
+};
+
+LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
+{
+    const struct real8 dd = v8_dot(d, d);
+    return (struct ray8){
+        o, d, dd, r8_mul(r8_sqrt(dd), r8_set(1 - 0x1p-40)), v8_max_abs(o)};
+}
+
+// Where errors are not wanted the compiler drops what computes them.
+LANES_INLINE struct span8 span8_sphere(const struct sphere *s, const struct ray8 *ray)
+{
+    const struct vec8 oc = v8_sub(ray->o, V8_SET(s->centre));
+    const double r = s->radius;
+    const struct real8 at = r8_div(v8_dot(ray->d, oc), ray->dd);
+    const struct vec8 near = v8_mad(oc, r8_neg(at), ray->d);
+    const struct real8 rest = r8_sub(r8_set(r * r), v8_dot(near, near));
+    struct span8 x = {.met = r8_lt(r8_set(0), rest)};
+    const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
+    x.in = r8_sub(r8_neg(at), reach);
+    x.out = r8_add(r8_neg(at), reach);
+    // sqrt_error(rest, e) < 1.5 e / sqrt(rest), and sqrt(rest) = reach |d|.
+    const struct real8 e_p = r8_mul(
+        r8_set(GAMMA(9)), r8_add(v8_max_abs(oc), r8_set(vec3_max_abs(s->centre) + r)));
+    const struct real8 e =
+        r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
+    x.in_e = x.out_e =
+        r8_div(r8_add(e_p, r8_div(r8_mul(r8_set(1.5 + 0x1p-20), e),
+                                  r8_mul(reach, ray->length))),
+               ray->length);
+    return x;
+}
+
+LANES_INLINE struct span8 span8_plane(const struct plane *p, const struct ray8 *ray)
+{
+    const struct vec8 n = V8_SET(p->normal);
+    const struct real8 down = v8_dot(n, ray->d);
+    const struct real8 t = r8_div(v8_dot(n, v8_sub(V8_SET(p->point), ray->o)), down);
+    struct span8 x = {.met = r8_lt(r8_abs(t), r8_set(INFINITY))};
+    const struct mask8 enters = r8_lt(down, r8_set(0));
+    x.in = r8_select(enters, t, r8_set(-INFINITY));
+    x.out = r8_select(enters, r8_set(INFINITY), t);
+    const struct real8 size =
+        r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(p->point))),
+               r8_mul(r8_abs(t), v8_max_abs(ray->d)));
+    x.in_e = x.out_e = r8_div(r8_mul(r8_set(GAMMA(13)), size), r8_abs(down));
+    return x;
+}
+
+LANES_INLINE void slab8(double min, double max, struct real8 o, struct real8 d,
+                        struct real8 e, struct span8 *x, bool first)
+{
+    const struct mask8 flat = r8_lt(r8_abs(d), r8_set(DBL_MIN));
+    const struct real8 inv = r8_div(r8_set(1), d);
+    const struct real8 a = r8_mul(r8_sub(r8_set(min), o), inv);
+    const struct real8 b = r8_mul(r8_sub(r8_set(max), o), inv);
+    struct real8 t0 = r8_min(a, b);
+    struct real8 t1 = r8_select(r8_lt(a, b), b, a);
+    if (m8_bits(flat)) {
+        const struct mask8 in =
+            m8_and(r8_le(r8_set(min), o), r8_le(o, r8_set(max)));
+        const struct real8 from =
+            r8_select(in, r8_set(-INFINITY), r8_set(INFINITY));
+        t0 = r8_select(flat, from, t0);
+        t1 = r8_select(flat, r8_neg(from), t1);
+    }
+    const struct real8 dt = r8_abs(r8_mul(e, inv));
+    if (first) {
+        *x = (struct span8){t0, t1, dt, dt, m8_of(255)};
+        return;
+    }
+    const struct mask8 later = r8_lt(x->in, t0), sooner = r8_lt(t1, x->out);
+    x->in = r8_select(later, t0, x->in);
+    x->in_e = r8_select(later, dt, x->in_e);
+    x->out = r8_select(sooner, t1, x->out);
+    x->out_e = r8_select(sooner, dt, x->out_e);
+}
+
+LANES_INLINE struct span8 span8_box(const struct box *b, const struct ray8 *ray)
+{
+    const struct real8 e = r8_mul(
+        r8_set(GAMMA(14)),
+        r8_add(ray->o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
+    struct span8 x;
+    slab8(b->min.x, b->max.x, ray->o.x, ray->d.x, e, &x, true);
+    slab8(b->min.y, b->max.y, ray->o.y, ray->d.y, e, &x, false);
+    slab8(b->min.z, b->max.z, ray->o.z, ray->d.z, e, &x, false);
+    x.met = m8_and(r8_le(x.in, x.out), r8_lt(r8_set(-INFINITY), x.in));
+    return x;
+}
+
+#endif

@@ -1,0 +1,315 @@
+// Packets, single rays and the plain sweep over every object find the same boundaries, to
+// the bit, with every instruction set there is.
+#include "test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "scene/shapes/box.h"
+#include "scene/shapes/cylinder.h"
+#include "scene/shapes/disc.h"
+#include "scene/shapes/plane.h"
+#include "scene/shapes/sphere.h"
+#include "trace/packet.h"
+
+static const struct pigment grey = {.kind = PIGMENT_SOLID, .color = {.r = .5f}};
+static const struct pigment clear = {.kind = PIGMENT_SOLID, .color = {.transmit = .5f}};
+static const struct finish matt = {.diffuse = .6f, .old_ior = -1};
+static const struct texture_layer grey_layer = {&grey, NULL, &matt};
+static const struct texture_layer clear_layer = {&clear, NULL, &matt};
+static const struct texture grey_texture = {.layer = &grey_layer, .layer_count = 1};
+static const struct texture clear_texture = {.layer = &clear_layer, .layer_count = 1};
+
+enum { OBJECTS = 400, RAYS = 1000 };
+
+struct maker {
+    struct arena *a;
+    const struct object *object[OBJECTS];
+    uint32_t count;
+    uint64_t random;
+    bool grid; // coordinates are multiples of 1/4, nothing is turned: faces coincide
+};
+
+static double between(struct maker *m, double lo, double hi)
+{
+    m->random = m->random * 6364136223846793005u + 1442695040888963407u;
+    const double v = lo + (hi - lo) * (double)(m->random >> 11) * 0x1p-53;
+    return m->grid ? .25 * round(4 * v) : v;
+}
+
+static double chance(struct maker *m)
+{
+    m->random = m->random * 6364136223846793005u + 1442695040888963407u;
+    return (double)(m->random >> 11) * 0x1p-53;
+}
+
+static struct vec3 somewhere(struct maker *m, double size)
+{
+    const double x = between(m, -size, size), y = between(m, -size, size);
+    return vec3(x, y, between(m, -size, size));
+}
+
+static struct object *of(struct maker *m, const struct shape_ops *ops, const void *shape)
+{
+    void *copy = arena_alloc(m->a, ops->size);
+    memcpy(copy, shape, ops->size);
+    return object_new_shape(m->a, ops, copy, (struct span){0});
+}
+
+static struct object *random_shape(struct maker *m)
+{
+    const struct vec3 c = somewhere(m, 1);
+    const double r = .25 + between(m, .25, 1);
+    const int kind = (int)(5 * chance(m));
+    if (kind == 0) {
+        const struct box b = {vec3_sub(c, vec3(r, r, r)), vec3_add(c, vec3(r, r, r))};
+        return of(m, &box_ops, &b);
+    }
+    if (kind == 1) {
+        struct vec3 n = m->grid ? vec3(0, chance(m) < .5 ? 1 : -1, 0) : somewhere(m, 1);
+        const struct plane p = {vec3_normalize(n), c};
+        return of(m, &plane_ops, &p);
+    }
+    if (kind == 2) {
+        const struct cylinder z = {
+            .frame = frame_around(c, m->grid ? vec3(0, 0, 1) : somewhere(m, 1)),
+            .length = 2 * r,
+            .radius = r,
+            .open = chance(m) < .3};
+        return of(m, &cylinder_ops, &z);
+    }
+    if (kind == 3 && chance(m) < .3) {
+        const struct disc d = {c, vec3(0, 1, 0), r, .5 * r};
+        return of(m, &disc_ops, &d);
+    }
+    const struct sphere s = {c, r, transform_identity.linear};
+    return of(m, &sphere_ops, &s);
+}
+
+static struct object *random_object(struct maker *m, int depth)
+{
+    struct object *o;
+    if (depth == 0 || chance(m) < .1) {
+        o = random_shape(m);
+        if (chance(m) < .3) {
+            struct transform t = transform_scale(vec3(1, m->grid ? 2 : 1.3, 1));
+            object_transform(m->a, o, &t);
+        }
+    } else {
+        const uint32_t n = 2 + (uint32_t)(3 * chance(m));
+        const struct object **child = arena_new_array(m->a, const struct object *, n);
+        for (uint32_t i = 0; i < n; i++)
+            child[i] = random_object(m, depth - 1);
+        const double k = chance(m);
+        const enum csg_op op = k < .2   ? CSG_MERGE
+                               : k < .3 ? CSG_UNION
+                               : k < .6 ? CSG_INTERSECTION
+                                        : CSG_DIFFERENCE;
+        o = object_new_csg(m->a, op, child, n, (struct span){0});
+    }
+    if (!m->grid && chance(m) < .5) {
+        struct transform t = transform_rotate(somewhere(m, 90));
+        object_transform(m->a, o, &t);
+    }
+    if (chance(m) < .1)
+        o->texture = (struct attached_texture){&clear_texture, transform_identity};
+    if (chance(m) < .05)
+        o->flags |= OBJECT_INVERSE;
+    if (chance(m) < .1)
+        o->flags |= OBJECT_NO_SHADOW;
+    return o;
+}
+
+// ---- rays ---------------------------------------------------------------------------
+
+static void put(struct ray_batch *b, struct vec3 o, struct vec3 d, double t_min,
+                double t_max, unsigned hidden_by)
+{
+    const uint32_t i = b->count++;
+    b->o[0][i] = o.x, b->o[1][i] = o.y, b->o[2][i] = o.z;
+    b->d[0][i] = d.x, b->d[1][i] = d.y, b->d[2][i] = d.z;
+    b->t_min[i] = t_min;
+    b->t_max[i] = t_max;
+    b->hidden_by[i] = hidden_by;
+}
+
+// From one eye through a raster, or from anywhere to anywhere; along an axis, from inside,
+// ending early.
+static void fill(struct maker *m, struct ray_batch *b, int kind)
+{
+    const struct vec3 eye = vec3_scale(kind == 3 ? 1e5 : 3, somewhere(m, 4));
+    b->count = 0;
+    for (int i = 0; i < RAYS; i++) {
+        const struct vec3 to = kind == 0 || kind == 3
+                                   ? vec3(8. * (i % 32) / 32 - 4, 8. * (i / 32) / 32 - 4, 0)
+                                   : somewhere(m, 6);
+        struct vec3 o = kind == 0 || kind == 3 ? eye : somewhere(m, 9);
+        struct vec3 d = vec3_sub(to, o);
+        if (kind == 2)
+            d = i % 3 == 0 ? vec3(1, 0, 0) : i % 3 == 1 ? vec3(0, -2, 0) : vec3(0, 0, 1);
+        if (vec3_dot(d, d) == 0)
+            d = vec3(0, 0, 1);
+        put(b, o, d, i % 7 == 0 ? .125 : 0, i % 5 == 0 ? .75 : INFINITY,
+            i % 4 == 0 ? OBJECT_NO_SHADOW : 0);
+    }
+}
+
+static struct ray_query query_at(const struct ray_batch *b, uint32_t i)
+{
+    return (struct ray_query){.ray = {vec3(b->o[0][i], b->o[1][i], b->o[2][i]),
+                                      vec3(b->d[0][i], b->d[1][i], b->d[2][i]),
+                                      b->t_min[i], b->t_max[i]},
+                              .hidden_by = b->hidden_by[i]};
+}
+
+static struct boundary brute(const struct world *w, struct trace_scratch *s,
+                             const struct ray_query *q, enum sweep_mode mode)
+{
+    struct boundary best = {.t = INFINITY}, b;
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const struct world_object *o = &w->object[i];
+        if (o->flags & q->hidden_by)
+            continue;
+        if (o->is_csg) {
+            if (sweep_object(w, s, i, &q->ray, INFINITY, mode, &b) && b.t < best.t)
+                best = b;
+            continue;
+        }
+        if (mode == SWEEP_OPAQUE && !o->opaque)
+            continue;
+        s->crossings.count = 0;
+        leaf_crossings(w, o->first_leaf, &q->ray, &s->crossings);
+        for (uint32_t k = 0; k < s->crossings.count; k++) {
+            b = s->crossings.at[k];
+            if (b.drawn && b.t > q->ray.t_min && b.t < q->ray.t_max && b.t < best.t)
+                best = b;
+        }
+    }
+    return best;
+}
+
+static void assert_same(const struct boundary *a, const struct boundary *b)
+{
+    assert_memory_equal(&a->t, &b->t, sizeof a->t);
+    if (isinf(a->t))
+        return;
+    assert_memory_equal(&a->dt, &b->dt, sizeof a->dt);
+    assert_int_equal(a->leaf, b->leaf);
+    assert_int_equal(a->part, b->part);
+    assert_int_equal(a->crossing, b->crossing);
+}
+
+static int check_world(struct world *w, struct maker *m)
+{
+    struct trace_scratch *s = trace_scratch_new(w);
+    struct ray_batch *b = ray_batch_new(RAYS);
+    struct hit hit[RAYS];
+    uint8_t dark[RAYS];
+    int hits = 0;
+    for (int kind = 0; kind < 4; kind++) {
+        fill(m, b, kind);
+        trace_closest(w, s, b, hit);
+        trace_occluded(w, s, b, dark);
+        for (uint32_t i = 0; i < b->count; i++) {
+            const struct ray_query q = query_at(b, i);
+            const struct boundary want = brute(w, s, &q, SWEEP_CLOSEST);
+            const struct hit one = trace_closest_1(w, s, &q);
+            assert_same(&want, &one.b);
+            assert_same(&want, &hit[i].b);
+            const bool shadowed = !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
+            assert_int_equal(shadowed, trace_occluded_1(w, s, &q));
+            assert_int_equal(shadowed, dark[i]);
+            hits += !isinf(want.t);
+        }
+    }
+    ray_batch_free(b);
+    trace_scratch_free(s);
+    return hits;
+}
+
+static void check_scene(struct maker *m)
+{
+    static const char *const isa[] = {"base", "avx2", "avx512"};
+    struct scene scene = {.object = m->object, .object_count = m->count};
+    scene.default_texture = (struct attached_texture){&grey_texture, transform_identity};
+    for (int i = 0; i < 3; i++) {
+        setenv("LAMBERT_ISA", isa[i], 1);
+        struct maker rays = *m;
+        struct world *w = world_build(m->a, &scene);
+        assert_true(check_world(w, &rays) > 100);
+    }
+    unsetenv("LAMBERT_ISA");
+}
+
+static void check_random(uint64_t seed, int count, int depth, double apart, bool grid)
+{
+    struct maker m = {.a = arena_new(1 << 16), .random = seed, .grid = grid};
+    for (int i = 0; i < count; i++) {
+        struct object *o = random_object(&m, depth);
+        struct transform t = transform_translate(somewhere(&m, apart));
+        object_transform(m.a, o, &t);
+        m.object[m.count++] = o;
+    }
+    check_scene(&m);
+    arena_free(m.a);
+}
+
+static void lone_shapes(void **state)
+{
+    (void)state;
+    check_random(1, 30, 0, 4, false);
+    check_random(2, 60, 0, 4, true);
+}
+
+static void one_product(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 10; seed < 16; seed++)
+        check_random(seed, 3, 1, 1, seed % 2);
+}
+
+static void nested_csg(void **state)
+{
+    (void)state;
+    check_random(20, 60, 2, 5, false);
+    check_random(21, 40, 2, 4, true);
+    check_random(22, 20, 3, 4, true);
+}
+
+// Spheres by the hundred: the tree is deep, leaves hold blocks of spheres.
+static void many_spheres(void **state)
+{
+    (void)state;
+    struct maker m = {.a = arena_new(1 << 16), .random = 5};
+    for (int i = 0; i < OBJECTS; i++) {
+        m.grid = i % 2;
+        const struct sphere s = {somewhere(&m, 5), m.grid ? .5 : .4,
+                                 transform_identity.linear};
+        m.object[m.count++] = of(&m, &sphere_ops, &s);
+    }
+    check_scene(&m);
+    arena_free(m.a);
+}
+
+static void the_environment_names_the_kernels(void **state)
+{
+    (void)state;
+    setenv("LAMBERT_ISA", "base", 1);
+    assert_string_equal(packet_kernels_choose()->name, "base");
+    setenv("LAMBERT_ISA", "no such thing", 1);
+    assert_non_null(packet_kernels_choose());
+    unsetenv("LAMBERT_ISA");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lone_shapes),
+        cmocka_unit_test(one_product),
+        cmocka_unit_test(nested_csg),
+        cmocka_unit_test(many_spheres),
+        cmocka_unit_test(the_environment_names_the_kernels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
