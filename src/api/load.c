@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/diag.h"
 #include "eval/eval.h"
@@ -172,6 +173,21 @@ static void set_declarations(struct lambert_context *ctx, struct eval_options *o
     o->declare_count = (uint32_t)n;
 }
 
+// Where the picture goes, the scene may write too.
+static const char *output_folder(const struct lambert_context *ctx)
+{
+    const char *given = lambert_option_text(ctx, "output");
+    struct stat s;
+    if (!given || !*given)
+        return ".";
+    if (given[strlen(given) - 1] == '/' || (stat(given, &s) == 0 && S_ISDIR(s.st_mode)))
+        return given;
+    const char *slash = strrchr(given, '/');
+    if (!slash)
+        return ".";
+    return arena_strndup(ctx->scene_arena, given, (size_t)(slash + 1 - given));
+}
+
 static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
 {
     struct eval_options o = {
@@ -186,6 +202,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .memory_max = (size_t)option_number(ctx, "max-parse-memory") << 20,
         .message = scene_text,
         .message_user = ctx,
+        .output_folder = output_folder(ctx),
     };
     set_declarations(ctx, &o);
     set_library_path(ctx, &o);

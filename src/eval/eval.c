@@ -161,6 +161,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     }
     if (diags->errors == errors)
         builder_finish(e.builder);
+    files_close(&e);
     stream_free(in);
     arena_free(tokens);
     arena_free(e.parse);

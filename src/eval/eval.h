@@ -42,6 +42,9 @@ struct eval_options {
     bool (*trace)(void *user, const struct object *o, struct vec3 from, struct vec3 d,
                   struct vec3 *hit, struct vec3 *normal);
     void *trace_user;
+    // The only folder a scene may write in, and where its relative names go; NULL: the
+    // working directory.
+    const char *output_folder;
 };
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.
@@ -59,6 +62,7 @@ struct eval {
     uint32_t *random;         // streams of seed(), by index
     uint32_t random_count, random_capacity;
     uint32_t depth;            // nesting of the expression being evaluated
+    struct scene_file *files;  // opened by the scene, newest first
 };
 
 // Parses and evaluates the file into *scene. False when an error was reported.

@@ -41,6 +41,13 @@ bool eval_index(struct eval *e, struct place base, const struct ast *index,
 // Whether `more` bytes still fit what the caller allows; reports.
 bool eval_has_memory(struct eval *e, struct span where, size_t more);
 
+bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v);
+
+// #fopen, #fclose, #read and #write, as stream_host.file_io.
+bool eval_file_io(void *user, enum word directive, struct span where,
+                  const struct lvalue *handle, const struct ast *items);
+void files_close(struct eval *e); // what the scene left open
+
 struct stream_host eval_host(struct eval *e);
 // The file's text through the library path (spec/language 3.11); NULL: not found.
 const char *file_find(struct eval *e, const char *name, const char *const *extensions);

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "eval/expr.h"
+#include "eval/file_io.h"
 
 static bool is_file(const char *path)
 {
@@ -16,6 +17,9 @@ static bool is_file(const char *path)
 
 static const char *find_exact(struct eval *e, const char *name)
 {
+    const char *written = file_written(e, name);
+    if (written)
+        return written;
     if (is_file(name))
         return arena_strndup(e->arena, name, strlen(name));
     for (uint32_t i = 0; *name != '/' && i < e->options->library_path_count; i++) {

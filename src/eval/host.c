@@ -117,7 +117,7 @@ static bool declare_begin(void *user, const struct lvalue *to)
     return true;
 }
 
-static bool assign(struct eval *e, const struct lvalue *to, const struct value *v)
+bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
 {
     struct place p = {0};
     if (to->index || !to->local)
@@ -153,13 +153,13 @@ static bool declare(void *user, const struct lvalue *to, const struct ast *items
         marked->deprecated = true;
         v = marked;
     }
-    return assign(e, to, v);
+    return eval_assign(e, to, v);
 }
 
 static bool declare_number(void *user, const struct lvalue *to, double v)
 {
     struct value number_value = value_of_number(&v, 1);
-    return assign(user, to, &number_value);
+    return eval_assign(user, to, &number_value);
 }
 
 static bool undef(void *user, const struct lvalue *name)
@@ -273,7 +273,7 @@ static bool declare_array(void *user, const struct lvalue *to, const struct ast 
                           const struct ast *elements)
 {
     const struct value *v = eval_array(user, sizes, elements);
-    return v && assign(user, to, v);
+    return v && eval_assign(user, to, v);
 }
 
 // ---- scopes ------------------------------------------------------------------
@@ -442,16 +442,6 @@ static bool defaults(void *user, const struct ast *items)
     return builder_defaults(((struct eval *)user)->builder, items);
 }
 
-static bool file_io(void *user, enum word directive, struct span where,
-                    const struct lvalue *handle, const struct ast *items)
-{
-    struct eval *e = user;
-    (void)handle;
-    (void)items;
-    diag_at(e->diags, DIAG_NOT_BUILT, where, word_text(directive));
-    return false;
-}
-
 static bool open_include(void *user, const char *name, struct span where,
                          const char **found, const char **text, size_t *len)
 {
@@ -487,7 +477,7 @@ struct stream_host eval_host(struct eval *e)
         .version = version,
         .may_go_on = may_go_on,
         .defaults = defaults,
-        .file_io = file_io,
+        .file_io = eval_file_io,
         .open_include = open_include,
     };
 }

@@ -8,7 +8,8 @@ liblambert_a_SOURCES += \
 	%D%/build_transform.c %D%/build_warp.c %D%/builder.c
 liblambert_a_SOURCES += \
 	%D%/array.c %D%/array.h %D%/builder.h %D%/color.c %D%/eval.c %D%/eval.h \
-	%D%/expr.c %D%/expr.h %D%/files.c %D%/function.c %D%/function.h \
+	%D%/expr.c %D%/expr.h %D%/file_data.c %D%/file_data.h %D%/file_io.c %D%/file_io.h \
+	%D%/files.c %D%/function.c %D%/function.h \
 	%D%/function_run.c %D%/function_tape.h %D%/functions.c %D%/functions.def \
 	%D%/functions.h %D%/host.c %D%/internal.c %D%/internal.def \
 	%D%/internal.h %D%/internal_math.h %D%/internal_noise.c \

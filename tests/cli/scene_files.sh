@@ -1,0 +1,82 @@
+#!/bin/sh
+# What a scene reads, writes and asks of objects while it is read.
+. "${top_srcdir:-.}/tests/cli/common.sh"
+reads() { exits 0 "$lambert" --dump-csg "$@"; }
+says() { reads "$1" && has err "$2"; }
+
+cat >write.pov <<'EOS'
+#fopen F "text" write
+#write(F,1,",",1/3," ",1e10,<1,2>,<1,2,3>,"\n",<1/3,2,3,4>,<1,2,3,4,5>,"a\"b",-7)
+#fclose F
+#fopen F "text" append
+#write(F, uint8 1 300 -2 2.5, uint8 (65) 66 300, sint16le -2, uint16be 258, sint8 -128.6 3,-2)
+#fclose F
+EOS
+printf '1,0.333333 1e+10<1,2> <1,2,3> \n<0.333333,2,3,4> <1,2,3,4,5> a"b-7' >want
+printf '\001\377\003AB\377\376\377\001\002\200\003-2' >>want
+check "write and append" reads write.pov
+check "the bytes are POV-Ray's" cmp text want
+mkdir folder
+check "below the folder of the picture" reads write.pov -o folder/x.png
+check "not in the working directory" cmp folder/text want
+
+cat >data <<'EOS'
+1, -2.5, <1,2,3>, "he\"l\\lo", +3e2, // a comment
+7 8 9, 10
+EOS
+cat >read.pov <<'EOS'
+#macro S(X) #debug concat(str(X,0,2)," ") #end
+#declare V = array[3] {1,2,3}
+#fopen F "data" read
+#read(F,A,B,C,D) #debug concat(str(A,0,3)," ",str(B,0,3)," ",vstr(3,C,",",0,2)," ",D," ")
+#read(F,V[1],V[2]) S(V[1]) S(V[2])
+#declare Q = 99;
+#read(F,A) #ifdef(F) #debug "open " #end
+#read(F,A,Q) S(A) S(Q) #ifndef(F) #debug "closed" #end
+#fopen F "made" write #write(F,"1,2,") #fclose F
+#fopen F "made" read
+#while (defined(F)) #read(F,A) S(A) #end
+#debug "\n"
+EOS
+check "read" says read.pov '^1.000 -2.500 1.00,2.00,3.00 he"l\\lo 300.00 7.00 open 10.00 99.00 closed1.00 2.00 2.00 $'
+
+outside() { echo "#fopen F \"$1\" write #write(F,1)" >bad.pov; exits 1 "$lambert" --dump-csg bad.pov && has err "'$1'.*$2"; }
+check "not above the folder" outside ../x "only folder"
+check "not elsewhere" outside /etc/lambert-test "only folder"
+ln -s "$work/../nowhere" link
+check "not through a link" outside link "cannot be opened"
+ln -s / root
+check "nor through a folder that is one" outside root/x "only folder"
+check "a folder that is not there" outside none/x "cannot be opened"
+echo '#fopen F "none" read #while(defined(F)) #read(F,A) #end' >bad.pov
+missing() { exits 1 "$lambert" --dump-csg bad.pov && has err '1 error$'; }
+check "a file that is not there" missing
+
+cat >trace.pov <<'EOS'
+#declare N = <0,0,0>;
+#declare S = sphere { <1,2,3>, 2 }
+#declare D = difference { box { -1,1 } sphere { <0,1,0>,.8 } rotate 10*z }
+#macro T(O,A,B)
+  #local P = trace(O,A,B,N);
+  #debug concat(vstr(3,P,",",0,8)," / ",vstr(3,N,",",0,8),"\n")
+#end
+T(S,<0,10,2.5>,<.1,-1,0>)
+T(S,<0,10,2.5>,<.1,1,0>)
+T(D,<.1,10,.2>,-y)
+T(D,<.1,0.1,.2>,-y)
+T(D,<.1,0.1,.2>,<.2,3,.1>)
+T(union { object { S } object { D } plane { y,-2 } },<6.1,10,.2>,-y)
+T(object { D inverse },<.1,10,.2>,-y)
+EOS
+cat >want <<'EOS'
+0.61031227,3.89687730,2.50000000 / -0.19484386,0.94843865,-0.25000000
+0.00000000,0.00000000,0.00000000 / 0.00000000,0.00000000,0.00000000
+0.10000000,0.26015841,0.20000000 / -0.34206022,0.90581168,-0.25000000
+0.10000000,-0.99779391,0.20000000 / 0.17364818,-0.98480775,0.00000000
+0.11106624,0.26599356,0.20553312 / -0.35589302,0.89851774,-0.25691640
+6.10000000,-2.00000000,0.20000000 / 0.00000000,1.00000000,0.00000000
+0.10000000,0.26015841,0.20000000 / 0.34206022,-0.90581168,0.25000000
+EOS
+traced() { reads trace.pov && grep / err | grep -v lambert | cmp - want; }
+check "trace() meets what POV-Ray's does" traced
+finish
