@@ -2,6 +2,8 @@
 #define TESTS_STABILITY_CASES_H
 
 // One ray, one object, one true answer.
+#include <math.h>
+
 #include "math/vec.h"
 
 enum flags {
@@ -30,5 +32,12 @@ struct ray_case {
 static const struct ray_case cases[] = {
 #include "cases.def"
 };
+
+// T12: t = 3 - sqrt((1 + rho)^2 - z^2), rho = sqrt(r^2 - y^2), in long double.
+static inline double torus_crest(const struct ray_case *c)
+{
+    long double rho = sqrtl(.0625L - (long double)c->o.y * c->o.y);
+    return (double)(3 - sqrtl((1 + rho) * (1 + rho) - .01L));
+}
 
 #endif

@@ -1,4 +1,4 @@
-stability_sources = %D%/loaded.c %D%/loaded.h
+stability_sources = %D%/loaded.c %D%/loaded.h %D%/scenes.h
 check_PROGRAMS += test_stability
 test_stability_SOURCES = %D%/test_stability.c %D%/cases.def %D%/cases.h $(stability_sources)
 test_stability_CPPFLAGS = $(test_cppflags)
@@ -11,3 +11,9 @@ check_PROGRAMS += test_nested
 test_nested_SOURCES = %D%/test_nested.c $(stability_sources)
 test_nested_CPPFLAGS = $(test_cppflags)
 test_nested_LDADD = $(test_ldadd)
+# On demand: make accuracy, then povray.sh (doc/accuracy.md).
+EXTRA_PROGRAMS += accuracy
+accuracy_SOURCES = %D%/accuracy.c $(stability_sources) %D%/cases.def %D%/cases.h
+accuracy_CPPFLAGS = $(test_cppflags)
+accuracy_LDADD = $(test_ldadd)
+EXTRA_DIST += %D%/povray.sh

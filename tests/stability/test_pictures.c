@@ -3,32 +3,7 @@
 #include "test.h"
 
 #include "loaded.h"
-
-// Solids of most kinds, a difference with coincident faces, a mirror, glass, shadows;
-// no noise, which is a pattern of absolute places. K is the size, O the place.
-static const char still_life[] =
-    "#declare K = %.17g; #declare O = <1, -1, 1>*%.17g;\n"
-    "camera { location O + K*<1, 2, -6> right x look_at O + K*<0, .3, 0> angle 40 }\n"
-    "light_source { O + K*<4, 6, -5>, rgb 1 }\n"
-    "light_source { O + K*<-6, 3, -2>, rgb .3 }\n"
-    "#default { finish { ambient .1 diffuse .8 phong .4 } }\n"
-    "union {\n"
-    "  plane { y, -1 pigment { rgb <.7, .8, .6> } }\n"
-    "  difference { box { <-2, -1, 0>, <-.5, .5, 1.5> }\n"
-    "    box { <-1.5, -.5, -1>, <-1, .5, 2> } cylinder { <-3, 0, .75>, <0, 0, .75>, .3 "
-    "}\n"
-    "    pigment { rgb <.9, .3, .2> } }\n"
-    "  intersection { sphere { <.8, -.2, .6>, .8 } plane { <1, 1, -.3>, .5 }\n"
-    "    pigment { rgb <.2, .4, .9> } finish { reflection .4 } }\n"
-    "  torus { .5, .15 rotate 60*x translate <.3, .9, .2> pigment { rgb <.8, .8, .1> } "
-    "}\n"
-    "  cone { <-1.2, .5, .7>, .5, <-1.2, 1.6, .7>, 0 pigment { rgb <.3, .8, .4> } }\n"
-    "  sphere { <-.2, -.6, -1>, .4 pigment { rgbf <.9, 1, 1, .9> }\n"
-    "    finish { reflection .1 } interior { ior 1.4 } }\n"
-    "  prism { 0, .5, 4, <0, 0>, <.6, 0>, <.3, .6>, <0, 0> translate <.9, -1, -1.2>\n"
-    "    pigment { rgb <.6, .2, .7> } }\n"
-    "  scale K translate O\n"
-    "}\n";
+#include "scenes.h"
 
 static struct image picture_of(double size, double place)
 {
@@ -78,13 +53,7 @@ static void narrow_gap_is_dark_in_any_order(void **state)
 {
     (void)state;
     struct loaded l;
-    load(&l,
-         "camera { orthographic location <0, 10, 0> direction -y right 1.9*x up 1.9*z }\n"
-         "light_source { <0, 100, 0>, rgb 1 }\n"
-         "plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n"
-         "union { triangle { <-1, .0002, -1>, <1, .002, -1>, <1, .002, 1> }\n"
-         "  triangle { <-1, .0002, -1>, <1, .002, 1>, <-1, .0002, 1> }\n"
-         "  pigment { rgb 1 } no_image }\n");
+    load(&l, "%s", rising_sheet);
     static const int tiles[] = {4, 16, 32, 64};
     for (int i = 0; i < 8; i++) {
         struct image picture = render_picture(&l, i % 2 ? 4 : 1, tiles[i / 2]);
@@ -120,15 +89,7 @@ static void glass_close_to_a_wall_is_clear(void **state)
     static const double sizes[] = {1, 1e-3, 1e3};
     for (int i = 0; i < 3; i++) {
         struct loaded l;
-        load(&l,
-             "#declare K = %.17g;\n"
-             "camera { orthographic location 10*K*y direction -y right 1.9*K*x up "
-             "1.9*K*z }\n"
-             "light_source { <30, 100, 20>*K, rgb 1 }\n"
-             "plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n"
-             "box { <-1, 7e-5, -1>, <1, .5, 1> pigment { rgbf 1 }\n"
-             "  finish { ambient 0 diffuse 0 } interior { ior 1.5 } scale K }\n",
-             sizes[i]);
+        load(&l, close_glass, sizes[i]);
         struct image picture = render_picture(&l, 1, 32);
         for (int k = 0; k < PICTURE_SIZE * PICTURE_SIZE; k++)
             for (int c = 0; c < 3; c++)

@@ -8,13 +8,6 @@
 #include "cases.h"
 #include "loaded.h"
 
-// T12: t = 3 - sqrt((1 + rho)^2 - z^2), rho = sqrt(r^2 - y^2), in long double.
-static double torus_crest(const struct ray_case *c)
-{
-    long double rho = sqrtl(.0625L - (long double)c->o.y * c->o.y);
-    return (double)(3 - sqrtl((1 + rho) * (1 + rho) - .01L));
-}
-
 static bool matches(const struct ray_case *c, double scale, double move)
 {
     struct loaded l;
