@@ -26,6 +26,18 @@ static const struct row *find_row(enum diag_code code)
     return NULL;
 }
 
+// The same error of the same place at once again: a value that is asked for twice.
+static bool repeats_last(struct diag_sink *sink, enum diag_code code, struct span where)
+{
+    struct span last = sink->last_where;
+    bool same = where.end && sink->last_code == code && last.file == where.file &&
+                last.begin == where.begin && last.end == where.end &&
+                last.expansion == where.expansion;
+    sink->last_code = code;
+    sink->last_where = where;
+    return same;
+}
+
 void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
                  const struct span *related, const char *hint, ...)
 {
@@ -37,7 +49,7 @@ void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
     va_end(ap);
     struct diag d = {code, row->severity, where, related ? *related : (struct span){0},
                      text, hint};
-    if (d.severity == SEV_ERROR && diag_full(sink))
+    if (d.severity == SEV_ERROR && (diag_full(sink) || repeats_last(sink, code, where)))
         return;
     sink->errors += d.severity == SEV_ERROR;
     sink->warnings += d.severity == SEV_WARNING;
@@ -204,14 +216,14 @@ const char *diag_closest(const char *word, size_t len, const char *const *list,
 {
     const char *best = NULL;
     unsigned least = len < 4 ? 2 : len < 8 ? 3 : 4; // must be below this
-    if (len > WORD_MAX)
+    if (len < 2 || len > WORD_MAX)
         return NULL;
     for (size_t i = 0; i < count; i++) {
         size_t n = strlen(list[i]);
         if (n > WORD_MAX || (n > len ? n - len : len - n) >= least)
             continue;
         unsigned d = edit_distance(word, len, list[i], n);
-        if (d < least) {
+        if (d && d < least) {
             least = d;
             best = list[i];
         }

@@ -31,6 +31,8 @@ struct diag_sink {
     void *user;
     unsigned errors, warnings;
     unsigned errors_max; // 0: no limit. Stages stop when errors reach it
+    enum diag_code last_code; // of the last error
+    struct span last_where;
 };
 
 static inline bool diag_full(const struct diag_sink *s)

@@ -300,7 +300,10 @@ static bool bind_argument(void *user, const char *parameter, size_t len,
         struct place p = eval_place(e, r, symbols_depth(e->symbols) - 1);
         const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
         if (!v) {
-            diag_at(e->diags, DIAG_UNDECLARED, r->where, (int)r->len, r->name);
+            if (place_found(p))
+                diag_at(e->diags, DIAG_UNSET, r->where, (int)r->len, r->name);
+            else if (!lookup(e, r->name, r->len).value)
+                diag_at(e->diags, DIAG_UNDECLARED, r->where, (int)r->len, r->name);
             return false;
         }
         if (v->kind != VALUE_FUNCTION) {
@@ -388,15 +391,24 @@ static void tell(struct eval *e, enum word directive, const char *text)
         fputs(text, stderr);
 }
 
+// Without the line ends that a scene puts after its messages.
+static const char *one_line(struct eval *e, const char *text)
+{
+    size_t len = strlen(text);
+    while (len && text[len - 1] == '\n')
+        len--;
+    return arena_strndup(e->parse, text, len);
+}
+
 static bool message(void *user, enum word directive, struct span where, const char *text)
 {
     struct eval *e = user;
     if (directive == WORD_warning) {
-        diag_at(e->diags, DIAG_SCENE_WARNING, where, text);
+        diag_at(e->diags, DIAG_SCENE_WARNING, where, one_line(e, text));
         return true;
     }
     if (directive == WORD_error) {
-        diag_at(e->diags, DIAG_SCENE_ERROR, where, text);
+        diag_at(e->diags, DIAG_SCENE_ERROR, where, one_line(e, text));
         e->diags->errors_max = e->diags->errors; // nothing is read after it
         return false;
     }

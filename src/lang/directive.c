@@ -313,7 +313,8 @@ static void run_middle(struct stream *s, struct token word)
                 word_text((enum word)word.word));
 }
 
-static void unknown(struct stream *s, struct token word)
+// Returns the directive that is meant, WORD_NONE when none is near.
+static enum word unknown(struct stream *s, struct token word)
 {
     static const char *const names[] = {
         "break", "case", "debug", "declare", "default", "else", "elseif", "end", "error",
@@ -325,12 +326,11 @@ static void unknown(struct stream *s, struct token word)
                                 : NULL;
     const char *hint = near ? arena_printf(s->nodes, "did you mean '#%s'?", near) : NULL;
     diag_hint(s->diags, DIAG_UNKNOWN_DIRECTIVE, word.where, hint, (int)word.len, word.text);
+    return near ? word_find(near, strlen(near)) : WORD_NONE;
 }
 
-void directive_run(struct stream *s, struct token hash)
+static void dispatch(struct stream *s, struct token word)
 {
-    struct token word = raw_take(s);
-    word.where = span_join(hash.where, word.where);
     switch (word.word) {
     case WORD_if: case WORD_ifdef: case WORD_ifndef:
         run_if(s, word);
@@ -371,6 +371,15 @@ void directive_run(struct stream *s, struct token hash)
         directive_output(s, word);
         break;
     default:
-        unknown(s, word);
+        word.word = unknown(s, word);
+        if (word.word != WORD_NONE) // else the rest of it would give more errors
+            dispatch(s, word);
     }
+}
+
+void directive_run(struct stream *s, struct token hash)
+{
+    struct token word = raw_take(s);
+    word.where = span_join(hash.where, word.where);
+    dispatch(s, word);
 }

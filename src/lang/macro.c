@@ -83,6 +83,18 @@ static bool is_reference(const struct stream *s)
                             kind == TOK_NUMBER || kind == TOK_STRING || kind == '<');
 }
 
+// After an argument that makes no sense: past the ')' of the call.
+static void skip_call(struct stream *s)
+{
+    for (int depth = 1; depth > 0;) {
+        int kind = raw_peek(s).kind;
+        if (kind == TOK_END || kind == '#' || kind == '{' || kind == '}' || kind == ';')
+            return;
+        raw_take(s);
+        depth += (kind == '(') - (kind == ')');
+    }
+}
+
 static bool read_argument(struct stream *s, struct macro_argument *a)
 {
     bool ok;
@@ -97,6 +109,7 @@ static bool read_argument(struct stream *s, struct macro_argument *a)
             return true;
         diag_at(s->diags, DIAG_UNDECLARED_ARGUMENT, a->reference.where,
                 (int)a->reference.len, a->reference.name);
+        skip_call(s);
         return false;
     }
     if (raw_peek(s).kind == TOK_ARRAY) {

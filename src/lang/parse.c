@@ -170,12 +170,14 @@ void parse_missing_semicolon(struct parse *p, const struct ast *value)
         return;
     struct span where = p->last.where;
     where.begin = where.end > where.begin ? where.end - 1 : where.end;
-    const char *hint =
-        p->now.where.file == p->last.where.file && raw_peek(p->in).kind == '<'
-            ? "a comparison here needs parentheses around it"
-            : NULL;
+    bool compares = p->now.where.file == p->last.where.file && raw_peek(p->in).kind == '<';
+    const char *hint = compares ? "a comparison here needs parentheses around it" : NULL;
     enum diag_code code = p->in->version < 3.5 ? DIAG_OLD_SEMICOLON : DIAG_SEMICOLON;
     diag_hint(p->in->diags, code, where, hint, 0);
+    while (compares && raw_peek(p->in).kind != TOK_END && raw_peek(p->in).kind != '#' &&
+           raw_peek(p->in).kind != '}')
+        if (raw_take(p->in).kind == ';')
+            return;
 }
 
 static const char *token_text(struct parse *p, const struct token *t)
