@@ -45,7 +45,7 @@ sed -n 's/.*"sev":"\([a-z]*\)","code":"\(E[0-9]*\)","file":"[^"]*'"$name"'","lin
   err >found
 if grep -q '// expect warning:' "$scene"; then cat found; else grep ' error ' found; fi |
   sort -u >got
-awk 'match($0, /\/\/ expect (error|warning): E[0-9]+/) {
+awk '!/^\/\/ message:/ && match($0, /\/\/ expect (error|warning): E[0-9]+/) {
        n = split(substr($0, RSTART, RLENGTH), w, " "); sub(":", "", w[3]); print NR, w[3], w[4]
      }' "$scene" | sort -u >wanted
 compare 'errors and their lines'

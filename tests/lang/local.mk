@@ -47,6 +47,62 @@ lang_scenes = \
 	%D%/044-blocks-first.scn \
 	%D%/045-unicode.scn \
 	%D%/046-clipped-names.scn \
-	%D%/047-angles-at-any-place.scn
+	%D%/047-angles-at-any-place.scn \
+	%D%/048-trace.scn \
+	%D%/100-error-argument.scn \
+	%D%/101-error-semicolon.scn \
+	%D%/102-error-width.scn \
+	%D%/103-error-subscript.scn \
+	%D%/104-error-unset.scn \
+	%D%/105-error-copy-form.scn \
+	%D%/106-error-brace.scn \
+	%D%/107-error-keyword.scn \
+	%D%/108-error-local.scn \
+	%D%/109-error-arguments.scn \
+	%D%/110-error-reserved.scn \
+	%D%/111-error-end.scn \
+	%D%/112-error-comment.scn \
+	%D%/113-error-string.scn \
+	%D%/114-error-escape.scn \
+	%D%/115-error-greater-equal.scn \
+	%D%/116-error-include.scn \
+	%D%/117-error-directive.scn \
+	%D%/118-error-for-step.scn \
+	%D%/119-error-function-redeclared.scn \
+	%D%/120-error-string-number.scn \
+	%D%/121-error-domain.scn \
+	%D%/122-error-sqrt.scn \
+	%D%/123-error-chr.scn \
+	%D%/124-error-substr.scn \
+	%D%/125-error-member.scn \
+	%D%/126-error-condition.scn \
+	%D%/127-error-stray-else.scn \
+	%D%/128-error-break.scn \
+	%D%/129-error-array-count.scn \
+	%D%/130-error-element.scn \
+	%D%/131-error-own.scn \
+	%D%/132-error-semicolon-after.scn \
+	%D%/133-error-commas.scn \
+	%D%/134-error-byte.scn \
+	%D%/135-error-version.scn \
+	%D%/136-error-map-order.scn \
+	%D%/137-error-pow.scn \
+	%D%/138-error-atan2.scn \
+	%D%/139-error-srgb.scn \
+	%D%/140-error-patterned-default.scn \
+	%D%/141-error-layer.scn \
+	%D%/142-error-uv-late.scn \
+	%D%/143-error-sturm.scn \
+	%D%/144-error-hierarchy.scn \
+	%D%/145-error-cutaway.scn \
+	%D%/146-error-split.scn \
+	%D%/147-error-interior-texture.scn \
+	%D%/148-error-plane.scn \
+	%D%/149-error-mesh-empty.scn \
+	%D%/150-error-ternary-vector.scn \
+	%D%/152-error-macro-name.scn \
+	%D%/153-error-sqr.scn \
+	%D%/154-error-seed.scn \
+	%D%/156-message-keyword.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh
