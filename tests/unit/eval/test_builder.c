@@ -12,7 +12,7 @@ static void ignore(void *user, const struct diag *d)
 static unsigned read_scene(struct arena *a, const char *text, struct scene *scene)
 {
     struct source_map map;
-    struct diag_sink sink = {ignore, NULL, 0, 0, 0};
+    struct diag_sink sink = {.emit = ignore};
     struct eval_options options = {.image_width = 4, .image_height = 3};
     source_map_init(&map, a);
     uint32_t file = source_add(&map, "a.scn", text, strlen(text), (struct span){0});
