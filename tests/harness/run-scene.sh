@@ -7,9 +7,9 @@
 #   // expect warning: Ennnn with warnings; no other error may appear
 scene=$1
 lambert=$(cd "${top_builddir:-.}" && pwd)/lambert
-case $scene in /*) ;; *) scene=$(pwd)/$scene ;; esac
 folder=$(cd "$(dirname "$scene")" && pwd)
 name=$(basename "$scene")
+scene=$folder/$name
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
