@@ -89,7 +89,8 @@ static bool certainly_none(const double *c, int degree, double lo, double hi)
     for (int i = 0; i < degree; i++) // sums of the scaled powers
         for (int k = degree; k > i; k--)
             b[k] += b[k - 1];
-    const double noise = 64 * roundoff * (size + magnitude(c, degree, fmax(fabs(lo), fabs(hi))));
+    const double noise =
+        64 * roundoff * (size + magnitude(c, degree, fmax(fabs(lo), fabs(hi))));
     int above = 0, below = 0;
     for (int i = 0; i <= degree; i++) {
         above += b[i] > noise;
@@ -141,6 +142,27 @@ static int refine(const double *c, const double *d, int degree, double lo, doubl
     return n;
 }
 
+// How far a root may be off when the value is off by `error`. Near an m-fold root the first
+// m - 1 derivatives vanish and the m-th bounds it: (m! error / |p^(m)|)^(1/m), here from
+// m = 3 on rounded up to a power of two.
+static double error_of_root(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                            double t, double error)
+{
+    double dt = error / fabs(polynomial_value(chain[1], degree - 1, t));
+    double factorial = 1;
+    for (int m = 2; m <= degree && m <= 4; m++) {
+        factorial *= m;
+        const double derivative = fabs(polynomial_value(chain[m], degree - m, t));
+        if (!(derivative > 0))
+            continue;
+        const double q = factorial * error / derivative;
+        int e;
+        frexp(q, &e);
+        dt = fmin(dt, 2 * (m == 2 ? sqrt(q) : ldexp(1, (int)ceil(e / (double)m))));
+    }
+    return dt;
+}
+
 int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
                      double rounding, struct polynomial_root *out)
 {
@@ -150,7 +172,8 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
         degree--;
     if (degree < 1 || degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
         return 0;
-    if (degree > 2 && degree <= BERNSTEIN_MAX && certainly_none(coefficient, degree, lo, hi))
+    if (degree > 2 && degree <= BERNSTEIN_MAX &&
+        certainly_none(coefficient, degree, lo, hi))
         return 0;
     memcpy(chain[0], coefficient, (size_t)(degree + 1) * sizeof *coefficient);
     for (int k = 1; k < degree; k++)
@@ -174,15 +197,8 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
         const double t = buffer[use][i];
         const double error =
             (2 * degree + rounding) * roundoff * magnitude(coefficient, degree, t);
-        const double slope = fabs(polynomial_value(chain[1], degree - 1, t));
-        // Near a double root the slope vanishes and the curvature bounds the error.
-        double dt = error / slope;
-        if (degree > 1) {
-            const double curve = fabs(polynomial_value(chain[2], degree - 2, t));
-            if (curve > 0)
-                dt = fmin(dt, 2 * sqrt(2 * error / curve));
-        }
-        out[i] = (struct polynomial_root){t, dt, rising};
+        out[i] =
+            (struct polynomial_root){t, error_of_root(chain, degree, t, error), rising};
         rising = !rising;
     }
     return stops;

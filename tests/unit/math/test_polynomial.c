@@ -70,6 +70,25 @@ static void dt_bounds_the_error(void **state)
     }
 }
 
+// Also at a root whose slope and curvature vanish the bound is finite, and it is small.
+static void dt_is_finite_at_multiple_roots(void **state)
+{
+    (void)state;
+    static const double triple[] = {1, 1, 1, 3}, at_two[] = {2, 2, 2};
+    double c[8];
+    struct polynomial_root got[5];
+    from_roots(triple, 4, 1, c);
+    assert_int_equal(polynomial_roots(c, 4, -100, 100, 10, got), 2);
+    assert_true(got[0].dt < 1e-3 && fabs(got[0].t - 1) <= got[0].dt);
+    assert_true(got[1].dt < 1e-12 && fabs(got[1].t - 3) <= got[1].dt);
+    from_roots(triple, 3, 1, c);
+    assert_int_equal(polynomial_roots(c, 3, -100, 100, 10, got), 1);
+    assert_true(got[0].dt < 1e-3 && fabs(got[0].t - 1) <= got[0].dt);
+    from_roots(at_two, 3, 1, c); // exactly at the root
+    assert_int_equal(polynomial_roots(c, 3, 0, 4, 10, got), 1);
+    assert_true(got[0].dt < 1e-3);
+}
+
 static void bound_holds_all_roots(void **state)
 {
     (void)state;
@@ -84,6 +103,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_roots_at_every_scale),
         cmocka_unit_test(dt_bounds_the_error),
+        cmocka_unit_test(dt_is_finite_at_multiple_roots),
         cmocka_unit_test(bound_holds_all_roots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
