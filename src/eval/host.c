@@ -109,9 +109,10 @@ static bool is_declared(void *user, const struct lvalue *name)
 
 // ---- assignment --------------------------------------------------------------
 
-static bool declare_begin(void *user, const struct lvalue *to)
+static bool declare_begin(void *user, struct lvalue *to)
 {
     struct eval *e = user;
+    to->scope = symbols_depth(e->symbols);
     if (to->local && !to->index)
         symbols_make(e->symbols, to->name, to->len, true);
     return true;
@@ -120,15 +121,16 @@ static bool declare_begin(void *user, const struct lvalue *to)
 bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
 {
     struct place p = {0};
+    uint32_t scope = to->scope ? to->scope : symbols_depth(e->symbols);
     if (to->index || !to->local)
-        p = eval_place(e, to, symbols_depth(e->symbols));
+        p = eval_place(e, to, scope);
     if (to->index && !place_found(p)) {
         if (!lookup(e, to->name, to->len).value)
             diag_at(e->diags, DIAG_UNDECLARED, to->where, (int)to->len, to->name);
         return false;
     }
     if (!place_found(p))
-        p = symbols_make(e->symbols, to->name, to->len, to->local);
+        p = symbols_make_at(e->symbols, to->name, to->len, to->local ? scope : 1);
     const struct value *old = p.array ? NULL : place_get(e->parse, p);
     if (old && (old->kind == VALUE_MACRO || old->kind == VALUE_FUNCTION)) {
         diag_at(e->diags, DIAG_REDECLARED, to->where, (int)to->len, to->name,

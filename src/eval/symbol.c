@@ -195,6 +195,12 @@ struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
     return place_of(make_entry(t, name, len, local ? t->depth - 1 : 0));
 }
 
+struct place symbols_make_at(struct symbol_tables *t, const char *name, size_t len,
+                             uint32_t scope)
+{
+    return place_of(make_entry(t, name, len, scope - 1));
+}
+
 void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
                    struct place to)
 {

@@ -33,6 +33,9 @@ struct place symbols_find(struct symbol_tables *t, const char *name, size_t len,
 // The entry in the current (local) or the global scope, made if it is not there.
 struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
                           bool local);
+// The same in one of the open scopes; 1: the global one.
+struct place symbols_make_at(struct symbol_tables *t, const char *name, size_t len,
+                             uint32_t scope);
 // Makes a name of the current scope stand for another place.
 void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
                    struct place to);

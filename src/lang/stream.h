@@ -36,6 +36,8 @@ struct lvalue {
     struct span where;
     const struct ast *index; // list of subscripts, or NULL
     bool local;              // #local
+    uint32_t scope;          // host's: how many scopes were open before the right side,
+                             // which may end inside a macro it calls; 0: all of now
     bool deprecated;         // `#declare deprecated`: each use warns
     bool deprecated_once;    // ... only the first
     const struct ast *deprecated_text; // AST_STRING, or NULL for a standard text
@@ -64,7 +66,7 @@ struct stream_host {
     // #declare / #local: begin makes the empty local entry before the right side
     // is read (spec/language 3.2); assign stores it. items: one node or a list
     // (`rgb <1,0,0> filter 0.5`, `texture{} texture{}`).
-    bool (*declare_begin)(void *user, const struct lvalue *to);
+    bool (*declare_begin)(void *user, struct lvalue *to);
     bool (*declare)(void *user, const struct lvalue *to, const struct ast *items);
     bool (*declare_number)(void *user, const struct lvalue *to, double v); // #for
     bool (*declare_array)(void *user, const struct lvalue *to, const struct ast *sizes,

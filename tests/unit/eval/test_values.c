@@ -108,6 +108,13 @@ static const char *const scripts[][2] = {
      "#debug concat(str(S(.1,.2,.7),0,12),str(X(.1,.2,.7),2,0),str(X(.4,.2,.1),2,0),"
      "str(L(.1,.3,.7),0,12))", "0.976496856000 0 10.120078723301"},
     {"#debug \"a\\nb\"", "a\nb"},
+    // The right side ends before the macro that gives it does.
+    {"#macro V() <1,2,3>; #end #macro M() #local A = V() #debug vstr(3,A,\",\",0,0) #end M()",
+     "1,2,3"},
+    {"#macro V() #local A = 5; <A,2,3>; #end #declare A = V() #debug vstr(3,A,\",\",0,0)",
+     "5,2,3"},
+    {"#macro T() transform{rotate x} #end #macro M() #local A = T(); #ifdef(A)"
+     " #debug \"there\" #end #end M()", "there"},
     {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
 };
 

@@ -112,7 +112,7 @@ static struct symbol *make(struct fake *f, const struct lvalue *to)
     return s;
 }
 
-static bool declare_begin(void *user, const struct lvalue *to)
+static bool declare_begin(void *user, struct lvalue *to)
 {
     if (to->local)
         make(user, to);
