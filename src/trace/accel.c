@@ -73,6 +73,21 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
     return PACKET_NONE;
 }
 
+static bool is_product(const struct world *w, const struct accel *accel,
+                       const struct world_object *o)
+{
+    if (!o->is_csg || o->bound_count || o->leaf_count >= LARGE_OBJECT)
+        return false;
+    for (uint32_t i = o->root; i < o->root + o->node_count; i++)
+        if (w->node[i].op != NODE_LEAF && w->node[i].op != NODE_INTERSECTION)
+            return false;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+        if (!w->leaf[i].drawn || accel->leaf_shape[i] == PACKET_NONE ||
+            w->surface[w->leaf[i].surface].opaque != o->opaque)
+            return false;
+    return true;
+}
+
 static void classify(struct arena *a, const struct world *w, struct accel *accel)
 {
     accel->leaf_shape = arena_new_array(a, uint8_t, w->leaf_count + 1);
@@ -83,6 +98,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
         const struct world_object *o = &w->object[i];
         if (!o->is_csg && !o->bound_count && w->leaf[o->first_leaf].drawn)
             accel->object_shape[i] = accel->leaf_shape[o->first_leaf];
+        else if (is_product(w, accel, o))
+            accel->object_shape[i] = PACKET_PRODUCT;
     }
 }
 

@@ -1,6 +1,7 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
 // flags choose the width in trace/lanes.h. All give the same bits.
 #include "trace/packet.h"
+#include "trace/packet_product.h"
 #include "trace/packet_shapes.h"
 
 #define PASTE_(a, b) a##b
@@ -135,6 +136,7 @@ static void walk(struct search *f, struct bvh8_ray *r, int32_t child)
 struct eight {
     struct packet *p;
     struct ray8 ray;
+    struct vec8 inverse; // 1 / d
     struct real8 t_min, t_max;
 };
 
@@ -215,6 +217,81 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     return take(e, bits, t, object, leaf);
 }
 
+// The lanes that meet the box before their nearest hit, as box_meets.
+LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
+{
+    const struct real8 grow = r8_set(1 + 2 * GAMMA(3));
+    struct real8 near = e->t_min, far = r8_min(e->t_max, r8_load(e->p->t));
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct real8 o = a == 0 ? e->ray.o.x : a == 1 ? e->ray.o.y : e->ray.o.z;
+        const struct real8 inv = a == 0   ? e->inverse.x
+                                 : a == 1 ? e->inverse.y
+                                          : e->inverse.z;
+        const struct real8 t0 = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
+        const struct real8 t1 = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
+        const struct mask8 up = r8_lt(t0, t1);
+        near = r8_max(r8_select(up, t0, t1), near);
+        far = r8_min(r8_mul(r8_select(up, t1, t0), grow), far);
+    }
+    return m8_bits(r8_le(near, far));
+}
+
+static unsigned product(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world *w = p->w;
+    const struct world_object *o = &w->object[object];
+    bits &= box_lanes(e, &o->bounds);
+    if (!bits)
+        return 0;
+    bool complement[PRODUCT_LEAVES];
+    struct product x = {.t_min = e->t_min,
+                        .t_max = e->t_max,
+                        .in = r8_set(-INFINITY),
+                        .out = r8_set(INFINITY),
+                        .in_e = r8_set(0),
+                        .out_e = r8_set(0),
+                        .in_at = r8_set(-1),
+                        .out_at = r8_set(-1),
+                        .bounds = r8_set(0),
+                        .unsure = m8_of(0)};
+    for (uint32_t i = 0; i < o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[o->first_leaf + i];
+        const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
+        struct ray8 own;
+        const struct ray8 *ray = &e->ray;
+        if (!l->transform.identity) {
+            own = local_ray(l, ray);
+            ray = &own;
+        }
+        struct span8 s;
+        switch (shape) {
+        case PACKET_SPHERE: s = span8_sphere(l->shape, ray); break;
+        case PACKET_BOX: s = span8_box(l->shape, ray); break;
+        default: s = span8_plane(l->shape, ray); break;
+        }
+        complement[i] = l->inverted;
+        bits &= product_add(&x, l->inverted, shape != PACKET_PLANE, &s);
+        if (!bits)
+            return 0;
+    }
+    struct real8 t, at;
+    unsigned unsure;
+    const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
+    unsigned won = found ? take(e, found, t, object, o->first_leaf) : 0;
+    if (won) {
+        double which[8];
+        r8_store(which, at);
+        for (unsigned m = won; m; m &= m - 1) {
+            const int lane = __builtin_ctz(m);
+            p->leaf[lane] = o->first_leaf + (uint32_t)which[lane] / 2;
+        }
+    }
+    p->s->stats.csg_tests++;
+    return unsure ? won | packet_try_object(p, unsure, object) : won;
+}
+
 static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
@@ -225,6 +302,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     bits = seeing(p, o->flags, bits);
     if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
         return 0;
+    if (a->object_shape[object] == PACKET_PRODUCT)
+        return product(e, bits, object);
     p->s->stats.leaf_tests++;
     return lone(e, bits, object);
 }
@@ -281,7 +360,9 @@ static unsigned tree_begin(struct eight *e)
         const struct real8 lo = r8_set(vec3_axis(b->bounds.min, a));
         const struct real8 hi = r8_set(vec3_axis(b->bounds.max, a));
         const struct mask8 flat = r8_lt(r8_abs(by), r8_mul(tiny, largest));
-        const struct real8 inv = r8_div(r8_set(1), by);
+        const struct real8 inv = a == 0   ? e->inverse.x
+                                 : a == 1 ? e->inverse.y
+                                          : e->inverse.z;
         const struct real8 t0 = r8_mul(r8_sub(lo, at), inv);
         const struct real8 t1 = r8_mul(r8_sub(hi, at), inv);
         t_min = r8_select(flat, t_min, r8_max(t_min, r8_min(t0, t1)));
@@ -407,6 +488,8 @@ static void trace(struct packet *p)
             (struct vec8){r8_load(p->d[0]), r8_load(p->d[1]), r8_load(p->d[2])}),
         .t_min = r8_load(p->t_min),
         .t_max = r8_load(p->t_max)};
+    e.inverse = (struct vec8){r8_div(r8_set(1), e.ray.d.x), r8_div(r8_set(1), e.ray.d.y),
+                              r8_div(r8_set(1), e.ray.d.z)};
     for (uint32_t i = 0; i < a->infinite_count && p->alive; i++) {
         const unsigned won = try_eight(&e, p->alive, a->infinite[i]);
         if (p->mode == SWEEP_OPAQUE)

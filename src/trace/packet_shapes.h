@@ -13,9 +13,9 @@
 
 struct ray8 {
     struct vec8 o, d;
-    struct real8 dd;     // d.d
-    struct real8 length; // at most |d|, nearly
-    struct real8 o_max;  // the largest coordinate of o
+    struct real8 dd;         // d.d
+    struct real8 per_length; // nearly 1 / |d|, and no less
+    struct real8 o_max;      // the largest coordinate of o
 };
 
 struct span8 {
@@ -28,7 +28,7 @@ LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
 {
     const struct real8 dd = v8_dot(d, d);
     return (struct ray8){
-        o, d, dd, r8_mul(r8_sqrt(dd), r8_set(1 - 0x1p-40)), v8_max_abs(o)};
+        o, d, dd, r8_div(r8_set(1 + 0x1p-40), r8_sqrt(dd)), v8_max_abs(o)};
 }
 
 // Where errors are not wanted the compiler drops what computes them.
@@ -40,6 +40,10 @@ LANES_INLINE struct span8 span8_sphere(const struct sphere *s, const struct ray8
     const struct vec8 near = v8_mad(oc, r8_neg(at), ray->d);
     const struct real8 rest = r8_sub(r8_set(r * r), v8_dot(near, near));
     struct span8 x = {.met = r8_lt(r8_set(0), rest)};
+    if (!m8_bits(x.met)) {
+        x.in = x.out = x.in_e = x.out_e = rest;
+        return x;
+    }
     const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
     x.in = r8_sub(r8_neg(at), reach);
     x.out = r8_add(r8_neg(at), reach);
@@ -48,10 +52,9 @@ LANES_INLINE struct span8 span8_sphere(const struct sphere *s, const struct ray8
         r8_set(GAMMA(9)), r8_add(v8_max_abs(oc), r8_set(vec3_max_abs(s->centre) + r)));
     const struct real8 e =
         r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
-    x.in_e = x.out_e =
-        r8_div(r8_add(e_p, r8_div(r8_mul(r8_set(1.5 + 0x1p-20), e),
-                                  r8_mul(reach, ray->length))),
-               ray->length);
+    const struct real8 root = r8_div(
+        r8_mul(r8_mul(r8_set(1.5 + 0x1p-20), e), ray->per_length), reach);
+    x.in_e = x.out_e = r8_mul(r8_add(e_p, root), ray->per_length);
     return x;
 }
 

@@ -269,6 +269,50 @@ static void one_product(void **state)
         check_random(seed, 3, 1, 1, seed % 2);
 }
 
+// Intersections and differences whose faces coincide, almost coincide or are apart; thin
+// plates; rays that start in a face.
+static struct object *random_product(struct maker *m, double off)
+{
+    const uint32_t n = 2 + (uint32_t)(4 * chance(m));
+    const struct object **child = arena_new_array(m->a, const struct object *, n);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct vec3 c = somewhere(m, .75);
+        const double r = .5 + between(m, 0, .5) + off * chance(m);
+        const struct box b = {vec3_sub(c, vec3(r, r, chance(m) < .1 ? off : r)),
+                              vec3_add(c, vec3(r, r, off * chance(m)))};
+        const struct sphere s = {c, r, transform_identity.linear};
+        const struct plane p = {vec3(0, 0, i % 2 ? 1 : -1), c};
+        const double k = chance(m);
+        struct object *o = k < .5    ? of(m, &box_ops, &b)
+                           : k < .85 ? of(m, &sphere_ops, &s)
+                                     : of(m, &plane_ops, &p);
+        if (chance(m) < .3) {
+            struct transform t = transform_scale(vec3(1, 2, 1));
+            object_transform(m->a, o, &t);
+        }
+        child[i] = o;
+    }
+    return object_new_csg(m->a, chance(m) < .3 ? CSG_INTERSECTION : CSG_DIFFERENCE, child,
+                          n, (struct span){0});
+}
+
+static void products(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-16, 1e-15, 1e-13, 1e-9, 1e-3};
+    for (uint64_t k = 0; k < 12; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 100 + k, .grid = k < 9};
+        for (int i = 0; i < 12; i++) {
+            struct object *o = random_product(&m, off[k % 6]);
+            struct transform t = transform_translate(somewhere(&m, k < 6 ? 1 : 3));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 static void nested_csg(void **state)
 {
     (void)state;
@@ -307,6 +351,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lone_shapes),
         cmocka_unit_test(one_product),
+        cmocka_unit_test(products),
         cmocka_unit_test(nested_csg),
         cmocka_unit_test(many_spheres),
         cmocka_unit_test(the_environment_names_the_kernels),
