@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "scene/shapes/cylinder.h"
 #include "scene/shapes/sphere.h"
 #include "trace/packet.h"
 
@@ -70,6 +71,8 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_BOX;
     if (l->ops == &plane_ops)
         return PACKET_PLANE;
+    if (l->ops == &cylinder_ops && !((const struct cylinder *)l->shape)->open)
+        return PACKET_CYLINDER;
     return PACKET_NONE;
 }
 

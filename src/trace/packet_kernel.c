@@ -208,6 +208,7 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     switch (w->accel->leaf_shape[leaf]) { // apart, so that no error bound is computed
     case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
     case PACKET_BOX: x = span8_box(l->shape, ray); break;
+    case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
     default: x = span8_plane(l->shape, ray); break;
     }
     bits &= m8_bits(x.met);
@@ -230,9 +231,9 @@ LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
                                           : e->inverse.z;
         const struct real8 t0 = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
         const struct real8 t1 = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
-        const struct mask8 up = r8_lt(t0, t1);
-        near = r8_max(r8_select(up, t0, t1), near);
-        far = r8_min(r8_mul(r8_select(up, t1, t0), grow), far);
+        const struct mask8 back = r8_lt(inv, r8_set(0));
+        near = r8_max(r8_select(back, t1, t0), near); // NaN: the origin in a face
+        far = r8_min(r8_mul(r8_select(back, t0, t1), grow), far);
     }
     return m8_bits(r8_le(near, far));
 }
@@ -269,6 +270,7 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
         switch (shape) {
         case PACKET_SPHERE: s = span8_sphere(l->shape, ray); break;
         case PACKET_BOX: s = span8_box(l->shape, ray); break;
+        case PACKET_CYLINDER: s = span8_cylinder(l->shape, ray); break;
         default: s = span8_plane(l->shape, ray); break;
         }
         complement[i] = l->inverted;

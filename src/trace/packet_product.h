@@ -10,6 +10,7 @@
 // t_min, which could part a batch. Where nothing is found, the sweep might still see a
 // leaf so thin that it begins and ends in one batch; the sum of all bounds excludes that.
 // The lanes where this does not hold are left to the sweep.
+#include "trace/accel.h"
 #include "trace/packet_shapes.h"
 
 enum { PRODUCT_LEAVES = LARGE_OBJECT };

@@ -7,6 +7,7 @@
 
 #include "math/gamma.h"
 #include "scene/shapes/box.h"
+#include "scene/shapes/cylinder.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
 #include "trace/lanes.h"
@@ -72,6 +73,68 @@ LANES_INLINE struct span8 span8_plane(const struct plane *p, const struct ray8 *
                r8_mul(r8_abs(t), v8_max_abs(ray->d)));
     x.in_e = x.out_e = r8_div(r8_mul(r8_set(GAMMA(13)), size), r8_abs(down));
     return x;
+}
+
+LANES_INLINE struct vec8 frame8(const struct frame *f, struct vec8 v)
+{
+    return (struct vec8){v8_dot(V8_SET(f->e1), v), v8_dot(V8_SET(f->e2), v),
+                         v8_dot(V8_SET(f->e3), v)};
+}
+
+// A closed cylinder.
+LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct ray8 *ray)
+{
+    const struct vec8 o = frame8(&c->frame, v8_sub(ray->o, V8_SET(c->frame.origin)));
+    const struct vec8 d = frame8(&c->frame, ray->d);
+    const double r = c->radius;
+    const struct real8 a = r8_add(r8_mul(d.x, d.x), r8_mul(d.y, d.y));
+    const struct mask8 along = r8_lt(a, r8_set(DBL_MIN));
+    const struct real8 s = r8_div(r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y)), a);
+    const struct real8 x = r8_sub(o.x, r8_mul(s, d.x)), y = r8_sub(o.y, r8_mul(s, d.y));
+    const struct real8 rest =
+        r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
+    struct span8 v = {.met = r8_lt(r8_set(0), rest)};
+    if (m8_bits(along)) {
+        const struct real8 far = r8_add(r8_mul(o.x, o.x), r8_mul(o.y, o.y));
+        v.met = m8_or(m8_without(v.met, along),
+                      m8_and(along, r8_le(far, r8_set(r * r))));
+    }
+    if (!m8_bits(v.met)) {
+        v.in = v.out = v.in_e = v.out_e = rest;
+        return v;
+    }
+    const struct real8 reach = r8_sqrt(r8_div(rest, a));
+    v.in = r8_select(along, r8_set(-INFINITY), r8_sub(r8_neg(s), reach));
+    v.out = r8_select(along, r8_set(INFINITY), r8_add(r8_neg(s), reach));
+    const struct real8 e_p = r8_mul(
+        r8_set(GAMMA(17)),
+        r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin) + c->length + r)));
+    const struct real8 e = r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
+    const struct real8 per_a = r8_div(r8_set(1 + 0x1p-40), r8_sqrt(a));
+    const struct real8 root =
+        r8_div(r8_mul(r8_mul(r8_set(1.5 + 0x1p-20), e), per_a), reach);
+    v.in_e = v.out_e = r8_mul(r8_add(e_p, root), per_a);
+
+    const struct mask8 across = r8_lt(r8_abs(d.z), r8_set(DBL_MIN));
+    const struct real8 length = r8_set(c->length);
+    const struct real8 inv = r8_div(r8_set(1), d.z);
+    const struct real8 ta = r8_mul(r8_sub(r8_set(0), o.z), inv);
+    const struct real8 tb = r8_mul(r8_sub(length, o.z), inv);
+    const struct mask8 up = r8_lt(ta, tb);
+    const struct real8 t0 = r8_select(up, ta, tb), t1 = r8_select(up, tb, ta);
+    const struct real8 cap_e = r8_abs(r8_mul(e_p, inv));
+    const struct mask8 later = m8_without(r8_lt(v.in, t0), across);
+    const struct mask8 sooner = m8_without(r8_lt(t1, v.out), across);
+    v.in = r8_select(later, t0, v.in);
+    v.in_e = r8_select(later, cap_e, v.in_e);
+    v.out = r8_select(sooner, t1, v.out);
+    v.out_e = r8_select(sooner, cap_e, v.out_e);
+    if (m8_bits(across))
+        v.met = m8_without(v.met, m8_without(across, m8_and(r8_le(r8_set(0), o.z),
+                                                            r8_le(o.z, length))));
+    v.met = m8_and(v.met,
+                   m8_and(r8_le(v.in, v.out), r8_lt(r8_set(-INFINITY), v.in)));
+    return v;
 }
 
 LANES_INLINE void slab8(double min, double max, struct real8 o, struct real8 d,

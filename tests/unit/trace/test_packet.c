@@ -282,9 +282,14 @@ static struct object *random_product(struct maker *m, double off)
                               vec3_add(c, vec3(r, r, off * chance(m)))};
         const struct sphere s = {c, r, transform_identity.linear};
         const struct plane p = {vec3(0, 0, i % 2 ? 1 : -1), c};
+        const struct cylinder z = {
+            .frame = frame_around(c, vec3(0, m->grid ? 0 : .5, 1)),
+            .length = 2 * r,
+            .radius = r};
         const double k = chance(m);
-        struct object *o = k < .5    ? of(m, &box_ops, &b)
-                           : k < .85 ? of(m, &sphere_ops, &s)
+        struct object *o = k < .4    ? of(m, &box_ops, &b)
+                           : k < .65 ? of(m, &sphere_ops, &s)
+                           : k < .85 ? of(m, &cylinder_ops, &z)
                                      : of(m, &plane_ops, &p);
         if (chance(m) < .3) {
             struct transform t = transform_scale(vec3(1, 2, 1));
