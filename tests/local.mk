@@ -17,6 +17,8 @@ include %D%/unit/eval/local.mk
 include %D%/unit/trace/local.mk
 include %D%/cli/local.mk
 include %D%/lang/local.mk
+include %D%/words/local.mk
+include %D%/golden/local.mk
 include %D%/compare/local.mk
 include %D%/stability/local.mk
 include %D%/shading/local.mk

@@ -41,6 +41,7 @@ lang_scenes = \
 	%D%/037-order.scn \
 	%D%/038-commas.scn \
 	%D%/039-comments.scn \
+	%D%/040-file-io.scn \
 	%D%/041-predeclared.scn \
 	%D%/042-datetime.scn \
 	%D%/043-mixed-blocks.scn \
