@@ -67,6 +67,7 @@ static void noise_generator(struct args *a, struct settings *s)
     }
     a->b->noise_set = true;
     s->noise_generator = (int)n;
+    settings_noise(a->b);
 }
 
 static void charset(struct args *a)
@@ -164,6 +165,14 @@ bool build_old_setting(struct args *a)
     return !in.failed;
 }
 
+void settings_noise(struct builder *b)
+{
+    struct settings *s = &b->e->scene->settings;
+    if (!b->noise_set)
+        s->noise_generator = b->e->version_seen && b->e->version < 350 ? 1 : 2;
+    b->pattern_defaults->noise_generator = s->noise_generator;
+}
+
 // The number that decides rendering rules: the last #version, 3.62 when there is none.
 void settings_finish(struct builder *b)
 {
@@ -172,14 +181,12 @@ void settings_finish(struct builder *b)
     s->version = b->e->version_seen ? b->e->version : 362;
     if (s->version < 350)
         s->version = 350;
-    if (!b->noise_set)
-        s->noise_generator = b->e->version_seen && b->e->version < 350 ? 1 : 2;
+    settings_noise(b);
     if (!b->gamma_set) {
         s->gamma_mode = s->version >= 370 ? GAMMA_POWER : GAMMA_NONE;
         s->assumed_gamma = 1;
         diag_at(b->e->diags, DIAG_NO_GAMMA, nowhere,
                 s->version >= 370 ? "1.0 is used" : "no gamma correction is done");
     }
-    b->pattern_defaults->noise_generator = s->noise_generator;
     b->pattern_defaults->number_of_waves = s->number_of_waves;
 }

@@ -23,6 +23,8 @@ bool builder_defaults(struct builder *b, const struct ast *items);
 bool builder_finish(struct builder *b);
 
 // What patterns and noise functions ask at any time; follows the settings.
+// Sets the noise generator that the language version asks for, if none was chosen.
+void settings_noise(struct builder *b);
 const struct pattern_defaults *builder_pattern_defaults(const struct builder *b);
 
 // `pigment { }` and `pattern { }` of a function; NULL after an error.

@@ -163,6 +163,8 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
         builder_finish(e.builder);
     files_close(&e);
     stream_free(in);
+    for (size_t i = 0; i < sizeof e.line / sizeof *e.line; i++)
+        free(e.line[i]);
     arena_free(tokens);
     arena_free(e.parse);
     symbols_free(e.symbols);

@@ -34,6 +34,8 @@ static bool fill(double v, int wanted, double *out, int *width)
 
 static bool not_numeric(struct eval *e, const struct ast *n)
 {
+    if (n->op == OP_FAILED)
+        return false;
     if (n->kind == AST_UNDECLARED) {
         const char *close = symbols_closest(e->symbols, n->text, n->len);
         const char *hint =
@@ -390,7 +392,7 @@ static bool string(struct eval *e, const struct ast *n, bool path, const char **
     }
     if (n->kind == AST_UNDECLARED)
         not_numeric(e, n);
-    else if (n->kind != AST_INDEX || v)
+    else if (n->op != OP_FAILED && (n->kind != AST_INDEX || v))
         diag_at(e->diags, DIAG_EXPECTED_STRING, n->where, "");
     return false;
 }
@@ -412,7 +414,8 @@ bool ast_is_number(const struct ast *n)
     switch (n->kind) {
     case AST_NUMBER: case AST_CONSTANT: case AST_VECTOR: case AST_UNARY: case AST_BINARY:
     case AST_CONDITIONAL: case AST_MEMBER: case AST_APPLY: return true;
-    case AST_VALUE: return n->value && n->value->kind == VALUE_NUMBER;
+    case AST_VALUE:
+        return n->op == OP_FAILED || (n->value && n->value->kind == VALUE_NUMBER);
     case AST_CALL: return !word_is_string_function(n->word);
     case AST_INDEX:
         return n->value->kind == VALUE_ARRAY && n->value->array->kind == VALUE_NUMBER;

@@ -1,6 +1,7 @@
 // The callbacks of the directive stream: names, assignments, messages, includes
 // (spec/language 3).
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -338,11 +339,16 @@ static void become(struct ast *n, const struct value *v, bool keep_name)
 static struct ast *finish_call(struct eval *e, struct ast *n)
 {
     struct call_result r = {0};
+    bool ok;
     if (n->kind == AST_CALL) {
-        if (!eval_call(e, n, &r))
-            return NULL;
-    } else if (!eval_apply(e, n, r.n, &r.width)) {
-        return NULL;
+        ok = eval_call(e, n, &r);
+    } else {
+        ok = eval_apply(e, n, r.n, &r.width);
+    }
+    if (!ok) { // once is enough
+        become(n, NULL, false);
+        n->op = OP_FAILED;
+        return n;
     }
     if (!r.width) {
         become(n, value_new_string(e->arena, r.text, strlen(r.text)), false);
@@ -393,6 +399,31 @@ static void tell(struct eval *e, enum word directive, const char *text)
         fputs(text, stderr);
 }
 
+// Whole lines are shown; what the scene leaves without a line end never is.
+static void tell_lines(struct eval *e, enum word directive, const char *text)
+{
+    char **kept = &e->line[directive == WORD_debug    ? 0
+                           : directive == WORD_render ? 1
+                                                      : 2];
+    const char *end = strrchr(text, '\n');
+    size_t old = *kept ? strlen(*kept) : 0, len = strlen(text);
+    char *all = malloc(old + len + 1);
+    if (!all)
+        abort();
+    if (old)
+        memcpy(all, *kept, old);
+    memcpy(all + old, text, len + 1);
+    free(*kept);
+    *kept = all;
+    if (!end)
+        return;
+    size_t whole = old + (size_t)(end + 1 - text);
+    *kept = strdup(all + whole);
+    all[whole] = 0;
+    tell(e, directive, all);
+    free(all);
+}
+
 // Without the line ends that a scene puts after its messages.
 static const char *one_line(struct eval *e, const char *text)
 {
@@ -414,7 +445,7 @@ static bool message(void *user, enum word directive, struct span where, const ch
         e->diags->errors_max = e->diags->errors; // nothing is read after it
         return false;
     }
-    tell(e, directive, text);
+    tell_lines(e, directive, text);
     return true;
 }
 
@@ -428,6 +459,7 @@ static bool version(void *user, struct span where, double v)
     }
     e->version = hundredfold;
     e->version_seen = true;
+    settings_noise(e->builder);
     return true;
 }
 

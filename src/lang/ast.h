@@ -46,7 +46,8 @@ enum ast_kind {
     AST_ENTRY,       // list: items in [ ]
 };
 
-enum ast_op { OP_LE = 256, OP_GE, OP_NE };
+// OP_FAILED: of an AST_VALUE without a value, whose error was reported.
+enum ast_op { OP_LE = 256, OP_GE, OP_NE, OP_FAILED };
 
 // One node type; `kind` says which members hold. Lists are linked through `next`
 // in source order. Nodes live in the stream's own arena: a node is good until the

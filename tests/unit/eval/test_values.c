@@ -8,6 +8,7 @@
 struct output {
     char text[4096];
     size_t len;
+    unsigned errors;
 };
 
 static void collect(void *user, enum word directive, const char *text)
@@ -36,6 +37,7 @@ static bool run(const char *text, struct output *o)
     source_map_init(&sources, a);
     uint32_t file = source_add(&sources, "t.pov", text, strlen(text), (struct span){0});
     bool ok = eval_scene(a, &sources, file, &sink, &options, &scene);
+    o->errors = sink.errors;
     arena_free(a);
     return ok;
 }
@@ -123,9 +125,51 @@ static void check_scripts(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
         struct output o;
-        assert_true(run(scripts[i][0], &o));
-        assert_string_equal(o.text, scripts[i][1]);
+        char text[2000], want[200];
+        snprintf(text, sizeof text, "%s #debug \"\\n\"", scripts[i][0]);
+        snprintf(want, sizeof want, "%s\n", scripts[i][1]);
+        assert_true(run(text, &o));
+        assert_string_equal(o.text, want);
     }
+}
+
+static void errors_are_reported_once(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "#declare A = sqrt(-1);", "#declare A = 1 + ln(0)*2;", "#debug str(sqrt(-1),0,0)",
+        "#declare F = function(a){a} #declare A = F(1,2);", "sphere { <0,sqrt(-1),0>, 1 }",
+        "#declare A = <1,sqrt(-1),3>;", "#declare A = concat(chr(70000),\"x\");",
+        "sphere { 0, sqrt(-1) pigment { rgb 1 } }", "sphere { 0, 1 translate ln(0) }",
+        "#if (sqrt(-1)) #end", "#debug concat(\"a\",str(sqrt(-1),0,0))",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct output o;
+        assert_false(run(bad[i], &o));
+        print_message("%s\n", bad[i]);
+        assert_int_equal(o.errors, 1);
+    }
+}
+
+static void lines_are_whole(void **state)
+{
+    (void)state;
+    struct output o;
+    assert_true(run("#debug \"a\" #debug \"b\\nc\\nd\" #debug \"e\"", &o));
+    assert_string_equal(o.text, "ab\nc\n");
+}
+
+// As POV-Ray 3.7 shows them.
+static void version_sets_noise(void **state)
+{
+    (void)state;
+    struct output o;
+    assert_true(run("#declare F = function{internal(76)} #macro S()"
+                    " #debug concat(str(F(.3,.4,.5),0,8),\"\\n\") #end"
+                    " S() #version 3.1; S() #version 3.7; S()"
+                    " global_settings{noise_generator 3} S() #version 3.1; S()", &o));
+    assert_string_equal(o.text, "0.47587127\n0.41903170\n0.47587127\n"
+                                "0.67807531\n0.67807531\n");
 }
 
 static void errors_are_reported(void **state)
@@ -151,6 +195,9 @@ int main(void)
         cmocka_unit_test(check_values),
         cmocka_unit_test(check_scripts),
         cmocka_unit_test(errors_are_reported),
+        cmocka_unit_test(errors_are_reported_once),
+        cmocka_unit_test(lines_are_whole),
+        cmocka_unit_test(version_sets_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
