@@ -42,8 +42,8 @@ for scene in "$@"; do
     sed -n 's/.*Trace Time:.*(\([0-9.]*\) seconds).*/\1/p' "$work/pov.log" | tail -1 >>"$work/pov.trace"
     sed -n 's/.*"trace_seconds": *\([0-9.e+-]*\).*/\1/p' "$work/lam.json" >>"$work/lam.trace"
   done
-  off=$("$lambert" compare "$work/lam.png" "$work/pov.png" --out "$work/cmp" 2>/dev/null |
-    sed -n 's/.*off=\([0-9.]*\).*/\1/p' | head -1)
+  off=$("$lambert" compare "$work/lam.png" "$work/pov.png" 2>/dev/null |
+    sed -n 's/.*8\/255: \([0-9.]*\) %.*/\1/p' | head -1)
   echo "$name $(best <"$work/pov") $(best <"$work/lam") $(best <"$work/pov.trace") $(best <"$work/lam.trace") ${off:--}" |
     tee -a "$work/rows" |
     awk '{printf "| %s | %.3f | %.3f | %.1f | %.3f | %.3f | %.1f | %s %% |\n", $1, $2, $3, $2/$3, $4, $5, $4/($5 > 0 ? $5 : 1e-9), $6}'
