@@ -8,12 +8,21 @@ static const double roundoff = 0x1p-53;
 
 enum { BERNSTEIN_MAX = 8 };
 
-double polynomial_value(const double *c, int degree, double t)
+// Inlined where the degree is a constant, so that the loops unroll: the quartics of tori
+// and blobs are solved for every ray.
+#define UNROLLED static inline __attribute__((always_inline))
+
+UNROLLED double value(const double *c, int degree, double t)
 {
     double v = c[degree];
     for (int i = degree - 1; i >= 0; i--)
         v = v * t + c[i];
     return v;
+}
+
+double polynomial_value(const double *c, int degree, double t)
+{
+    return value(c, degree, t);
 }
 
 double polynomial_root_bound(const double *c, int degree)
@@ -35,7 +44,7 @@ double polynomial_root_bound(const double *c, int degree)
 }
 
 // Sum of |c_i t^i|: the scale of the rounding errors of the value.
-static double magnitude(const double *c, int degree, double t)
+UNROLLED double magnitude(const double *c, int degree, double t)
 {
     double v = fabs(c[degree]);
     t = fabs(t);
@@ -47,19 +56,19 @@ static double magnitude(const double *c, int degree, double t)
 // The one root of a monotone stretch: Newton from the middle, kept inside the bracket.
 // Stops early within `enough` of the root: an extremum that is off by a small share of
 // the stretch changes the value there by the square of it.
-static double root_between(const double *c, const double *d, int degree, double lo,
+UNROLLED double root_between(const double *c, const double *d, int degree, double lo,
                            double hi, bool rising, double enough)
 {
     double t = 0.5 * (lo + hi);
     for (int i = 0; i < 200; i++) {
-        double v = polynomial_value(c, degree, t);
+        double v = value(c, degree, t);
         if (v == 0)
             return t;
         if ((v > 0) == rising)
             hi = t;
         else
             lo = t;
-        double next = t - v / polynomial_value(d, degree - 1, t);
+        double next = t - v / value(d, degree - 1, t);
         if (!(next > lo && next < hi))
             next = 0.5 * (lo + hi);
         if (next == t || next <= lo || next >= hi || fabs(next - t) <= enough)
@@ -120,18 +129,18 @@ static int quadratic_stops(const double c[3], double lo, double hi, double root[
 }
 
 // Sign changes of c on (lo, hi), given those of its derivative d.
-static int refine(const double *c, const double *d, int degree, double lo, double hi,
+UNROLLED int refine(const double *c, const double *d, int degree, double lo, double hi,
                   const double *stop, int stops, double *root, bool *first_rising,
                   double enough)
 {
     int n = 0;
     double a = lo;
-    bool above = polynomial_value(c, degree, lo) >= 0;
+    bool above = value(c, degree, lo) >= 0;
     *first_rising = !above;
     for (int i = 0; i <= stops; i++) {
         double b = i < stops ? stop[i] : hi;
         // Within its rounding error an extremum touches zero and does not cross it.
-        double v = polynomial_value(c, degree, b);
+        double v = value(c, degree, b);
         double noise = 2 * degree * roundoff * magnitude(c, degree, b);
         bool above_b = i < stops && fabs(v) <= noise ? above : v >= 0;
         if (above_b != above)
@@ -148,8 +157,11 @@ static int refine(const double *c, const double *d, int degree, double lo, doubl
 static double error_of_root(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
                             double t, double error)
 {
-    double dt = error / fabs(polynomial_value(chain[1], degree - 1, t));
-    double factorial = 1;
+    const double slope = fabs(polynomial_value(chain[1], degree - 1, t));
+    double dt = error / slope, factorial = 1;
+    // A simple root: over dt the slope changes by little, and the first bound is the best.
+    if (degree < 2 || 4 * dt * fabs(polynomial_value(chain[2], degree - 2, t)) < slope)
+        return dt;
     for (int m = 2; m <= degree && m <= 4; m++) {
         factorial *= m;
         const double derivative = fabs(polynomial_value(chain[m], degree - m, t));
@@ -189,8 +201,14 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
     }
     for (int k = first; k >= 0; k--) {
         const double enough = k > 0 ? 0x1p-30 * (hi - lo) : 0;
-        stops = refine(chain[k], chain[k + 1], degree - k, lo, hi, buffer[use], stops,
-                       buffer[!use], &rising, enough);
+        const double *c = chain[k], *d = chain[k + 1];
+        double *to = buffer[!use];
+        switch (degree - k) {
+        case 3: stops = refine(c, d, 3, lo, hi, buffer[use], stops, to, &rising, enough); break;
+        case 4: stops = refine(c, d, 4, lo, hi, buffer[use], stops, to, &rising, enough); break;
+        default:
+            stops = refine(c, d, degree - k, lo, hi, buffer[use], stops, to, &rising, enough);
+        }
         use = !use;
     }
     for (int i = 0; i < stops; i++) {
