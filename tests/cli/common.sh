@@ -3,6 +3,7 @@
 n=0
 failed=0
 lambert=$(cd "${top_builddir:-.}" && pwd)/lambert
+table=$(cd "${top_srcdir:-.}" && pwd)/src/api/options.def
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

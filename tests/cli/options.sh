@@ -50,4 +50,25 @@ every_option()
   done
 }
 check "help, manual and completion know the same options" every_option
+
+# Every row of the table of options but the internal ones, by a name it has.
+every_row()
+{
+  "$lambert" --man | sed 's/\\-/-/g' >man
+  awk '/^OPTION\(/ {row = ""} {row = row $0} /\)$/ && row ~ /^OPTION/ {print row; row = ""}' \
+    "$table" | grep -v '"internal"' | sed 's/^OPTION("\([^"]*\)"[^"]*.*/\1 &/' >rows
+  test -s rows || return 1
+  while read -r option row; do
+    keyword=$(echo "$row" | grep -o '"[A-Z][A-Za-z_]*_*[A-Za-z]*"' | tr -d '"' | tr '\n' ' ')
+    found=no
+    for word in "--$option" $keyword; do
+      grep -q -w -e "$word" man && grep -q -w -e "$word" all && found=yes
+    done
+    test $found = yes || {
+      echo "# $option"
+      return 1
+    }
+  done <rows
+}
+check "the manual and --help=all hold every row of the table" every_row
 finish

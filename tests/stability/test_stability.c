@@ -70,7 +70,7 @@ static void far_quadric_is_whole(void **state)
         char text[256];
         struct loaded l;
         snprintf(text, sizeof text, "quadric { 100, 0, 0, -1 translate %g }", far[k]);
-        load(&l, text);
+        load(&l, "%s", text);
         for (int i = 0; i < 400; i++) {
             const double r = .095 * sqrt((i + .5) / 400), a = 2.399963 * i;
             const struct ray_query q = {
