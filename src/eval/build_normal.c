@@ -49,8 +49,6 @@ const struct normal *build_normal_body(struct args *a, const struct normal *star
     }
     if (!a->failed && n.kind == NORMAL_AVERAGE && !n.map)
         args_error(a, args_span(a), "average needs a map");
-    if (!a->failed && n.kind == NORMAL_PATTERN && !n.pattern.ops)
-        args_error(a, args_span(a), "the normal has no pattern");
     if (a->failed)
         return NULL;
     struct normal *out = arena_new_struct(a->b->arena, struct normal);

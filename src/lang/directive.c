@@ -379,6 +379,11 @@ static void dispatch(struct stream *s, struct token word)
 
 void directive_run(struct stream *s, struct token hash)
 {
+    int next = raw_peek(s).kind;
+    if (next < 256 && next != '#' && next != 0) { // POV-Ray passes over it too
+        diag_at(s->diags, DIAG_LONE_HASH, hash.where, 0);
+        return;
+    }
     struct token word = raw_take(s);
     word.where = span_join(hash.where, word.where);
     dispatch(s, word);
