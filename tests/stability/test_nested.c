@@ -11,11 +11,13 @@ enum kind { BOX, BALL, ROD, PLANE, MERGE, INTERSECTION, DIFFERENCE, INVERSE };
 
 struct node {
     enum kind kind;
-    int a[6]; // halves: corners; centre, radius; x, y, low, high, radius; axis, place
+    int a[6];   // halves: corners; centre, radius; x, y, low, high, radius; axis, place
+    int form;   // leaves: which of several ways to write it
+    int wobble; // leaves: degrees turned forth and back, which leaves only rounding
     int child, next;
 };
 
-enum { NODES_MAX = 64, TEXT_MAX = 8192 };
+enum { NODES_MAX = 64, TEXT_MAX = 1 << 15 };
 
 struct tree {
     struct node node[NODES_MAX];
@@ -37,6 +39,9 @@ static double unit(uint64_t *s) { return (next_random(s) + .5) / 2147483648.; }
 
 static void random_leaf(struct node *n, uint64_t *s)
 {
+    n->form = between(s, 0, 2);
+    n->wobble = between(s, -60, 60);
+    n->wobble = n->wobble < 20 ? 0 : n->wobble;
     const int kinds[] = {BOX, BOX, BOX, BALL, ROD, PLANE};
     n->kind = kinds[between(s, 0, 5)];
     for (int i = 0; i < 3; i++) {
@@ -74,30 +79,65 @@ static int random_tree(struct tree *t, uint64_t *s, int depth)
     return at;
 }
 
+// The same solids in other words: coincident faces then come from different formulas.
+static void write_leaf(const struct node *n, char *end, size_t room)
+{
+    static const char *const axis[] = {"x", "y", "z"};
+    const int *a = n->a;
+    char turns[96] = "";
+    if (n->wobble)
+        snprintf(turns, sizeof turns,
+                 "rotate <%d, %d, 0> rotate <0, %d, 0> rotate <%d, 0, 0> ", n->wobble,
+                 3 * n->wobble, -3 * n->wobble, -n->wobble);
+    if (n->kind == BOX && n->form == 0)
+        snprintf(end, room, "box { <%d,%d,%d>/2, <%d,%d,%d>/2 %s}\n", a[0], a[1], a[2],
+                 a[3], a[4], a[5], turns);
+    else if (n->kind == BOX && n->form == 1)
+        snprintf(end, room,
+                 "prism { %d/2, %d/2, 5, <%d,%d>/2, <%d,%d>/2, <%d,%d>/2, <%d,%d>/2, "
+                 "<%d,%d>/2 %s}\n",
+                 a[1], a[4], a[0], a[2], a[3], a[2], a[3], a[5], a[0], a[5], a[0], a[2],
+                 turns);
+    else if (n->kind == BOX)
+        snprintf(end, room,
+                 "intersection { plane { x, %d/2 } plane { -x, -%d/2 } plane { y, %d/2 } "
+                 "plane { -y, -%d/2 } plane { z, %d/2 } plane { -z, -%d/2 } %s}\n",
+                 a[3], a[0], a[4], a[1], a[5], a[2], turns);
+    else if (n->kind == BALL && n->form == 0)
+        snprintf(end, room, "sphere { <%d,%d,%d>/2, %d/2 %s}\n", a[0], a[1], a[2], a[3],
+                 turns);
+    else if (n->kind == BALL)
+        snprintf(end, room, "%s %s translate <%d,%d,%d>/2 %s}\n",
+                 n->form == 1 ? "quadric { 1, 0, 0, -1" : "sphere { 0, 1",
+                 a[3] == 1   ? "scale 1/2"
+                 : a[3] == 2 ? ""
+                             : "scale <1, 1, 3> scale 1/2 scale <3, 3, 1>",
+                 a[0], a[1], a[2], turns);
+    else if (n->kind == ROD && n->form == 0)
+        snprintf(end, room, "cylinder { <%d,%d,%d>/2, <%d,%d,%d>/2, %d/2 %s}\n", a[0],
+                 a[1], a[2], a[0], a[1], a[3], a[4], turns);
+    else if (n->kind == ROD && n->form == 1)
+        snprintf(end, room, "cone { <%d,%d,%d>/2, %d/2, <%d,%d,%d>/2, %d/2 %s}\n", a[0],
+                 a[1], a[2], a[4], a[0], a[1], a[3], a[4], turns);
+    else if (n->kind == ROD)
+        snprintf(end, room,
+                 "intersection { quadric { <1,1,0>, 0, 0, -%d/4 translate <%d,%d,0>/2 } "
+                 "plane { z, %d/2 } plane { -z, -%d/2 } %s}\n",
+                 a[4] * a[4], a[0], a[1], a[3], a[2], turns);
+    else
+        snprintf(end, room, "plane { %s, %d/2 %s}\n", axis[a[0]], a[1], turns);
+}
+
 static void write_tree(const struct tree *t, int at, char *out)
 {
     const struct node *n = &t->node[at];
-    const int *a = n->a;
-    char *end = out + strlen(out);
-    const size_t room = TEXT_MAX - strlen(out);
-    static const char *const axis[] = {"x", "y", "z"};
-    switch (n->kind) {
-    case BOX:
-        snprintf(end, room, "box { <%d,%d,%d>/2, <%d,%d,%d>/2 }\n", a[0], a[1], a[2],
-                 a[3], a[4], a[5]);
+    if (n->kind < MERGE) {
+        write_leaf(n, out + strlen(out), TEXT_MAX - strlen(out));
         return;
-    case BALL:
-        snprintf(end, room, "sphere { <%d,%d,%d>/2, %d/2 }\n", a[0], a[1], a[2], a[3]);
-        return;
-    case ROD:
-        snprintf(end, room, "cylinder { <%d,%d,%d>/2, <%d,%d,%d>/2, %d/2 }\n", a[0], a[1],
-                 a[2], a[0], a[1], a[3], a[4]);
-        return;
-    case PLANE: snprintf(end, room, "plane { %s, %d/2 }\n", axis[a[0]], a[1]); return;
-    default: break;
     }
-    static const char *const word[] = {"merge", "intersection", "difference", "merge"};
-    snprintf(end, room, "%s {\n", word[n->kind - MERGE]);
+    static const char *const word[] = {"merge {\n", "intersection {\n", "difference {\n",
+                                       "merge {\n"};
+    strcat(out, word[n->kind - MERGE]);
     if (n->kind == INVERSE) // a second child that is nowhere
         strcat(out, "intersection { box { 90, 91 } box { 92, 93 } }\n");
     for (int c = n->child; c >= 0; c = t->node[c].next)
