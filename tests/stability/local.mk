@@ -17,3 +17,7 @@ accuracy_SOURCES = %D%/accuracy.c $(stability_sources) %D%/cases.def %D%/cases.h
 accuracy_CPPFLAGS = $(test_cppflags)
 accuracy_LDADD = $(test_ldadd)
 EXTRA_DIST += %D%/povray.sh
+check_PROGRAMS += test_states
+test_states_SOURCES = %D%/test_states.c $(stability_sources)
+test_states_CPPFLAGS = $(test_cppflags)
+test_states_LDADD = $(test_ldadd)

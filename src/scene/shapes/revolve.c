@@ -110,7 +110,7 @@ static void add_circle(const struct line *l, double r2, uint32_t part, double w)
 static void flat_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
-    const double y = l->ray->o.y;
+    const double y = l->ray->o.y - l->ray->d.y * l->m / l->q; // where it passes the axis
     double f[4], w[8];
     for (int k = 0; k <= s->h_degree; k++)
         f[k] = s->h[k];
@@ -149,7 +149,8 @@ static void sloped_segment(const struct line *l, uint32_t i)
                      conic(l, s->h_end[1], s->r2_end[1]) >= 0};
     for (int n = crossings(f, degree, above, w); n > 0; n--) {
         const double at = w[n - 1], height = polynomial_value(h, s->h_degree, at);
-        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), PART_SEGMENT + i, at);
+        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), PART_SEGMENT + i,
+            at);
     }
 }
 
@@ -197,6 +198,8 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
         fmax(vec3_max_abs(o), fmax(r->r_max, fmax(fabs(r->h_min), fabs(r->h_max))));
     l.dt = GAMMA(64) * size / sqrt(l.q + d.y * d.y);
     const bool flat = fabs(d.y) <= FLAT * sqrt(l.q);
+    if (flat)
+        l.dt += fabs(d.y) * r->r_max / l.q;
     const uint32_t from = out->count;
     for (uint32_t i = 0; i < r->count; i++)
         if (flat)
