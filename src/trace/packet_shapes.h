@@ -3,8 +3,6 @@
 
 // The crossings of eight lines with one convex shape, operation by operation as in
 // scene/shapes/NAME.c, so that every t has the same bits.
-#include <float.h>
-
 #include "math/gamma.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cylinder.h"
@@ -30,6 +28,13 @@ LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
     const struct real8 dd = v8_dot(d, d);
     return (struct ray8){
         o, d, dd, r8_div(r8_set(1 + 0x1p-40), r8_sqrt(dd)), v8_max_abs(o)};
+}
+
+// RUNS_ALONG of math/gamma.h
+LANES_INLINE struct mask8 runs_along8(struct real8 down, struct real8 size)
+{
+    return m8_without(m8_of(255),
+                      r8_lt(r8_mul(r8_set(GAMMA(12)), size), r8_abs(down)));
 }
 
 // Where errors are not wanted the compiler drops what computes them.
@@ -64,7 +69,8 @@ LANES_INLINE struct span8 span8_plane(const struct plane *p, const struct ray8 *
     const struct vec8 n = V8_SET(p->normal);
     const struct real8 down = v8_dot(n, ray->d);
     const struct real8 t = r8_div(v8_dot(n, v8_sub(V8_SET(p->point), ray->o)), down);
-    struct span8 x = {.met = r8_lt(r8_abs(t), r8_set(INFINITY))};
+    struct span8 x = {.met = m8_without(m8_of(255),
+                                        runs_along8(down, v8_max_abs(ray->d)))};
     const struct mask8 enters = r8_lt(down, r8_set(0));
     x.in = r8_select(enters, t, r8_set(-INFINITY));
     x.out = r8_select(enters, r8_set(INFINITY), t);
@@ -88,7 +94,8 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     const struct vec8 d = frame8(&c->frame, ray->d);
     const double r = c->radius;
     const struct real8 a = r8_add(r8_mul(d.x, d.x), r8_mul(d.y, d.y));
-    const struct mask8 along = r8_lt(a, r8_set(DBL_MIN));
+    const struct real8 longest = v8_max_abs(d);
+    const struct mask8 along = runs_along8(r8_sqrt(a), longest);
     const struct real8 s = r8_div(r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y)), a);
     const struct real8 x = r8_sub(o.x, r8_mul(s, d.x)), y = r8_sub(o.y, r8_mul(s, d.y));
     const struct real8 rest =
@@ -115,7 +122,7 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
         r8_div(r8_mul(r8_mul(r8_set(1.5 + 0x1p-20), e), per_a), reach);
     v.in_e = v.out_e = r8_mul(r8_add(e_p, root), per_a);
 
-    const struct mask8 across = r8_lt(r8_abs(d.z), r8_set(DBL_MIN));
+    const struct mask8 across = runs_along8(d.z, longest);
     const struct real8 length = r8_set(c->length);
     const struct real8 inv = r8_div(r8_set(1), d.z);
     const struct real8 ta = r8_mul(r8_sub(r8_set(0), o.z), inv);
@@ -138,9 +145,9 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
 }
 
 LANES_INLINE void slab8(double min, double max, struct real8 o, struct real8 d,
-                        struct real8 e, struct span8 *x, bool first)
+                        struct real8 longest, struct real8 e, struct span8 *x, bool first)
 {
-    const struct mask8 flat = r8_lt(r8_abs(d), r8_set(DBL_MIN));
+    const struct mask8 flat = runs_along8(d, longest);
     const struct real8 inv = r8_div(r8_set(1), d);
     const struct real8 a = r8_mul(r8_sub(r8_set(min), o), inv);
     const struct real8 b = r8_mul(r8_sub(r8_set(max), o), inv);
@@ -171,10 +178,11 @@ LANES_INLINE struct span8 span8_box(const struct box *b, const struct ray8 *ray)
     const struct real8 e = r8_mul(
         r8_set(GAMMA(14)),
         r8_add(ray->o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
+    const struct real8 longest = v8_max_abs(ray->d);
     struct span8 x;
-    slab8(b->min.x, b->max.x, ray->o.x, ray->d.x, e, &x, true);
-    slab8(b->min.y, b->max.y, ray->o.y, ray->d.y, e, &x, false);
-    slab8(b->min.z, b->max.z, ray->o.z, ray->d.z, e, &x, false);
+    slab8(b->min.x, b->max.x, ray->o.x, ray->d.x, longest, e, &x, true);
+    slab8(b->min.y, b->max.y, ray->o.y, ray->d.y, longest, e, &x, false);
+    slab8(b->min.z, b->max.z, ray->o.z, ray->d.z, longest, e, &x, false);
     x.met = m8_and(r8_le(x.in, x.out), r8_lt(r8_set(-INFINITY), x.in));
     return x;
 }
