@@ -76,19 +76,38 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
     return PACKET_NONE;
 }
 
-static bool is_product(const struct world *w, const struct accel *accel,
-                       const struct world_object *o)
+static bool is_intersection(const struct world *w, const struct world_object *o)
 {
-    if (!o->is_csg || o->bound_count || o->leaf_count >= LARGE_OBJECT)
+    if (!o->is_csg || o->bound_count)
         return false;
     for (uint32_t i = o->root; i < o->root + o->node_count; i++)
         if (w->node[i].op != NODE_LEAF && w->node[i].op != NODE_INTERSECTION)
             return false;
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
-        if (!w->leaf[i].drawn || accel->leaf_shape[i] == PACKET_NONE ||
-            w->surface[w->leaf[i].surface].opaque != o->opaque)
+        if (!w->leaf[i].drawn || w->surface[w->leaf[i].surface].opaque != o->opaque)
             return false;
     return true;
+}
+
+static bool is_product(const struct accel *accel, const struct world_object *o)
+{
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+        if (accel->leaf_shape[i] == PACKET_NONE)
+            return false;
+    return o->leaf_count < LARGE_OBJECT;
+}
+
+static bool is_sponge(const struct world *w, const struct world_object *o)
+{
+    uint32_t solids = 0;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[i];
+        const bool ball = l->ops == &sphere_ops && l->transform.identity;
+        if (l->inverted ? !ball : !l->required || !(l->ops->flags & SHAPE_CONVEX))
+            return false;
+        solids += !l->inverted;
+    }
+    return solids > 0 && solids <= STAB_SOLIDS && o->leaf_count >= LARGE_OBJECT;
 }
 
 static void classify(struct arena *a, const struct world *w, struct accel *accel)
@@ -101,8 +120,10 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
         const struct world_object *o = &w->object[i];
         if (!o->is_csg && !o->bound_count && w->leaf[o->first_leaf].drawn)
             accel->object_shape[i] = accel->leaf_shape[o->first_leaf];
-        else if (is_product(w, accel, o))
+        else if (is_intersection(w, o) && is_product(accel, o))
             accel->object_shape[i] = PACKET_PRODUCT;
+        else if (is_intersection(w, o) && is_sponge(w, o))
+            accel->object_shape[i] = PACKET_SPONGE;
     }
 }
 

@@ -19,7 +19,8 @@ enum packet_shape {
     PACKET_BOX,
     PACKET_PLANE,
     PACKET_CYLINDER,
-    PACKET_PRODUCT // of objects: an intersection of such shapes and their complements
+    PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
+    PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };
 
 // One world's boxes: over the finite objects, and over the leaves of each large object.

@@ -373,24 +373,55 @@ bool bvh8_walk_next(struct bvh8_walk *w, const struct bvh8 *b, const struct bvh8
     return false;
 }
 
+// Which boxes meet the box lo..hi.
+static unsigned node_touches(const struct bvh8_node *n, const float lo[3],
+                             const float hi[3])
+{
+    unsigned bits = 0;
+#ifdef __SSE2__
+    for (int half = 0; half < 8; half += 4) {
+        __m128 in = _mm_cmple_ps(_mm_loadu_ps(&n->box[0][half]), _mm_set1_ps(hi[0]));
+        in = _mm_and_ps(in, _mm_cmpge_ps(_mm_loadu_ps(&n->box[3][half]),
+                                         _mm_set1_ps(lo[0])));
+        for (int a = 1; a < 3; a++) {
+            __m128 from = _mm_loadu_ps(&n->box[a][half]);
+            __m128 to = _mm_loadu_ps(&n->box[3 + a][half]);
+            in = _mm_and_ps(in, _mm_cmple_ps(from, _mm_set1_ps(hi[a])));
+            in = _mm_and_ps(in, _mm_cmpge_ps(to, _mm_set1_ps(lo[a])));
+        }
+        bits |= (unsigned)_mm_movemask_ps(in) << half;
+    }
+#else
+    for (int k = 0; k < 8; k++) {
+        bool in = true;
+        for (int a = 0; a < 3; a++)
+            in = in && n->box[a][k] <= hi[a] && n->box[3 + a][k] >= lo[a];
+        bits |= (unsigned)in << k;
+    }
+#endif
+    return bits;
+}
+
+bool bvh8_walk_box(struct bvh8_walk *w, const struct bvh8 *b, const float lo[3],
+                   const float hi[3], uint32_t *first, uint32_t *count)
+{
+    while (w->depth) {
+        const int32_t child = w->stack[--w->depth].child;
+        if (child < 0) {
+            *first = bvh8_leaf_first(child);
+            *count = bvh8_leaf_count(child);
+            return true;
+        }
+        const struct bvh8_node *n = &b->node[child];
+        w->visits++;
+        for (unsigned bits = node_touches(n, lo, hi); bits; bits &= bits - 1)
+            w->stack[w->depth++] = (struct bvh8_entry){n->child[__builtin_ctz(bits)], 0};
+    }
+    return false;
+}
+
 bool bvh8_walk_point(struct bvh8_walk *w, const struct bvh8 *b, const float p[3],
                      uint32_t *first, uint32_t *count)
 {
-    while (w->depth) {
-        struct bvh8_entry e = w->stack[--w->depth];
-        if (e.child < 0) {
-            *first = bvh8_leaf_first(e.child);
-            *count = bvh8_leaf_count(e.child);
-            return true;
-        }
-        const struct bvh8_node *n = &b->node[e.child];
-        for (int k = 0; k < 8; k++) {
-            bool in = n->child[k] != BVH8_EMPTY;
-            for (int a = 0; a < 3 && in; a++)
-                in = p[a] >= n->box[a][k] && p[a] <= n->box[3 + a][k];
-            if (in)
-                w->stack[w->depth++] = (struct bvh8_entry){n->child[k], 0};
-        }
-    }
-    return false;
+    return bvh8_walk_box(w, b, p, p, first, count);
 }

@@ -80,4 +80,8 @@ bool bvh8_walk_next(struct bvh8_walk *w, const struct bvh8 *b, const struct bvh8
 bool bvh8_walk_point(struct bvh8_walk *w, const struct bvh8 *b, const float p[3],
                      uint32_t *first, uint32_t *count);
 
+// The next leaf whose box meets the box lo..hi (from b->origin); the same walk.
+bool bvh8_walk_box(struct bvh8_walk *w, const struct bvh8 *b, const float lo[3],
+                   const float hi[3], uint32_t *first, uint32_t *count);
+
 #endif

@@ -181,6 +181,14 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
         f->box.t_max = fmin(q->ray.t_max, f->t);
         if (!box_meets(&o->bounds, &f->box, &t))
             return false;
+        if (f->w->accel->object_shape[object] == PACKET_SPONGE) {
+            if (f->mode == SWEEP_OPAQUE && !o->opaque)
+                return false;
+            const enum stab_result r =
+                stab_object(f->w, f->s, object, &q->ray, f->t, out);
+            if (r != STAB_UNSURE)
+                return r == STAB_FOUND;
+        }
         return sweep_object(f->w, f->s, object, &q->ray, f->t, f->mode, out);
     }
     struct ray ray = q->ray;

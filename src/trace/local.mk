@@ -1,7 +1,7 @@
 liblambert_a_SOURCES += \
 	%D%/accel.h %D%/accel.c %D%/bvh8.c %D%/bvh8.h %D%/csg_bounds.c %D%/csg_bounds.h \
 	%D%/intersect.c %D%/intersect.h %D%/render.h %D%/scratch.h \
-	%D%/sweep.c %D%/world.c %D%/world.h
+	%D%/stab.c %D%/sweep.c %D%/world.c %D%/world.h
 liblambert_a_SOURCES += \
 	%D%/antialias.c %D%/antialias.h %D%/area.c %D%/area.h %D%/fog.c \
 	%D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \

@@ -299,7 +299,7 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     struct packet *p = e->p;
     const struct accel *a = p->w->accel;
     const struct world_object *o = &p->w->object[object];
-    if (a->object_shape[object] == PACKET_NONE)
+    if (a->object_shape[object] == PACKET_NONE || a->object_shape[object] == PACKET_SPONGE)
         return packet_try_object(p, bits, object);
     bits = seeing(p, o->flags, bits);
     if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))

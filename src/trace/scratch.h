@@ -36,6 +36,14 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
                   const struct ray *ray, double limit, enum sweep_mode mode,
                   struct boundary *out);
 
+// What the sweep finds, for objects of accel->object_shape PACKET_SPONGE; UNSURE: only the
+// sweep can tell.
+enum stab_result { STAB_NOTHING, STAB_FOUND, STAB_UNSURE };
+enum { STAB_SOLIDS = 4 }; // leaves that are not subtracted, at most
+enum stab_result stab_object(const struct world *w, struct trace_scratch *s,
+                             uint32_t object, const struct ray *ray, double limit,
+                             struct boundary *out);
+
 // All crossings of one leaf with the line, in world terms: inverted leaves turned.
 void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
                     struct boundary_list *out);

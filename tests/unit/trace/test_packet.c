@@ -318,6 +318,34 @@ static void products(void **state)
     }
 }
 
+// Solids less many spheres: apart, overlapping, equal, touching the faces.
+static void sponges(void **state)
+{
+    (void)state;
+    for (uint64_t k = 0; k < 6; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 200 + k, .grid = k % 2};
+        const uint32_t n = k < 4 ? 40 : 400;
+        const struct object **child = arena_new_array(m.a, const struct object *, n);
+        for (uint32_t i = 0; i < n; i++) {
+            const struct sphere s = {somewhere(&m, 2.25), k < 2 ? .75 : k < 4 ? .5 : .25,
+                                     transform_identity.linear};
+            child[i] = of(&m, &sphere_ops, &s);
+        }
+        const struct box b = {vec3(-2, -2, -2), vec3(2, 2, k == 3 ? -2 : 2)};
+        struct object *solid = of(&m, &box_ops, &b);
+        if (k == 2) {
+            struct transform t = transform_rotate(vec3(10, 20, 30));
+            object_transform(m.a, solid, &t);
+        }
+        child[0] = solid;
+        m.object[m.count++] = object_new_csg(m.a, CSG_DIFFERENCE, child, n,
+                                             (struct span){0});
+        m.object[m.count++] = random_shape(&m);
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 static void nested_csg(void **state)
 {
     (void)state;
@@ -357,6 +385,7 @@ int main(void)
         cmocka_unit_test(lone_shapes),
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
+        cmocka_unit_test(sponges),
         cmocka_unit_test(nested_csg),
         cmocka_unit_test(many_spheres),
         cmocka_unit_test(the_environment_names_the_kernels),
