@@ -73,9 +73,9 @@ static struct ray random_line(uint64_t *s)
 static bool is_state_near(const struct leaf *l, struct vec3 p, bool want)
 {
     static const double near = 1e-7;
-    for (int k = 0; k < 7; k++) {
-        struct vec3 q = p;
-        *(k < 2 ? &q.x : k < 4 ? &q.y : &q.z) += k == 6 ? 0 : k % 2 ? near : -near;
+    for (int k = 0; k < 27; k++) {
+        const struct vec3 by = vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        const struct vec3 q = vec3_mad(p, near, by);
         if (l->ops->inside(l->shape, transform_inverse_point(&l->transform, q)) == want)
             return true;
     }
@@ -162,10 +162,31 @@ static void crossings_agree_with_inside(void **state)
     assert_int_equal(failed, 0);
 }
 
+// A line down the rim of a lathe once ran on inside to the end of the next segment.
+static void a_line_along_the_rim(void **state)
+{
+    (void)state;
+    struct loaded l;
+    load(&l,
+         "lathe { linear_spline 5, <.2, -1>, <1, -.5>, <.5, .2>, <.9, .8>, <.2, 1> }");
+    const struct leaf *leaf = &l.world->leaf[0];
+    const struct ray r = {{1, -1.412340416572988, 0},
+                          {-8.0510312734597764e-19, 1, 1.1138772163623738e-18},
+                          -HUGE_VAL,
+                          HUGE_VAL};
+    struct boundary_list b = {NULL, 0, 0};
+    double where = 0;
+    leaf->ops->intersect(leaf->shape, &r, &b);
+    assert_null(fault(leaf, &r, &b, &where));
+    boundary_list_free(&b);
+    unload(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crossings_agree_with_inside),
+        cmocka_unit_test(a_line_along_the_rim),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,8 +59,12 @@ static int crossings(const double *f, int degree, bool above[2], double *w)
             w[kept++] = root[i].t;
             state = !state;
         }
-    if (state != above[1])
-        w[kept++] = 1;
+    if (state != above[1]) {
+        // A lost root lies where f is within its rounding of zero: at the end nearer to it.
+        const bool at_start =
+            kept == 0 && fabs(f[0]) < fabs(polynomial_value(f, degree, 1));
+        w[kept++] = at_start ? 0 : 1;
+    }
     return kept;
 }
 
