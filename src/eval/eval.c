@@ -26,7 +26,7 @@ static const struct value *color_value(struct eval *e, const struct ast *items)
         return NULL;
     }
     double n[5] = {c.r, c.g, c.b, c.filter, c.transmit};
-    return value_new_number(e->parse, n, 5);
+    return value_new_number(e->nodes, n, 5);
 }
 
 static const struct value *copied(struct eval *e, const struct value *v)
@@ -82,7 +82,7 @@ const struct value *eval_rvalue(struct eval *e, const struct ast *items)
     if (ast_is_number(items) || items->kind == AST_UNDECLARED) {
         if (!eval_number(e, items, 1, v, &width))
             return NULL;
-        return value_new_number(e->parse, v, width);
+        return value_new_number(e->nodes, v, width);
     }
     return block_value(e, items);
 }
@@ -153,6 +153,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     e.builder = builder_new(&e);
     struct arena *tokens = arena_new(1 << 18);
     struct stream *in = stream_new(tokens, sources, file, diags, eval_host(&e));
+    e.nodes = stream_arena(in);
     const struct ast *item;
     while ((item = parse_item(in))) {
         if (options->statement)

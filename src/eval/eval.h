@@ -50,7 +50,8 @@ struct eval_options {
 // One evaluation of one scene file. Everything that is not in a struct of its own.
 struct eval {
     struct arena *arena;      // the scene's: values, objects
-    struct arena *parse;      // tokens and AST
+    struct arena *parse;      // scratch until the scene is read
+    struct arena *nodes;      // the stream's: good as long as the node at hand
     struct source_map *sources;
     struct diag_sink *diags;
     const struct eval_options *options;

@@ -337,7 +337,7 @@ const struct value *eval_named(struct eval *e, const struct ast *n)
     while (index && whole.kind == VALUE_ARRAY) {
         if (!eval_index(e, (struct place){.array = whole.array}, index, n->where, &at))
             return NULL;
-        const struct value *v = place_get(e->parse, at);
+        const struct value *v = place_get(e->nodes, at);
         if (!v) {
             diag_at(e->diags, DIAG_UNSET, n->where, (int)n->len, n->text);
             return NULL;

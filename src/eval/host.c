@@ -32,7 +32,7 @@ static struct name_info lookup(void *user, const char *name, size_t len)
 {
     struct eval *e = user;
     struct place p = symbols_find(e->symbols, name, len, symbols_depth(e->symbols));
-    const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
+    const struct value *v = place_found(p) ? place_get(e->nodes, p) : NULL;
     if (!v)
         return (struct name_info){.class = NAME_UNDECLARED};
     struct name_info info = {.class = class_of(v), .value = v};
@@ -87,7 +87,7 @@ struct place eval_place(struct eval *e, const struct lvalue *to, uint32_t depth)
     struct place none = {0};
     struct place p = symbols_find(e->symbols, to->name, to->len, depth);
     for (const struct ast *index = to->index; index && place_found(p);) {
-        const struct value *v = place_get(e->parse, p);
+        const struct value *v = place_get(e->nodes, p);
         if (!v || v->kind != VALUE_ARRAY) {
             diag_at(e->diags, DIAG_SUBSCRIPTS, to->where, "this is no array");
             return none;
@@ -105,7 +105,7 @@ static bool is_declared(void *user, const struct lvalue *name)
 {
     struct eval *e = user;
     struct place p = eval_place(e, name, symbols_depth(e->symbols));
-    return place_found(p) && place_get(e->parse, p);
+    return place_found(p) && place_get(e->nodes, p);
 }
 
 // ---- assignment --------------------------------------------------------------
@@ -132,7 +132,7 @@ bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
     }
     if (!place_found(p))
         p = symbols_make_at(e->symbols, to->name, to->len, to->local ? scope : 1);
-    const struct value *old = p.array ? NULL : place_get(e->parse, p);
+    const struct value *old = p.array ? NULL : place_get(e->nodes, p);
     if (old && (old->kind == VALUE_MACRO || old->kind == VALUE_FUNCTION)) {
         diag_at(e->diags, DIAG_REDECLARED, to->where, (int)to->len, to->name,
                 value_kind_name(old));
@@ -184,7 +184,7 @@ static bool define_macro(void *user, const char *name, size_t len, struct span w
 {
     struct eval *e = user;
     struct place p = symbols_make(e->symbols, name, len, false);
-    const struct value *old = place_get(e->parse, p);
+    const struct value *old = place_get(e->nodes, p);
     if (old && old->kind != VALUE_MACRO) {
         diag_at(e->diags, DIAG_REDECLARED, where, (int)len, name, value_kind_name(old));
         return false;
@@ -301,7 +301,7 @@ static bool bind_argument(void *user, const char *parameter, size_t len,
     if (argument->by_reference) {
         const struct lvalue *r = &argument->reference;
         struct place p = eval_place(e, r, symbols_depth(e->symbols) - 1);
-        const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
+        const struct value *v = place_found(p) ? place_get(e->nodes, p) : NULL;
         if (!v) {
             if (place_found(p))
                 diag_at(e->diags, DIAG_UNSET, r->where, (int)r->len, r->name);
@@ -359,7 +359,7 @@ static struct ast *finish_call(struct eval *e, struct ast *n)
         n->number = r.n[0];
         n->len = 0;
     } else {
-        become(n, value_new_number(e->parse, r.n, r.width), false);
+        become(n, value_new_number(e->nodes, r.n, r.width), false);
     }
     return n;
 }

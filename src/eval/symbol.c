@@ -224,12 +224,11 @@ const struct value *place_get(struct arena *copies, struct place p)
     if (p.array)
         return array_get(copies, p.array, p.index);
     struct symbol *s = p.symbol;
-    if (!s->value && s->is_number) {
-        struct value *copy = arena_new_struct(copies, struct value);
-        *copy = s->number;
-        s->value = copy;
-    }
-    return s->value;
+    if (!s->is_number)
+        return s->value;
+    struct value *copy = arena_new_struct(copies, struct value);
+    *copy = s->number;
+    return copy;
 }
 
 bool place_set(struct arena *a, struct place p, const struct value *v)

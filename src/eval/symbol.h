@@ -43,7 +43,7 @@ void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
 bool symbols_remove(struct symbol_tables *t, const char *name, size_t len);
 
 static inline bool place_found(struct place p) { return p.symbol || p.array; }
-// The value now, immutable: numbers are copied into `copies`, once per change.
+// The value now, immutable: numbers are copied into `copies`.
 // NULL: nothing was assigned yet.
 const struct value *place_get(struct arena *copies, struct place p);
 // False when an array element would change its kind. Numbers cost no memory.

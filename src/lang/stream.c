@@ -334,6 +334,9 @@ struct token stream_next(struct stream *s)
         struct token t;
         if (s->pending_set) { // cooked already: a macro was expanded before
             s->pending_set = false;
+            if (s->pending.kind == TOK_NAME && s->pending.value) // may be gone by now
+                s->pending.value = s->host.lookup(s->host.user, s->pending.text,
+                                                  s->pending.len).value;
             return s->pending;
         }
         t = raw_take(s);

@@ -77,6 +77,11 @@ cat >want <<'EOS'
 6.10000000,-2.00000000,0.20000000 / 0.00000000,1.00000000,0.00000000
 0.10000000,0.26015841,0.20000000 / 0.34206022,-0.90581168,0.25000000
 EOS
+cat >loop.pov <<'EOS'
+#declare I = 0; #declare S = 0;
+#while (I < 150000) #declare S = S + I; #declare I = I + 1; #end
+EOS
+check "a long loop takes little memory" reads loop.pov --max-parse-memory 8
 traced() { reads trace.pov && grep / err | grep -v lambert | cmp - want; }
 check "trace() meets what POV-Ray's does" traced
 finish
