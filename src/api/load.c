@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/diag.h"
+#include "base/stack.h"
 #include "eval/eval.h"
 #include "lang/ast.h"
 #include "lang/stream.h"
@@ -73,13 +74,16 @@ static void scene_text(void *user, enum word directive, const char *text)
     ctx->message(ctx->message_user, &m);
 }
 
+// Places in the text are 32-bit numbers. NULL, with *len above it, for a larger file.
+enum { SCENE_BYTES_MAX = 1 << 30 };
+
 static char *read_all(FILE *f, struct arena *a, const char *prefix, size_t *len)
 {
     size_t used = strlen(prefix), capacity = used + 65536;
     char *text = malloc(capacity);
     if (text)
         memcpy(text, prefix, used);
-    for (size_t got = 1; text && got; used += got) {
+    for (size_t got = 1; text && got && used <= SCENE_BYTES_MAX; used += got) {
         if (used == capacity) {
             char *more = realloc(text, capacity *= 2);
             if (!more)
@@ -90,7 +94,7 @@ static char *read_all(FILE *f, struct arena *a, const char *prefix, size_t *len)
         }
         got = fread(text + used, 1, capacity - used, f);
     }
-    char *kept = text ? arena_strndup(a, text, used) : NULL;
+    char *kept = text && used <= SCENE_BYTES_MAX ? arena_strndup(a, text, used) : NULL;
     *len = used;
     free(text);
     return kept;
@@ -115,12 +119,16 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
         return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path,
                             strerror(errno));
     size_t len;
+    errno = 0;
     char *text = read_all(f, a, prefix, &len);
     bool ok = text && !ferror(f);
+    const char *why = len > SCENE_BYTES_MAX ? "larger than a scene can be (1 GiB)"
+                      : errno               ? strerror(errno)
+                                            : "read error";
     if (!standard)
         fclose(f);
     if (!ok)
-        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s'", path);
+        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path, why);
     const char *name = standard ? "<stdin>" : arena_strndup(a, path, strlen(path));
     *file = source_add(&ctx->sources, name, text, len, (struct span){0});
     return LAMBERT_OK;
@@ -225,6 +233,28 @@ static void print_statement(void *user, const struct ast *item)
     ast_print(item, user, 0);
 }
 
+// What runs on the large stack.
+struct reading {
+    struct lambert_context *ctx;
+    const struct eval_options *options;
+    uint32_t file;
+    bool ok;
+};
+
+static void read_scene(void *user)
+{
+    struct reading *r = user;
+    struct lambert_context *ctx = r->ctx;
+    r->ok = eval_scene(ctx->scene_arena, &ctx->sources, r->file, &ctx->diags, r->options,
+                       &ctx->scene);
+}
+
+static void build_world(void *user)
+{
+    struct lambert_context *ctx = user;
+    ctx->world = world_build(ctx->scene_arena, &ctx->scene);
+}
+
 static enum lambert_status evaluate(struct lambert_context *ctx, const char *path,
                                     FILE *ast)
 {
@@ -243,13 +273,13 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
     struct probe *probe = probe_new();
     o.trace = probe_trace;
     o.trace_user = probe;
-    bool ok =
-        eval_scene(ctx->scene_arena, &ctx->sources, file, &ctx->diags, &o, &ctx->scene);
+    struct reading reading = {ctx, &o, file, false};
+    stack_run(read_scene, &reading);
     probe_free(probe);
     ctx->stats.parse_seconds = context_seconds() - start;
     ctx->stats.errors = ctx->diags.errors;
     ctx->stats.warnings = ctx->diags.warnings;
-    if (!ok || ctx->diags.errors)
+    if (!reading.ok || ctx->diags.errors)
         return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: %u error%s", path,
                             ctx->diags.errors, ctx->diags.errors == 1 ? "" : "s");
     if (ctx->diags.warnings && option_flag(ctx, "werror"))
@@ -265,7 +295,7 @@ enum lambert_status lambert_load_file(struct lambert_context *ctx, const char *p
     if (status != LAMBERT_OK)
         return status;
     double start = context_seconds();
-    ctx->world = world_build(ctx->scene_arena, &ctx->scene);
+    stack_run(build_world, ctx);
     ctx->stats.build_seconds = context_seconds() - start;
     if (!ctx->world)
         return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: nothing can be traced", path);

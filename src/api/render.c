@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "trace/render.h"
 
@@ -85,6 +86,15 @@ static void set_working_space(struct lambert_image *image, const struct settings
     }
 }
 
+enum { PIXEL_BYTES = 4 * sizeof(float), GIB = 1 << 30 };
+
+// 0: unknown. The system promises more memory than it has and ends who takes it.
+static double physical_memory(void)
+{
+    long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    return pages > 0 && size > 0 ? (double)pages * (double)size : 0;
+}
+
 enum lambert_status lambert_render(struct lambert_context *ctx,
                                    struct lambert_image **out)
 {
@@ -96,6 +106,13 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
     if (!settings_of(ctx, &settings))
         return context_fail(ctx, LAMBERT_ERROR_OPTION,
                             "the first row or column lies beyond the last");
+    double need = (double)settings.width * settings.height * PIXEL_BYTES;
+    double have = physical_memory();
+    if (have > 0 && need > have)
+        return context_fail(ctx, LAMBERT_ERROR_MEMORY,
+                            "a picture of %d x %d needs %.1f GiB of memory, there are "
+                            "%.1f",
+                            settings.width, settings.height, need / GIB, have / GIB);
     struct lambert_image *image = calloc(1, sizeof *image);
     if (!image || !image_init(&image->im, settings.width, settings.height, 4)) {
         free(image);

@@ -69,6 +69,8 @@ static struct place place_of(const struct source_map *m, struct span s)
     return (struct place){f, line + 1, s.begin - f->line_start[line] + 1};
 }
 
+enum { EXCERPT_BEFORE = 160, EXCERPT_MAX = 240 };
+
 // Prints the source line and underlines the part of the span that is on it.
 static void print_excerpt(FILE *out, const struct source_map *m, struct span s, char mark,
                           const char *hint)
@@ -79,9 +81,18 @@ static void print_excerpt(FILE *out, const struct source_map *m, struct span s, 
     uint32_t stop = line + 1 < f->line_count ? f->line_start[line + 1] - 1 : f->len;
     while (stop > start && f->text[stop - 1] == '\r')
         stop--;
+    // Generated scenes have lines of a megabyte: what is near the place is shown.
+    if (s.begin > start + EXCERPT_BEFORE)
+        start = s.begin - EXCERPT_BEFORE;
+    if (stop > start + EXCERPT_MAX)
+        stop = start + EXCERPT_MAX;
     uint32_t end = s.end < stop ? s.end : stop;
-    fprintf(out, "%5u | %.*s\n      | ", (unsigned)line + 1, (int)(stop - start),
-            f->text + start);
+    fprintf(out, "%5u | ", (unsigned)line + 1);
+    for (uint32_t i = start; i < stop; i++) { // no escape sequences for the terminal
+        unsigned char c = (unsigned char)f->text[i];
+        fputc((c < 0x20 && c != '\t') || c == 0x7f ? '?' : c, out);
+    }
+    fputs("\n      | ", out);
     for (uint32_t i = start; i < s.begin; i++)
         fputc(f->text[i] == '\t' ? '\t' : ' ', out);
     fputc(mark, out);

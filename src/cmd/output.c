@@ -40,6 +40,13 @@ static bool is_directory(const char *path)
                        (stat(path, &st) == 0 && S_ISDIR(st.st_mode)));
 }
 
+// A device or pipe is written to as it is called.
+static bool is_special(const char *path)
+{
+    struct stat st;
+    return stat(path, &st) == 0 && !S_ISREG(st.st_mode) && !S_ISDIR(st.st_mode);
+}
+
 static bool is_word(const char *word, const char *const *list)
 {
     for (; *list; list++)
@@ -79,6 +86,10 @@ char *output_name(struct cmd *c, const char *scene, long frame, int digits, int 
     if (given && (strcmp(given, "-") == 0 || strcmp(given, "stdout") == 0)) {
         free(base);
         return text_format("-");
+    }
+    if (given && is_special(given)) {
+        free(base);
+        return text_format("%s", given);
     }
     if (!given)
         path = base;

@@ -181,5 +181,7 @@ struct object *build_light(struct args *a, const struct ast *block)
     struct object *o = object_new_csg(a->b->arena, CSG_UNION, NULL, 0, block->where);
     o->kind = OBJECT_LIGHT;
     o->light = l;
+    object_hold(o, l->looks_like);
+    object_hold(o, l->projected_through);
     return o;
 }

@@ -113,6 +113,7 @@ static void clip_or_bound(struct args *a, struct object *o, bool clip)
         all[i] = (*list)[i];
     for (uint32_t i = 0; i < more.count; i++) {
         all[*count + i] = more.at[i];
+        object_hold(o, more.at[i]);
         if (all[*count + i]->texture.texture)
             args_error(&in, in.owner->where, "a textured object cannot clip or bound");
     }

@@ -78,19 +78,34 @@ struct object *build_object(struct args *a, const struct ast *block)
     return in.failed ? NULL : o;
 }
 
+// The tree is followed by recursion, which has an end.
+static const struct object *limited(struct args *a, struct span where,
+                                    const struct object *o)
+{
+    if (!o || (o->depth < OBJECT_DEPTH_MAX && o->leaves <= OBJECT_LEAVES_MAX))
+        return o;
+    if (o->depth >= OBJECT_DEPTH_MAX)
+        diag_at(a->b->e->diags, DIAG_TOO_DEEP, where, "objects", OBJECT_DEPTH_MAX);
+    else
+        diag_at(a->b->e->diags, DIAG_TOO_LARGE, where, OBJECT_LEAVES_MAX);
+    args_fail(a);
+    return NULL;
+}
+
 const struct object *args_object(struct args *a, bool *was_object)
 {
+    const struct span where = a->at ? a->at->where : (struct span){0};
     const struct value *v = args_take_value(a, VALUE_OBJECT);
     *was_object = true;
     if (v)
-        return v->data;
+        return limited(a, where, v->data);
     if (a->at && a->at->kind == AST_VALUE && !a->at->value) { // reported already
         args_next(a);
         args_fail(a);
         return NULL;
     }
     if (builder_is_object_word(args_at_block(a)))
-        return build_object(a, args_next(a));
+        return limited(a, where, build_object(a, args_next(a)));
     *was_object = false;
     return NULL;
 }

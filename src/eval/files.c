@@ -26,7 +26,7 @@ static const char *find_exact(struct eval *e, const char *name)
         const char *folder = e->options->library_path[i];
         size_t len = strlen(folder);
         const char *slash = len && folder[len - 1] == '/' ? "" : "/";
-        const char *path = arena_printf(e->parse, "%s%s%s", folder, slash, name);
+        const char *path = arena_printf(e->arena, "%s%s%s", folder, slash, name);
         if (is_file(path))
             return path;
     }

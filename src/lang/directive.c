@@ -94,11 +94,19 @@ static bool is_defined(struct stream *s, const char *directive)
     return known;
 }
 
+// A condition that runs into the end of its text has closed every directive, its own
+// too. `frames`: how many were open with it.
+static bool still_open(const struct stream *s, uint32_t frames)
+{
+    return s->frame_count >= frames;
+}
+
 // To the branch of an #if that is taken, or past its #end.
 static void find_branch(struct stream *s)
 {
     struct token stop;
-    for (;;) {
+    const uint32_t frames = s->frame_count;
+    while (still_open(s, frames)) {
         if (!directive_skip(s, 1, true, false, &stop)) {
             report_open_frame(s);
             return;
@@ -117,10 +125,11 @@ static void find_branch(struct stream *s)
 static void run_if(struct stream *s, struct token word)
 {
     stream_push_frame(s, FRAME_IF, &word);
+    const uint32_t frames = s->frame_count;
     bool taken = word.word == WORD_if ? truth(s)
                  : word.word == WORD_ifdef ? is_defined(s, "#ifdef")
                                            : !is_defined(s, "#ifndef");
-    if (!taken && s->frame_count)
+    if (!taken && still_open(s, frames))
         find_branch(s);
 }
 
@@ -149,7 +158,8 @@ static void run_switch(struct stream *s, struct token word)
     bool ok = directive_number(s, TOK_START_CONDITION, &value);
     stream_push_frame(s, FRAME_SWITCH, &word)->value = value;
     struct token stop;
-    for (;;) {
+    const uint32_t frames = s->frame_count;
+    while (still_open(s, frames)) {
         if (!directive_skip(s, 1, false, true, &stop)) {
             report_open_frame(s);
             return;
@@ -176,7 +186,8 @@ static void run_while(struct stream *s, struct token word)
 {
     struct frame *f = stream_push_frame(s, FRAME_WHILE, &word);
     f->back = s->cursors[s->cursor_count - 1].at;
-    if (!truth(s))
+    const uint32_t frames = s->frame_count;
+    if (!truth(s) && still_open(s, frames))
         skip_rest(s, 1);
 }
 
@@ -251,7 +262,7 @@ static void run_end(struct stream *s)
 {
     struct frame f = s->frames[s->frame_count - 1];
     struct cursor *c = &s->cursors[s->cursor_count - 1];
-    uint32_t after = c->at;
+    const uint32_t after = c->at, frames = s->frame_count;
     bool again = false;
     if (f.kind == FRAME_WHILE) {
         c->at = f.back;
@@ -259,12 +270,11 @@ static void run_end(struct stream *s)
     } else if (f.kind == FRAME_FOR && (again = for_step(s, &f))) {
         c->at = f.back;
     }
-    if (again)
+    if (again || !still_open(s, frames))
         return;
-    if (f.kind == FRAME_WHILE)
-        s->cursors[s->cursor_count - 1].at = after;
-    if (s->frame_count)
-        pop_frame(s);
+    if (f.kind == FRAME_WHILE && s->cursor_count - 1 == f.cursor)
+        s->cursors[f.cursor].at = after;
+    pop_frame(s);
 }
 
 static void run_break(struct stream *s, struct token word)

@@ -21,6 +21,7 @@ struct object *object_new_shape(struct arena *a, const struct shape_ops *ops,
     struct object *o = object_new(a, OBJECT_SHAPE, where);
     o->ops = ops;
     o->shape = shape;
+    o->leaves = 1;
     return o;
 }
 
@@ -32,6 +33,8 @@ struct object *object_new_csg(struct arena *a, enum csg_op op,
     o->op = op;
     o->child = child;
     o->child_count = count;
+    for (uint32_t i = 0; i < count; i++)
+        object_hold(o, child[i]);
     return o;
 }
 

@@ -43,6 +43,9 @@ struct attached_texture {
 // transform (a few hundred bytes), whatever A is.
 struct object {
     enum object_kind kind;
+    // Of the tree below, clips and looks_like included: levels (0 for a leaf) and
+    // leaves, counted as often as they are used.
+    uint32_t depth, leaves;
     struct span where;
 
     // OBJECT_SHAPE
@@ -76,6 +79,18 @@ struct object {
     uint32_t group_light_count;
     bool group_global_lights;
 };
+
+// What the tracer's tables and stacks hold. A loop that doubles a union asks for more.
+enum { OBJECT_DEPTH_MAX = 20000, OBJECT_LEAVES_MAX = 1 << 26 };
+
+// Counts an object inside o.
+static inline void object_hold(struct object *o, const struct object *inner)
+{
+    if (inner && o->depth <= inner->depth)
+        o->depth = inner->depth + 1;
+    const uint32_t more = inner ? inner->leaves : 0;
+    o->leaves = more > UINT32_MAX - o->leaves ? UINT32_MAX : o->leaves + more;
+}
 
 struct object *object_new_shape(struct arena *a, const struct shape_ops *ops,
                                 const void *shape, struct span where);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/arena.h"
+#include "base/stack.h"
 #include "trace/tile.h"
 
 const struct render_settings render_settings_default = {
@@ -62,7 +63,7 @@ static void stats_add(struct render_stats *to, const struct tracer *t)
     to->samples += t->samples;
 }
 
-static void *work(void *user)
+static void work(void *user)
 {
     struct render *r = user;
     struct tracer *t = tracer_new(r->job);
@@ -83,7 +84,6 @@ static void *work(void *user)
     stats_add(&r->stats, t);
     pthread_mutex_unlock(&r->lock);
     tracer_free(t);
-    return NULL;
 }
 
 static uint32_t thread_count(const struct render_settings *s, uint32_t tiles)
@@ -94,6 +94,14 @@ static uint32_t thread_count(const struct render_settings *s, uint32_t tiles)
     return (uint32_t)n < tiles ? (uint32_t)n : tiles;
 }
 
+// Each on a stack of its own: patterns and objects may be nested as deep as the
+// language allows.
+static void *work_deep(void *user)
+{
+    stack_run(work, user);
+    return NULL;
+}
+
 static void work_in_threads(struct render *r)
 {
     const uint32_t count = thread_count(&r->job->settings, r->tiles_total);
@@ -102,9 +110,9 @@ static void work_in_threads(struct render *r)
     if (!thread)
         abort();
     // This thread works too; if the system refuses a thread, the others do its share.
-    while (started + 1 < count && pthread_create(&thread[started], NULL, work, r) == 0)
+    while (started + 1 < count && pthread_create(&thread[started], NULL, work_deep, r) == 0)
         started++;
-    work(r);
+    work_deep(r);
     for (uint32_t i = 0; i < started; i++)
         pthread_join(thread[i], NULL);
     free(thread);

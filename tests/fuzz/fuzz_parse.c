@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/stack.h"
 #include "eval/eval.h"
 #include "trace/render.h"
 #include "trace/world.h"
@@ -37,8 +38,16 @@ static void trace(struct arena *a, const struct scene *scene)
     image_free(&picture);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+struct input {
+    const uint8_t *data;
+    size_t size;
+};
+
+static void run(void *user)
 {
+    const struct input *in = user;
+    const uint8_t *data = in->data;
+    const size_t size = in->size;
     static const char *const library[] = {POVRAY_INCLUDE_DIR};
     struct arena *a = arena_new(1 << 16);
     struct source_map sources;
@@ -58,5 +67,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (eval_scene(a, &sources, file, &diags, &options, &scene))
         trace(a, &scene);
     arena_free(a);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct input in = {data, size};
+    stack_run(run, &in); // as the program does
     return 0;
 }

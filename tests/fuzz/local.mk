@@ -4,4 +4,8 @@ fuzz_parse_SOURCES = %D%/fuzz_parse.c %D%/mutate.c
 fuzz_parse_CPPFLAGS = -D_DEFAULT_SOURCE -DPOVRAY_INCLUDE_DIR='"$(povray_includes)"' $(test_cppflags)
 fuzz_parse_LDADD = $(lambert_libs)
 TESTS += %D%/replay.sh
-EXTRA_DIST += %D%/replay.sh %D%/corpus/blocks.pov %D%/corpus/directives.pov
+EXTRA_DIST += %D%/replay.sh \
+	%D%/corpus/blocks.pov %D%/corpus/directives.pov \
+	%D%/corpus/if_in_case.pov %D%/corpus/if_in_condition.pov \
+	%D%/corpus/if_in_elseif.pov %D%/corpus/while_at_end.pov \
+	%D%/corpus/while_in_macro.pov

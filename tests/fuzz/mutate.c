@@ -1,9 +1,9 @@
 // Mutation fuzzing without a fuzzing engine: makes COUNT mutants of the seed files,
 // feeds each to the fuzz target, and reports crashes and runs over the time limit.
 //
-//   mutate COUNT [-s SEED] [-t SECONDS] FILE...
+//   fuzz_parse COUNT [-s SEED] [-t SECONDS] FILE...
 //
-// Mutants are made of bytes, tokens and splices of two seeds. They run in a child
+// The seeds themselves come first. Mutants are made of bytes, tokens and splices of two seeds. They run in a child
 // process, a batch at a time; a child that dies or hangs names its mutant, which is
 // written to crash-N.scn for the corpus. Exit code 1 when there was any. Built with
 // the sanitizers this is the ten-thousand-mutants run of the test suite's long mode.
@@ -162,9 +162,11 @@ static void make_mutant(struct buffer *b, const struct seed *seeds, size_t count
     struct random r = {number * 0x9e3779b97f4a7c15u + seed};
     for (int i = 0; i < 4; i++)
         next(&r);
-    const struct seed *s = &seeds[below(&r, count)];
+    const struct seed *s = &seeds[number < count ? number : below(&r, count)];
     memcpy(b->text, s->text, s->size);
     b->size = s->size;
+    if (number < count) // each seed as it is comes first
+        return;
     for (size_t times = 1 + below(&r, 8); times > 0; times--)
         mutate_once(b, seeds, count, &r);
 }
@@ -251,7 +253,7 @@ int main(int argc, char **argv)
     struct job job = {.seed = 1, .seconds = 10};
     int i = 1;
     if (argc < 3)
-        return fprintf(stderr, "usage: mutate COUNT [-s SEED] [-t SECONDS] FILE...\n"), 64;
+        return fprintf(stderr, "usage: fuzz_parse COUNT [-s SEED] [-t SECONDS] FILE...\n"), 64;
     job.count = strtoull(argv[i++], NULL, 10);
     for (; i + 1 < argc && argv[i][0] == '-'; i += 2) {
         if (argv[i][1] == 's')
@@ -266,6 +268,7 @@ int main(int argc, char **argv)
     job.seeds = seeds;
     job.current = mmap(NULL, sizeof *job.current, PROT_READ | PROT_WRITE,
                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    job.count += job.seed_count;
     if (!seeds || !job.seed_count || job.current == MAP_FAILED)
         return fprintf(stderr, "mutate: no seed file could be read\n"), 66;
     unsigned bad = run(&job);

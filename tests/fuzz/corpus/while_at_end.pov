@@ -1,0 +1,2 @@
+#declare I = -20;
+#while (I <}

@@ -1,0 +1,1 @@
+#macro M() #while (1 #end #end M()
