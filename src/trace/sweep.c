@@ -272,7 +272,10 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
     for (uint32_t i = 0, end; i < l->count; i = end) {
         double reach = l->at[i].t + l->at[i].dt;
         s->batch++;
-        for (end = i; end < l->count && l->at[end].t - l->at[end].dt <= reach; end++) {
+        // A shape of infinite size may give a t that is no number: it ends a batch.
+        for (end = i; end < l->count &&
+                      (end == i || l->at[end].t - l->at[end].dt <= reach);
+             end++) {
             const struct boundary *b = &l->at[end];
             reach = b->t + b->dt > reach ? b->t + b->dt : reach;
             if (b->crossing != CROSS_TOUCH)

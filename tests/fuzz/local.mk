@@ -6,6 +6,6 @@ fuzz_parse_LDADD = $(lambert_libs)
 TESTS += %D%/replay.sh
 EXTRA_DIST += %D%/replay.sh \
 	%D%/corpus/blocks.pov %D%/corpus/directives.pov \
-	%D%/corpus/if_in_case.pov %D%/corpus/if_in_condition.pov \
+	%D%/corpus/difference_huge.pov %D%/corpus/if_in_case.pov %D%/corpus/if_in_condition.pov \
 	%D%/corpus/if_in_elseif.pov %D%/corpus/while_at_end.pov \
 	%D%/corpus/while_in_macro.pov
