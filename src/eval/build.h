@@ -197,6 +197,8 @@ bool build_pattern_modifier(struct args *a, struct body *body);
 bool build_warp(struct args *a, struct pattern *p); // next item is warp {}
 // Fills a pattern from `function { expression }`.
 bool build_function_pattern(struct eval *e, const struct ast *block, struct pattern *p);
+// The arguments of density_file.
+void build_density_file(struct args *a, struct pattern *p);
 bool word_is_pattern(const struct builder *b, enum word w);
 const enum word *pattern_modifier_words(size_t *count);
 

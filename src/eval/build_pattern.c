@@ -225,6 +225,7 @@ static void arguments(struct args *a, struct body *body, enum word w)
         break;
     case WORD_mandel: p->integer[0] = (int)read_int(a, "iterations", 1, 1 << 30); break;
     case WORD_julia: julia(a, p); break;
+    case WORD_density_file: build_density_file(a, p); break;
     case WORD_magnet:
         p->integer[1] = (int)read_int(a, "type", 1, 2);
         if ((p->integer[2] = args_take(a, WORD_julia)))
@@ -365,6 +366,7 @@ static const struct {
     {"pavement", {WORD_form, FIELD_INT, AT(integer[3]), 0, 0}},
     {"pavement", {WORD_exterior, FIELD_INT, AT(exterior_type), 0, 0}},
     {"pavement", {WORD_interior, FIELD_INT, AT(interior_type), 0, 0}},
+    {"density_file", {WORD_interpolate, FIELD_INT, AT(integer[0]), 0, 0}},
     {"mandel", {WORD_exponent, FIELD_INT, AT(fractal_exponent), 2, 33}},
     {"julia", {WORD_exponent, FIELD_INT, AT(fractal_exponent), 2, 33}},
 };

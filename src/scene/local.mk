@@ -29,7 +29,8 @@ liblambert_a_SOURCES += \
 	%D%/patterns/triangular.c %D%/patterns/waves.c %D%/patterns/wood.c \
 	%D%/patterns/wrinkles.c %D%/patterns/mandel.c %D%/patterns/julia.c \
 	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h \
-	%D%/patterns/crackle.c %D%/patterns/facets.c
+	%D%/patterns/crackle.c %D%/patterns/facets.c \
+	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c
 # The noise tables are computed, not written down.
 noinst_PROGRAMS += gen_noise_tables
 gen_noise_tables_SOURCES = %D%/gen_noise_tables.c %D%/noise_tables.h

@@ -40,6 +40,7 @@ static void forget_parameters(struct pattern *p)
     p->object = NULL;
     p->pigment = NULL;
     p->image = NULL;
+    p->density = NULL;
     p->function = NULL;
     p->function_data = NULL;
 }

@@ -12,6 +12,7 @@ struct arena;
 struct object;
 struct pigment;
 struct image_map;
+struct density_grid;
 struct pattern;
 
 enum wave { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY };
@@ -102,7 +103,8 @@ struct pattern {
     int fractal_exponent;
     const struct object *object;      // object pattern
     const struct pigment *pigment;    // pigment_pattern
-    const struct image_map *image;    // image_pattern, density_file
+    const struct image_map *image;    // image_pattern
+    const struct density_grid *density; // density_file; interpolation in integer[0]
     // function pattern: evaluates user code at a point
     double (*function)(const void *data, struct vec3 p);
     const void *function_data;
