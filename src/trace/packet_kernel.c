@@ -310,6 +310,29 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     return lone(e, bits, object);
 }
 
+// Item i of the tree: a bare sphere stands in the tree's own list, so that most tests
+// touch nothing else.
+static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
+{
+    struct packet *p = e->p;
+    const struct accel *a = p->w->accel;
+    const struct accel_sphere *b = &a->sphere[i];
+    if (!(b->radius > 0))
+        return try_eight(e, bits, a->top.item[i]);
+    p->s->stats.leaf_tests++;
+    const struct sphere ball = {.centre = b->centre, .radius = b->radius};
+    const struct span8 x = span8_sphere(&ball, &e->ray);
+    bits &= m8_bits(x.met);
+    if (!bits)
+        return 0;
+    const uint32_t object = a->top.item[i];
+    bits = seeing(p, b->flags, bits);
+    if (p->mode == SWEEP_OPAQUE && !p->w->object[object].opaque)
+        return 0;
+    const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
+    return take(e, bits, t, object, 0);
+}
+
 // ---- the tree -----------------------------------------------------------------------------
 
 struct packet_entry {
@@ -457,7 +480,7 @@ static void traverse(struct eight *e, unsigned lanes)
             const uint32_t first = bvh8_leaf_first(child), n = bvh8_leaf_count(child);
             unsigned won = 0;
             for (uint32_t i = first; i < first + n; i++)
-                won |= try_eight(e, bits, tree->item[i]);
+                won |= try_item(e, bits, i);
             limit(p, won);
             continue;
         }
