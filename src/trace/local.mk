@@ -11,7 +11,8 @@ liblambert_a_SOURCES += \
 	%D%/tile.c %D%/tile.h %D%/tracer.h %D%/wave.c
 
 # The packet kernels, once per instruction set.
-packet_sources = %D%/packet_kernel.c %D%/packet.h %D%/packet_shapes.h %D%/lanes.h
+packet_sources = %D%/packet_kernel.c %D%/packet_product.h \
+	%D%/packet.h %D%/packet_shapes.h %D%/lanes.h
 noinst_LIBRARIES += libpacket_base.a
 libpacket_base_a_SOURCES = $(packet_sources)
 libpacket_base_a_CPPFLAGS = $(AM_CPPFLAGS) -DISA=base

@@ -50,6 +50,14 @@ lang_scenes = \
 	%D%/046-clipped-names.scn \
 	%D%/047-angles-at-any-place.scn \
 	%D%/048-trace.scn \
+	%D%/049-version-lookup.scn \
+	%D%/050-array-in-macros.scn \
+	%D%/051-colour-more.scn \
+	%D%/052-strings-more.scn \
+	%D%/053-functions-more.scn \
+	%D%/054-transform-values.scn \
+	%D%/055-inside-shapes.scn \
+	%D%/056-while-nested-macro.scn \
 	%D%/100-error-argument.scn \
 	%D%/101-error-semicolon.scn \
 	%D%/102-error-width.scn \
