@@ -9,7 +9,11 @@
 #define TEXT_(a) #a
 #define TEXT(a) TEXT_(a)
 
-enum { FEW = 2 }; // lanes that go on one by one
+enum {
+    FEW = 2,         // lanes that go on one by one
+    SMALL_TREE = 8,  // nodes up to which packets always pay
+    TOGETHER = 4     // of the lanes at the root, how many a child must hold on average
+};
 
 // ---- one ray ----------------------------------------------------------------------------
 
@@ -486,12 +490,14 @@ static void traverse(struct eight *e, unsigned lanes)
         }
         const struct bvh8_node *n = &tree->node[child];
         const uint32_t base = depth;
+        uint32_t met_lanes = 0;
         p->s->stats.node_visits++;
         for (int k = 0; k < 8 && n->child[k] != BVH8_EMPTY; k++) {
             float near[8];
             const unsigned met = child_meets(n, k, &v, near);
             if (!met)
                 continue;
+            met_lanes += (uint32_t)__builtin_popcount(met);
             const float t = near[__builtin_ctz(met)];
             uint32_t at = depth++;
             for (; at > base && stack[at - 1].t < t; at--)
@@ -499,6 +505,12 @@ static void traverse(struct eight *e, unsigned lanes)
             f8_store(stack[at].near, f8_load(near));
             stack[at].child = n->child[k];
             stack[at].t = t;
+        }
+        // Rays that part at the root gain nothing from each other, and each alone meets
+        // its boxes in its own order.
+        if (child == 0 && tree->node_count > SMALL_TREE && met_lanes < TOGETHER * depth) {
+            one_by_one(p, bits, 0);
+            return;
         }
     }
 }
