@@ -200,8 +200,6 @@ const struct interior *build_interior(struct args *a, const struct ast *block,
                            ARRAY_COUNT(more));
         }
     }
-    if (i->dispersion != 1)
-        args_not_rendered(a, WORD_dispersion, block->where);
     return in.failed ? NULL : i;
 }
 
