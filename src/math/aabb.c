@@ -77,6 +77,23 @@ struct aabb aabb_pad(struct aabb a)
                          vec3(pad_up(a.max.x), pad_up(a.max.y), pad_up(a.max.z))};
 }
 
+struct aabb aabb_around(struct vec3 centre, const double half[3], const struct transform *t)
+{
+    const double c[3] = {centre.x, centre.y, centre.z};
+    const double offset[3] = {t->offset.x, t->offset.y, t->offset.z};
+    double min[3], max[3];
+    for (int j = 0; j < 3; j++) {
+        double at = offset[j], size = fabs(offset[j]) + half[j];
+        for (int i = 0; i < 3; i++) {
+            at += t->linear.m[i][j] * c[i];
+            size += fabs(t->linear.m[i][j] * c[i]);
+        }
+        min[j] = at - half[j] - GAMMA(16) * size;
+        max[j] = at + half[j] + GAMMA(16) * size;
+    }
+    return (struct aabb){vec3(min[0], min[1], min[2]), vec3(max[0], max[1], max[2])};
+}
+
 // The box of the eight corners, one axis of the result at a time (Arvo, Graphics Gems
 // 1990). A zero coefficient leaves an infinite side out.
 struct aabb aabb_transform(struct aabb a, const struct transform *t)

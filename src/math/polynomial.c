@@ -11,10 +11,12 @@ enum { BERNSTEIN_MAX = 8 };
 // Inlined where the degree is a constant, so that the loops unroll: the quartics of tori
 // and blobs are solved for every ray.
 #define UNROLLED static inline __attribute__((always_inline))
+#define UNROLL _Pragma("GCC unroll 8")
 
 UNROLLED double value(const double *c, int degree, double t)
 {
     double v = c[degree];
+UNROLL
     for (int i = degree - 1; i >= 0; i--)
         v = v * t + c[i];
     return v;
@@ -30,6 +32,7 @@ double polynomial_root_bound(const double *c, int degree)
     while (degree > 0 && c[degree] == 0)
         degree--;
     double bound = 0;
+UNROLL
     for (int i = 0; i < degree; i++) {
         if (c[i] == 0)
             continue;
@@ -48,18 +51,20 @@ UNROLLED double magnitude(const double *c, int degree, double t)
 {
     double v = fabs(c[degree]);
     t = fabs(t);
+UNROLL
     for (int i = degree - 1; i >= 0; i--)
         v = v * t + fabs(c[i]);
     return v;
 }
 
-// The one root of a monotone stretch: Newton from the middle, kept inside the bracket.
-// Stops early within `enough` of the root: an extremum that is off by a small share of
-// the stretch changes the value there by the square of it.
+// The one root of a stretch: Newton from `t`, kept inside the bracket. Stops early within
+// `enough` of the root: an extremum that is off by a small share of the stretch changes
+// the value there by the square of it. Steps shrink quadratically, so two of them foretell
+// the next: where that is less than a rounding it is not taken.
 UNROLLED double root_between(const double *c, const double *d, int degree, double lo,
-                           double hi, bool rising, double enough)
+                             double hi, double t, bool rising, double enough)
 {
-    double t = 0.5 * (lo + hi);
+    double last = INFINITY;
     for (int i = 0; i < 200; i++) {
         double v = value(c, degree, t);
         if (v == 0)
@@ -68,44 +73,121 @@ UNROLLED double root_between(const double *c, const double *d, int degree, doubl
             hi = t;
         else
             lo = t;
-        double next = t - v / value(d, degree - 1, t);
-        if (!(next > lo && next < hi))
+        double next = t - v / value(d, degree - 1, t), step = fabs(next - t);
+        if (!(next > lo && next < hi)) {
             next = 0.5 * (lo + hi);
-        if (next == t || next <= lo || next >= hi || fabs(next - t) <= enough)
+            step = INFINITY;
+        }
+        if (next == t || next <= lo || next >= hi || step <= enough)
+            return next;
+        if (step < last && last < INFINITY &&
+            step * step * step <= 0x1p-54 * fabs(next) * (last * last))
             return next;
         t = next;
+        last = step;
     }
     return t;
 }
 
-// Whether all Bernstein coefficients on [lo, hi] have one sign, clear of rounding: then
-// there is no root (Farouki & Rajan 1987).
-static bool certainly_none(const double *c, int degree, double lo, double hi)
+// The coefficients in the Bernstein basis on [lo, hi], whose polygon follows the graph:
+// the roots are at most as many as its sign changes, and as many but for an even number
+// (Farouki & Rajan 1987). Returns the changes; -1: a sign is not clear of rounding.
+UNROLLED int bernstein(const double *c, int degree, double lo, double hi, double *b)
 {
-    double b[BERNSTEIN_MAX + 1], size = 0;
+    double size = 0;
     const double width = hi - lo;
+UNROLL
     for (int i = 0; i <= degree; i++)
         b[i] = c[i];
+UNROLL
     for (int i = 0; i < degree; i++) // Taylor shift to lo
+UNROLL
         for (int k = degree - 1; k >= i; k--)
             b[k] += lo * b[k + 1];
     double scale = 1;
+UNROLL
     for (int i = 0; i <= degree; i++) { // to [0, 1], over the binomials
         b[i] *= scale;
         scale *= width * (i + 1) / (degree - i);
         size += fabs(b[i]);
     }
+UNROLL
     for (int i = 0; i < degree; i++) // sums of the scaled powers
+UNROLL
         for (int k = degree; k > i; k--)
             b[k] += b[k - 1];
     const double noise =
         64 * roundoff * (size + magnitude(c, degree, fmax(fabs(lo), fabs(hi))));
-    int above = 0, below = 0;
+    int changes = 0;
+UNROLL
     for (int i = 0; i <= degree; i++) {
-        above += b[i] > noise;
-        below += b[i] < -noise;
+        if (!(fabs(b[i]) > noise))
+            return -1;
+        changes += i > 0 && (b[i] > 0) != (b[i - 1] > 0);
     }
-    return above == degree + 1 || below == degree + 1;
+    return changes;
+}
+
+// Between two roots, given the Bernstein polygon with two sign changes: on the way from its
+// lowest (or highest) corner to the extremum the value soon has the sign of the middle.
+// Also where a parabola there has its roots. False: the extremum is too near zero, or
+// there are no roots.
+struct middle {
+    double t, left, right;
+};
+
+UNROLLED bool between_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                            double lo, double hi, const double *b, struct middle *at)
+{
+    enum { STEPS = 4 };
+    const double sign = b[0] > 0 ? 1 : -1;
+    int lowest = 1;
+UNROLL
+    for (int i = 2; i < degree; i++)
+        if (sign * b[i] < sign * b[lowest])
+            lowest = i;
+    double t = lo + (hi - lo) * lowest / degree;
+    for (int i = 0; i < STEPS; i++) {
+        const double v = sign * value(chain[0], degree, t);
+        const double slope = sign * value(chain[1], degree - 1, t);
+        const double bend = sign * value(chain[2], degree - 2, t);
+        if (v < -2 * degree * roundoff * magnitude(chain[0], degree, t)) {
+            const double reach = sqrt(slope * slope - 2 * v * bend);
+            *at = (struct middle){t, t - (slope + reach) / bend, t - (slope - reach) / bend};
+            if (!(at->left > lo && at->left < t))
+                at->left = 0.5 * (lo + t);
+            if (!(at->right > t && at->right < hi))
+                at->right = 0.5 * (t + hi);
+            return true;
+        }
+        if (!(bend > 0))
+            return false;
+        t -= slope / bend;
+        if (!(t > lo && t < hi))
+            return false;
+    }
+    return false;
+}
+
+// The roots where the Bernstein polygon tells how many there are; -1: it does not.
+UNROLLED int certain_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                           double lo, double hi, double *root, bool *first_rising)
+{
+    double b[BERNSTEIN_MAX + 1];
+    const double *c = chain[0], *d = chain[1];
+    const int changes = bernstein(c, degree, lo, hi, b);
+    const bool rising = b[0] < 0;
+    *first_rising = rising;
+    if (changes == 1)
+        root[0] = root_between(c, d, degree, lo, hi, 0.5 * (lo + hi), rising, 0);
+    if (changes != 2)
+        return changes > 2 ? -1 : changes;
+    struct middle m;
+    if (!between_roots(chain, degree, lo, hi, b, &m))
+        return -1;
+    root[0] = root_between(c, d, degree, lo, m.t, m.left, rising, 0);
+    root[1] = root_between(c, d, degree, m.t, hi, m.right, !rising, 0);
+    return 2;
 }
 
 // The extrema's candidates for a quadratic: both roots by the stable formula.
@@ -144,7 +226,7 @@ UNROLLED int refine(const double *c, const double *d, int degree, double lo, dou
         double noise = 2 * degree * roundoff * magnitude(c, degree, b);
         bool above_b = i < stops && fabs(v) <= noise ? above : v >= 0;
         if (above_b != above)
-            root[n++] = root_between(c, d, degree, a, b, above_b, enough);
+            root[n++] = root_between(c, d, degree, a, b, 0.5 * (a + b), above_b, enough);
         above = above_b;
         a = b;
     }
@@ -175,17 +257,39 @@ static double error_of_root(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degr
     return dt;
 }
 
+// Every root, between the extrema, which are the roots of the derivative, and so on.
+static int isolated_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                          double lo, double hi, double *root, bool *rising)
+{
+    double buffer[2][POLYNOMIAL_DEGREE_MAX + 1];
+    int stops = 0, use = 0, first = degree - 1;
+    *rising = false;
+    if (degree > 2 && chain[degree - 2][2] != 0) {
+        stops = quadratic_stops(chain[degree - 2], lo, hi, buffer[0]);
+        first = degree - 3;
+    }
+    for (int k = first; k >= 0; k--) {
+        const double enough = k > 0 ? 0x1p-30 * (hi - lo) : 0;
+        const double *c = chain[k], *d = chain[k + 1], *from = buffer[use];
+        double *to = k > 0 ? buffer[!use] : root;
+        switch (degree - k) {
+        case 3: stops = refine(c, d, 3, lo, hi, from, stops, to, rising, enough); break;
+        case 4: stops = refine(c, d, 4, lo, hi, from, stops, to, rising, enough); break;
+        default:
+            stops = refine(c, d, degree - k, lo, hi, from, stops, to, rising, enough);
+        }
+        use = !use;
+    }
+    return stops;
+}
+
 int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
                      double rounding, struct polynomial_root *out)
 {
     double chain[POLYNOMIAL_DEGREE_MAX + 1][POLYNOMIAL_DEGREE_MAX + 1];
-    double buffer[2][POLYNOMIAL_DEGREE_MAX + 1];
     while (degree > 0 && coefficient[degree] == 0)
         degree--;
     if (degree < 1 || degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
-        return 0;
-    if (degree > 2 && degree <= BERNSTEIN_MAX &&
-        certainly_none(coefficient, degree, lo, hi))
         return 0;
     memcpy(chain[0], coefficient, (size_t)(degree + 1) * sizeof *coefficient);
     for (int k = 1; k < degree; k++)
@@ -193,31 +297,22 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
             chain[k][i] = (i + 1) * chain[k - 1][i + 1];
     chain[degree][0] = chain[degree - 1][1];
 
-    int stops = 0, use = 0, first = degree - 1;
-    bool rising = false;
-    if (degree > 2 && chain[degree - 2][2] != 0) {
-        stops = quadratic_stops(chain[degree - 2], lo, hi, buffer[0]);
-        first = degree - 3;
-    }
-    for (int k = first; k >= 0; k--) {
-        const double enough = k > 0 ? 0x1p-30 * (hi - lo) : 0;
-        const double *c = chain[k], *d = chain[k + 1];
-        double *to = buffer[!use];
-        switch (degree - k) {
-        case 3: stops = refine(c, d, 3, lo, hi, buffer[use], stops, to, &rising, enough); break;
-        case 4: stops = refine(c, d, 4, lo, hi, buffer[use], stops, to, &rising, enough); break;
-        default:
-            stops = refine(c, d, degree - k, lo, hi, buffer[use], stops, to, &rising, enough);
-        }
-        use = !use;
-    }
-    for (int i = 0; i < stops; i++) {
-        const double t = buffer[use][i];
+    double root[POLYNOMIAL_DEGREE_MAX + 1];
+    bool rising;
+    int count = -1;
+    if (degree == 4)
+        count = certain_roots(chain, 4, lo, hi, root, &rising);
+    else if (degree > 2 && degree <= BERNSTEIN_MAX)
+        count = certain_roots(chain, degree, lo, hi, root, &rising);
+    if (count < 0)
+        count = isolated_roots(chain, degree, lo, hi, root, &rising);
+    for (int i = 0; i < count; i++) {
+        const double t = root[i];
         const double error =
             (2 * degree + rounding) * roundoff * magnitude(coefficient, degree, t);
         out[i] =
             (struct polynomial_root){t, error_of_root(chain, degree, t, error), rising};
         rising = !rising;
     }
-    return stops;
+    return count;
 }

@@ -26,6 +26,16 @@ bool shape_is_solid(const struct shape_ops *ops, const void *shape)
     return ops->is_solid ? ops->is_solid(shape) : (ops->flags & SHAPE_SOLID) != 0;
 }
 
+struct aabb shape_placed_bounds(const struct shape_ops *ops, const void *shape,
+                                const struct transform *t)
+{
+    const struct aabb b = ops->bounds(shape);
+    if (t->identity || aabb_is_empty(b))
+        return b;
+    return ops->placed_bounds ? ops->placed_bounds(shape, t)
+                              : aabb_pad(aabb_transform(b, t));
+}
+
 struct aabb shape_surface_bounds(const struct shape_ops *ops, const void *shape)
 {
     return ops->surface_bounds ? ops->surface_bounds(shape) : ops->bounds(shape);

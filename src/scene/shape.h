@@ -50,6 +50,9 @@ struct shape_ops {
 
     // Of everything inside (and of the surface).
     struct aabb (*bounds)(const void *shape);
+    // The same of the shape moved by t, where that is smaller than the box around the
+    // moved box; padded. NULL: that box.
+    struct aabb (*placed_bounds)(const void *shape, const struct transform *t);
     // Of what is drawn, where that is smaller: a disc is a half space in CSG but a
     // disc to the eye. NULL: as bounds.
     struct aabb (*surface_bounds)(const void *shape);
@@ -83,6 +86,8 @@ extern const struct shape_ops *const shape_table[];
 extern const size_t shape_count;
 const struct shape_ops *shape_find(const char *keyword, size_t len); // NULL: none
 bool shape_is_solid(const struct shape_ops *ops, const void *shape);
+struct aabb shape_placed_bounds(const struct shape_ops *ops, const void *shape,
+                                const struct transform *t); // padded
 struct aabb shape_surface_bounds(const struct shape_ops *ops, const void *shape);
 // A number or vector as scene text that reads back as the same bits.
 void shape_print_number(FILE *out, double v);

@@ -228,9 +228,7 @@ static uint32_t add_leaf(struct build *b, const struct object *o, const struct c
             l->transform = transform_identity;
         }
     }
-    l->bounds = o->ops->bounds(l->shape);
-    if (!l->transform.identity && !aabb_is_empty(l->bounds))
-        l->bounds = aabb_pad(aabb_transform(l->bounds, &l->transform));
+    l->bounds = shape_placed_bounds(o->ops, l->shape, &l->transform);
     return index;
 }
 

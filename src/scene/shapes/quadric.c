@@ -115,6 +115,23 @@ static struct aabb bounds(const void *shape)
     return aabb_pad(b);
 }
 
+// An ellipsoid is a ball scaled by its half axes.
+static struct aabb placed_bounds(const void *shape, const struct transform *t)
+{
+    const struct quadric *s = shape;
+    const struct aabb own = bounds(shape);
+    if (!aabb_is_finite(own))
+        return aabb_pad(aabb_transform(own, t));
+    const struct vec3 r = vec3_scale(0.5, vec3_sub(own.max, own.min));
+    double e[3];
+    for (int i = 0; i < 3; i++) {
+        const double x = r.x * t->linear.m[0][i], y = r.y * t->linear.m[1][i],
+                     z = r.z * t->linear.m[2][i];
+        e[i] = sqrt(x * x + y * y + z * z);
+    }
+    return aabb_around(s->centre, e, t);
+}
+
 static double value_at(const struct quadric *s, struct vec3 q)
 {
     return vec3_dot(q, times(s, q)) + vec3_dot(s->linear, q) + s->constant;
@@ -201,6 +218,7 @@ const struct shape_ops quadric_ops = {
     .build = build,
     .absorb = absorb,
     .bounds = bounds,
+    .placed_bounds = placed_bounds,
     .inside = inside,
     .intersect = intersect,
     .surface = surface,

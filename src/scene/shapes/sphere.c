@@ -46,6 +46,17 @@ static struct aabb bounds(const void *shape)
     return (struct aabb){vec3_sub(s->centre, r), vec3_add(s->centre, r)};
 }
 
+static struct aabb placed_bounds(const void *shape, const struct transform *t)
+{
+    const struct sphere *s = shape;
+    double e[3];
+    for (int i = 0; i < 3; i++) {
+        const double x = t->linear.m[0][i], y = t->linear.m[1][i], z = t->linear.m[2][i];
+        e[i] = s->radius * sqrt(x * x + y * y + z * z);
+    }
+    return aabb_around(s->centre, e, t);
+}
+
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct sphere *s = shape;
@@ -115,6 +126,7 @@ const struct shape_ops sphere_ops = {
     .build = build,
     .absorb = absorb,
     .bounds = bounds,
+    .placed_bounds = placed_bounds,
     .inside = inside,
     .intersect = intersect,
     .surface = surface,

@@ -36,6 +36,18 @@ static struct aabb bounds(const void *shape)
     return aabb_pad((struct aabb){vec3(-r, -s->minor, -r), vec3(r, s->minor, r)});
 }
 
+// A circle of radius R and a ball of radius r: their extents add up.
+static struct aabb placed_bounds(const void *shape, const struct transform *t)
+{
+    const struct torus *s = shape;
+    double e[3];
+    for (int i = 0; i < 3; i++) {
+        const double x = t->linear.m[0][i], y = t->linear.m[1][i], z = t->linear.m[2][i];
+        e[i] = s->major * sqrt(x * x + z * z) + s->minor * sqrt(x * x + y * y + z * z);
+    }
+    return aabb_around(vec3(0, 0, 0), e, t);
+}
+
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct torus *s = shape;
@@ -64,6 +76,8 @@ static void sharpen(struct vec3 o, struct vec3 u, double R, double r, double noi
             return;
         t -= h / slope;
         dt = 2 * noise / fabs(slope);
+        if (fabs(h) <= noise) // the next step would only move it within dt
+            break;
     }
     if (fabs(t - root->t) <= 4 * root->dt && dt < root->dt) {
         root->t = t;
@@ -159,6 +173,7 @@ const struct shape_ops torus_ops = {
     .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV,
     .build = build,
     .bounds = bounds,
+    .placed_bounds = placed_bounds,
     .inside = inside,
     .intersect = intersect,
     .surface = surface,
