@@ -174,6 +174,16 @@ struct args *args_block(struct args *a, const char *word)
     return inner;
 }
 
+struct args *args_call(struct args *a, const char *word)
+{
+    const struct ast *n = a->at;
+    if (!n || n->kind != AST_CALL || strcmp(word_text((enum word)n->word), word) != 0)
+        return NULL;
+    struct args *inner = arena_new_struct(a->b->e->parse, struct args);
+    *inner = args_of(a->b, args_next(a), a);
+    return inner;
+}
+
 const struct texture *args_texture(struct args *a)
 {
     return args_at_block(a) == WORD_texture ? build_texture(a, args_next(a)) : NULL;

@@ -34,6 +34,9 @@ bool args_word(struct args *a, const char *word);
 // If the next item is the block `word { ... }`, consumes it and returns its
 // contents as an args of their own, else NULL.
 struct args *args_block(struct args *a, const char *word);
+// If the next item is a call, `word (a, b)` or `word (a, b): c`, consumes it and returns
+// its arguments (with c as the last) as an args of their own, else NULL.
+struct args *args_call(struct args *a, const char *word);
 // If the next item is texture { TEXID }, consumes it and returns the texture.
 const struct texture *args_texture(struct args *a);
 bool args_end(struct args *a); // nothing is left (or only object modifiers)

@@ -6,7 +6,7 @@ liblambert_a_SOURCES += \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
 	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \
-	%D%/shapes/plane.c %D%/shapes/plane.h %D%/shapes/poly.c %D%/shapes/polygon.c %D%/shapes/prism.c \
+	%D%/shapes/ovus.c %D%/shapes/plane.c %D%/shapes/plane.h %D%/shapes/poly.c %D%/shapes/polygon.c %D%/shapes/prism.c \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \
 	%D%/shapes/sor.c %D%/shapes/sphere.c %D%/shapes/sphere.h %D%/shapes/superellipsoid.c \
 	%D%/shapes/text.c %D%/shapes/torus.c %D%/shapes/triangle.c %D%/shapes/triangle.h

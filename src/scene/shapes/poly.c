@@ -149,6 +149,47 @@ static bool build_poly(void *shape, struct args *args)
     return read_order(shape, args) && read_terms(shape, args);
 }
 
+// The place of x^i y^j z^k among the coefficients.
+static size_t term_index(int order, const long power[3])
+{
+    const long a = order - power[0], b = a - power[1], c = b - power[2];
+    return (size_t)((a + 2) * (a + 1) * a / 6 + (b + 1) * b / 2 + c);
+}
+
+static bool read_term(struct poly *s, struct args *term, double *c)
+{
+    static const char *const role[] = {"power of x", "power of y", "power of z"};
+    long power[3];
+    double value;
+    for (int i = 0; i < 3; i++)
+        if (!args_int(term, role[i], &power[i]))
+            return false;
+    if (!args_float(term, "coefficient", &value))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (power[i] < 0 || power[i] > s->order ||
+            power[0] + power[1] + power[2] > s->order) {
+            args_reject(term, "the powers of a term must not be negative nor exceed the "
+                              "order");
+            return false;
+        }
+    c[term_index(s->order, power)] = value;
+    return true;
+}
+
+static bool build_polynomial(void *shape, struct args *args)
+{
+    struct poly *s = shape;
+    if (!read_order(s, args))
+        return false;
+    double *c = arena_new_array(args_arena(args), double, term_count(s->order));
+    s->coefficient = c;
+    for (struct args *term; (term = args_call(args, "xyz"));)
+        if (!read_term(s, term, c))
+            return false;
+    return true;
+}
+
 static bool build_cubic(void *shape, struct args *args)
 {
     struct poly *s = shape;
@@ -191,3 +232,4 @@ static void print(const void *shape, FILE *out)
 POLY_OPS(poly);
 POLY_OPS(cubic);
 POLY_OPS(quartic);
+POLY_OPS(polynomial);

@@ -121,6 +121,31 @@ struct args *args_block(struct args *a, const char *word)
     return inner;
 }
 
+// Contents up to the closing bracket, and the number behind a colon.
+struct args *args_call(struct args *a, const char *word)
+{
+    a->at = blank(a->at);
+    const size_t n = strlen(word);
+    const char *open = strncmp(a->at, word, n) == 0 ? blank(a->at + n) : "";
+    const char *end = strchr(open, ')');
+    if (*open != '(' || !end)
+        return NULL;
+    char *text = arena_strndup(a->arena, open + 1, strlen(open + 1));
+    char *stop = text + (end - open - 1);
+    *stop = ' ';
+    if (*blank(end + 1) == ':') {
+        char *colon = strchr(stop, ':');
+        *colon = ' ';
+        strtod(colon, &stop);
+    }
+    a->at = open + 1 + (stop - text);
+    a->at += *a->at == ')';
+    *stop = 0;
+    struct args *inner = fake_args_new(a->arena, a->diags, text);
+    inner->parent = a;
+    return inner;
+}
+
 bool args_end(struct args *a) { return !*blank(a->at); }
 
 void args_reject(struct args *a, const char *message)
