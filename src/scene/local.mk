@@ -2,7 +2,7 @@ liblambert_a_SOURCES += \
 	%D%/args.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/effects.h %D%/light.h \
 	%D%/object.c %D%/object.h %D%/object_print.c \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shapes.def %D%/texture.h \
-	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/cone.c %D%/shapes/cone.h \
+	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
 	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \

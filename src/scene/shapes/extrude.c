@@ -76,15 +76,10 @@ static void add_walls(const struct outline *o, const struct extrude_ray *r,
     }
 }
 
-struct slab {
-    double t[2], dt; // entry and exit
-    uint32_t part[2];
-    bool always;
-};
-
-static bool slab_of(const struct extrude_ray *r, double low, double high, struct slab *s)
+bool extrude_slab_of(const struct extrude_ray *r, double low, double high,
+                     struct extrude_slab *s)
 {
-    *s = (struct slab){{-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
+    *s = (struct extrude_slab){{-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
     if (RUNS_ALONG(r->d[2], fmax(fabs(r->d[0]), fabs(r->d[1]))))
         return r->o[2] >= low && r->o[2] <= high;
     const bool up = r->d[2] > 0;
@@ -97,20 +92,19 @@ static bool slab_of(const struct extrude_ray *r, double low, double high, struct
     return true;
 }
 
-static void add_cap(struct boundary_list *out, const struct slab *s, int which, bool open)
+void extrude_add_cap(struct boundary_list *out, const struct extrude_slab *s, int which,
+                     bool open)
 {
     struct boundary *b = boundary_list_add(
         out, s->t[which], s->dt, which ? CROSS_EXIT : CROSS_ENTER, s->part[which]);
     b->drawn = !open;
 }
 
-// Walls are sorted at [from, count); appends their product with the slab behind them,
-// then moves it down over them.
-static void clip_to_slab(const struct slab *s, bool open, uint32_t from,
-                         struct boundary_list *out)
+// Appends the product behind the walls, then moves it down over them.
+void extrude_clip(const struct extrude_slab *s, bool open, bool in, uint32_t from,
+                  struct boundary_list *out)
 {
     const uint32_t walls = out->count;
-    bool in = false;
     bool in_slab = s->always;
     for (uint32_t i = from; i <= walls; i++) {
         const double t = i < walls ? out->at[i].t : HUGE_VAL;
@@ -119,7 +113,7 @@ static void clip_to_slab(const struct slab *s, bool open, uint32_t from,
                 continue;
             in_slab = which == 0;
             if (in)
-                add_cap(out, s, which, open);
+                extrude_add_cap(out, s, which, open);
             if (which == 1)
                 i = walls; // nothing follows the slab
         }
@@ -138,20 +132,20 @@ static void clip_to_slab(const struct slab *s, bool open, uint32_t from,
     out->count = from + n;
 }
 
-static void along_the_axis(const struct outline *o, const struct slab *s, bool open,
+static void along_the_axis(const struct outline *o, const struct extrude_slab *s, bool open,
                            const struct extrude_ray *r, struct boundary_list *out)
 {
     if (!outline_inside(o, (struct vec2){r->o[0], r->o[1]}))
         return;
-    add_cap(out, s, 0, open);
-    add_cap(out, s, 1, open);
+    extrude_add_cap(out, s, 0, open);
+    extrude_add_cap(out, s, 1, open);
 }
 
 void extrude_intersect(const struct outline *o, double low, double high, bool open,
                        const struct extrude_ray *ray, struct boundary_list *out)
 {
-    struct slab slab;
-    if (o->count == 0 || !slab_of(ray, low, high, &slab))
+    struct extrude_slab slab;
+    if (o->count == 0 || !extrude_slab_of(ray, low, high, &slab))
         return;
     if (RUNS_ALONG(fmax(fabs(ray->d[0]), fabs(ray->d[1])), fabs(ray->d[2]))) {
         along_the_axis(o, &slab, open, ray, out);
@@ -162,7 +156,7 @@ void extrude_intersect(const struct outline *o, double low, double high, bool op
     if (out->count == from)
         return;
     boundary_list_sort(out, from);
-    clip_to_slab(&slab, open, from, out);
+    extrude_clip(&slab, open, false, from, out);
 }
 
 struct vec3 extrude_normal(const struct outline *o, const struct boundary *b)

@@ -22,6 +22,28 @@ struct extrude_ray {
 void extrude_intersect(const struct outline *o, double low, double high, bool open,
                        const struct extrude_ray *ray, struct boundary_list *out);
 
+// The same outline swept towards the origin: at height h it is h times as large (conic.c).
+void conic_intersect(const struct outline *o, double low, double high, bool open,
+                     const struct extrude_ray *ray, struct boundary_list *out);
+bool conic_inside(const struct outline *o, double low, double high, const double p[3]);
+struct vec3 conic_normal(const struct outline *o, const struct boundary *b);
+
+// Where a ray is between the heights low and high.
+struct extrude_slab {
+    double t[2], dt; // entry and exit
+    uint32_t part[2];
+    bool always; // the whole line; t means nothing
+};
+// False: nowhere.
+bool extrude_slab_of(const struct extrude_ray *r, double low, double high,
+                     struct extrude_slab *s);
+void extrude_add_cap(struct boundary_list *out, const struct extrude_slab *s, int which,
+                     bool open);
+// Sorted crossings of walls from `from` on, the line starting inside them if `in`, become
+// those of the solid within the slab.
+void extrude_clip(const struct extrude_slab *s, bool open, bool in, uint32_t from,
+                  struct boundary_list *out);
+
 // The outward normal of a crossing, in (u, v, h), not normalised.
 struct vec3 extrude_normal(const struct outline *o, const struct boundary *b);
 

@@ -1,4 +1,4 @@
-// prism { [spline] [linear_sweep] low, high, n, <x,z>, ... [open] }
+// prism { [spline] [linear_sweep|conic_sweep] low, high, n, <x,z>, ... [open] }
 //
 // A closed curve in the xz plane swept along y. The curve may have several loops
 // (even-odd); linear loops that are not closed are closed, others are left out.
@@ -14,7 +14,7 @@ enum spline { SPLINE_LINEAR, SPLINE_QUADRATIC, SPLINE_CUBIC, SPLINE_BEZIER };
 struct prism {
     struct outline outline; // (u, v) = (x, z)
     double low, high;
-    bool open;
+    bool open, conic;
 };
 
 // Points closer than this share of the curve's size are meant to be the same.
@@ -93,9 +93,10 @@ static bool add_bezier_loops(struct outline *o, const struct points *p)
     return closed;
 }
 
-static bool read_kind(struct args *args, enum spline *spline)
+static void read_kind(struct args *args, enum spline *spline, bool *conic)
 {
     *spline = SPLINE_LINEAR;
+    *conic = false;
     for (;;) {
         if (args_word(args, "linear_spline"))
             *spline = SPLINE_LINEAR;
@@ -105,11 +106,12 @@ static bool read_kind(struct args *args, enum spline *spline)
             *spline = SPLINE_CUBIC;
         else if (args_word(args, "bezier_spline"))
             *spline = SPLINE_BEZIER;
-        else if (args_word(args, "conic_sweep")) {
-            diag_at(args_diags(args), DIAG_NOT_BUILT, args_where(args), "conic_sweep");
-            return false;
-        } else if (!args_word(args, "linear_sweep"))
-            return true;
+        else if (args_word(args, "conic_sweep"))
+            *conic = true;
+        else if (args_word(args, "linear_sweep"))
+            *conic = false;
+        else
+            return;
     }
 }
 
@@ -137,7 +139,8 @@ static bool build(void *shape, struct args *args)
     enum spline spline;
     struct points p = {0};
     double h[2];
-    if (!read_kind(args, &spline) || !args_float(args, "first height", &h[0]) ||
+    read_kind(args, &spline, &s->conic);
+    if (!args_float(args, "first height", &h[0]) ||
         !args_float(args, "second height", &h[1]) || !read_points(args, spline, &p))
         return false;
     s->open = args_word(args, "open");
@@ -164,12 +167,23 @@ static struct aabb bounds(const void *shape)
 {
     const struct prism *s = shape;
     const struct outline *o = &s->outline;
+    if (s->conic && o->count) {
+        struct aabb b = aabb_empty();
+        const double h[2] = {s->low, s->high};
+        for (int i = 0; i < 2; i++) {
+            b = aabb_add(b, vec3(h[i] * o->min.u, h[i], h[i] * o->min.v));
+            b = aabb_add(b, vec3(h[i] * o->max.u, h[i], h[i] * o->max.v));
+        }
+        return aabb_pad(b);
+    }
     return (struct aabb){vec3(o->min.u, s->low, o->min.v), vec3(o->max.u, s->high, o->max.v)};
 }
 
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct prism *s = shape;
+    if (s->conic)
+        return conic_inside(&s->outline, s->low, s->high, (const double[]){p.x, p.z, p.y});
     return p.y >= s->low && p.y <= s->high &&
            outline_inside(&s->outline, (struct vec2){p.x, p.z});
 }
@@ -179,14 +193,18 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct prism *s = shape;
     const struct extrude_ray e = {{ray->o.x, ray->o.z, ray->o.y},
                                   {ray->d.x, ray->d.z, ray->d.y}};
-    extrude_intersect(&s->outline, s->low, s->high, s->open, &e, out);
+    if (s->conic)
+        conic_intersect(&s->outline, s->low, s->high, s->open, &e, out);
+    else
+        extrude_intersect(&s->outline, s->low, s->high, s->open, &e, out);
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     const struct prism *s = shape;
-    const struct vec3 n = extrude_normal(&s->outline, b);
+    const struct vec3 n =
+        s->conic ? conic_normal(&s->outline, b) : extrude_normal(&s->outline, b);
     out->p = p;
     out->ng = out->ns = vec3_normalize(vec3(n.x, n.z, n.y));
     out->uv = (struct vec2){p.x, p.y};
@@ -196,6 +214,7 @@ static void print(const void *shape, FILE *out)
 {
     const struct prism *s = shape;
     fputs("prism { bezier_spline ", out);
+    fputs(s->conic ? "conic_sweep " : "", out);
     shape_print_number(out, s->low);
     fputs(", ", out);
     shape_print_number(out, s->high);
