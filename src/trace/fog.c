@@ -73,7 +73,7 @@ static void fogs_apply(struct tracer *t, struct path *path, double s)
         pass = rgb_mul(pass, fog_pass(f, clear));
         glow = rgb_add(glow, rgb_scale(1 - clear, rgbft_rgb(f->color)));
     }
-    tracer_add(t, path->sample, rgb_mul(path->through, glow));
+    tracer_add(t, rgb_mul(path->through, glow));
     path->through = rgb_mul(path->through, pass);
     path->through_t *= rgb_grey(pass);
 }
@@ -136,7 +136,7 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
     if (!count)
         return;
     const float mean = 1.0f / (float)count;
-    tracer_add(t, path->sample, rgb_mul(path->through, rgb_scale(mean, glow)));
+    tracer_add(t, rgb_mul(path->through, rgb_scale(mean, glow)));
     path->through = rgb_mul(path->through, rgb_scale(mean, pass));
     path->through_t *= pass_t;
 }

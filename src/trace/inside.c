@@ -12,6 +12,16 @@ const struct inside *inside_push(struct arena *a, const struct inside *list,
     return n;
 }
 
+const struct inside *inside_enter(struct tracer *t, const struct inside *list,
+                                  const struct interior *interior)
+{
+    struct inside_pushed *last = &t->last_push;
+    if (!last->pushed || last->list != list || last->interior != interior)
+        *last =
+            (struct inside_pushed){list, interior, inside_push(t->arena, list, interior)};
+    return last->pushed;
+}
+
 const struct inside *inside_find(const struct inside *list,
                                  const struct interior *interior)
 {

@@ -5,6 +5,9 @@
 
 const struct inside *inside_push(struct arena *a, const struct inside *list,
                                  const struct interior *interior);
+// The same for a ray that enters; neighbours share what was made last.
+const struct inside *inside_enter(struct tracer *t, const struct inside *list,
+                                  const struct interior *interior);
 const struct inside *inside_find(const struct inside *list,
                                  const struct interior *interior);
 const struct inside *inside_remove(struct arena *a, const struct inside *list,

@@ -1,6 +1,8 @@
 #include "trace/job.h"
 
 #include "base/arena.h"
+#include "trace/simple.h"
+#include "trace/sky.h"
 
 static const struct lamp *lamp_of(struct job *job, const struct light *light)
 {
@@ -64,6 +66,64 @@ static void spectrum_init(struct job *job)
     }
 }
 
+static void sky_init(struct job *job)
+{
+    const struct scene *s = job->scene;
+    job->even_sky = !s->sky && !(job->atmosphere && (s->fog_count || s->rainbow_count));
+    for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
+        job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
+}
+
+// Boxes are grown by this much of their coordinates: many times what crossings are off.
+static const double clear_margin = 1e-6;
+
+static struct aabb grown(struct aabb b)
+{
+    const double by = clear_margin * fmax(vec3_max_abs(b.min), vec3_max_abs(b.max));
+    return (struct aabb){vec3_sub(b.min, vec3(by, by, by)),
+                         vec3_add(b.max, vec3(by, by, by))};
+}
+
+// Boxes of the objects that let light through: few, so that asking costs little.
+static void clear_init(struct job *job, struct arena *a)
+{
+    enum { FEW = 8 };
+    const struct world *w = job->world;
+    struct aabb *box = arena_new_array(a, struct aabb, FEW);
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        if (w->object[i].opaque)
+            continue;
+        const struct aabb b = grown(w->object[i].bounds);
+        if (job->clear_count < FEW)
+            box[job->clear_count++] = b;
+        else
+            box[FEW - 1] = aabb_join(box[FEW - 1], b);
+    }
+    job->clear = box;
+}
+
+static struct even_pass even_pass(const struct job *job, const struct surface *s)
+{
+    const struct texture *x = s->texture;
+    if (s->interior_texture || s->interior->caustics != 0 || x->kind != TEXTURE_PLAIN ||
+        x->layer_count != 1 || x->layer[0].pigment->kind != PIGMENT_SOLID ||
+        !job->pigments)
+        return (struct even_pass){false, {0, 0, 0}};
+    return (struct even_pass){true, rgbft_pass(x->layer[0].pigment->color)};
+}
+
+static void pass_init(struct job *job, struct arena *a)
+{
+    const struct world *w = job->world;
+    if (!w->has_transparent)
+        return;
+    struct even_pass *pass = arena_new_array(a, struct even_pass, w->surface_count);
+    for (uint32_t i = 0; i < w->surface_count; i++)
+        pass[i] = even_pass(job, &w->surface[i]);
+    job->pass = pass;
+    clear_init(job, a);
+}
+
 void job_init(struct job *job, struct arena *a, const struct world *w,
               const struct render_settings *settings)
 {
@@ -91,4 +151,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     };
     lamps_init(job, a, w);
     spectrum_init(job);
+    sky_init(job);
+    pass_init(job, a);
+    simple_compile(job, a);
 }

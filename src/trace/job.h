@@ -15,6 +15,16 @@ struct lamp_list {
     uint32_t count;
 };
 
+// What a surface lets through of light, where that is the same everywhere.
+struct even_pass {
+    bool known;
+    struct rgb pass;
+};
+
+struct simple_surface;
+struct simple_class;
+struct shade_kernels;
+
 // Number of wavelengths at which the spectrum of dispersion is tabulated.
 enum { SPECTRUM_NODES = 74 };
 
@@ -29,12 +39,27 @@ struct job {
     const struct lamp_list *lamps; // [0] global, [g] of light group g
     int max_level;
     float adc_bailout;
-    bool old_opacity;   // the rules before 3.7
-    bool see_through;   // the background may show as alpha
+    bool old_opacity; // the rules before 3.7
+    bool see_through; // the background may show as alpha
     struct rgb ambient_light, irid_wavelength;
     // switched by the quality level (spec/lighting.md 14)
     bool lights, shadows, area_lights, pigments, refraction, mirrors, normals, atmosphere;
     float spectrum[SPECTRUM_NODES][3]; // summed from the violet end
+    // What a miss sees where that does not depend on the direction: [1] where the
+    // background never shows as alpha.
+    bool even_sky;
+    struct rgb sky[2];
+    float sky_clear[2];
+    const struct even_pass
+        *pass;                // per surface of the world; NULL: none lets light through
+    const struct aabb *clear; // around everything that lets light through
+    uint32_t clear_count;
+    // Shading eight hits at a time (trace/simple.h).
+    const struct shade_kernels *kernels;
+    bool quick_camera;                   // its rays are made eight at a time
+    const struct simple_surface *simple; // per surface of the world
+    const struct simple_class *simple_class;
+    uint32_t simple_class_count;
 };
 
 void job_init(struct job *job, struct arena *a, const struct world *w,

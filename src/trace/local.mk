@@ -8,11 +8,13 @@ liblambert_a_SOURCES += \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/lens.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/shadow.c %D%/sky.c %D%/sky.h \
-	%D%/tile.c %D%/tile.h %D%/tracer.h %D%/wave.c
+	%D%/simple.c %D%/simple.h %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
+	%D%/wave.c %D%/wave.h
 
 # The packet kernels, once per instruction set.
 packet_sources = %D%/packet_kernel.c %D%/packet_product.h \
-	%D%/packet.h %D%/packet_shapes.h %D%/lanes.h
+	%D%/packet.h %D%/packet_shapes.h %D%/lanes.h \
+	%D%/shade_kernel.c %D%/shade_kernel.h %D%/shade_lanes.h %D%/shade_place.h
 noinst_LIBRARIES += libpacket_base.a
 libpacket_base_a_SOURCES = $(packet_sources)
 libpacket_base_a_CPPFLAGS = $(AM_CPPFLAGS) -DISA=base

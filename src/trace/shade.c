@@ -12,8 +12,8 @@ void shade_miss(struct tracer *t, const struct path *path)
     air_apply(t, &p, far_away);
     float clear;
     const struct rgb c = sky_color(t->job, p.d, (p.flags & PATH_REFLECTED) != 0, &clear);
-    tracer_add(t, p.sample, rgb_mul(p.through, c));
-    t->sum[p.sample].t += p.through_t * clear;
+    tracer_add(t, rgb_mul(p.through, c));
+    t->wave.t[t->slot] += p.through_t * clear;
 }
 
 static struct layer *layer_new(struct shading *s)
@@ -36,13 +36,13 @@ static void add_own(struct shading *s, const struct layer *l)
     const struct finish *f = l->finish;
     const struct rgb own = rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission);
     const struct rgb c = rgb_mul(rgb_mul(l->color, l->filter), rgb_scale(l->att, own));
-    tracer_add(s->t, s->path->sample, rgb_mul(s->path->through, c));
+    tracer_add(s->t, rgb_mul(s->path->through, c));
 }
 
 // The layers of one plain texture, from the top (spec/lighting.md 5.2).
-static void shade_plain(void *user, const struct surface_view *v,
-                        const struct texture *x, const struct texture_point *at,
-                        const struct texture_chain *chain, double weight)
+static void shade_plain(void *user, const struct surface_view *v, const struct texture *x,
+                        const struct texture_point *at, const struct texture_chain *chain,
+                        double weight)
 {
     struct shading *s = user;
     const struct job *job = s->t->job;
@@ -58,8 +58,7 @@ static void shade_plain(void *user, const struct surface_view *v,
         l->trans = r.trans;
         if (!job->lights) {
             // The quickest levels show the plain colour of the top layer.
-            tracer_add(s->t, s->path->sample,
-                       rgb_mul(rgb_mul(s->path->through, r.filter), l->color));
+            tracer_add(s->t, rgb_mul(rgb_mul(s->path->through, r.filter), l->color));
             s->layer_count--;
             return;
         }
@@ -69,7 +68,8 @@ static void shade_plain(void *user, const struct surface_view *v,
         r.any = true;
         struct rgb pass = l->pass;
         if (l->finish->conserve_energy) {
-            const struct rgb mirror = layer_reflectivity(s, l, NULL);
+            float weight_unused;
+            const struct rgb mirror = layer_reflectivity(s, l, &weight_unused);
             pass = rgb_mul(pass, rgb(fminf(1, 1 - mirror.r), fminf(1, 1 - mirror.g),
                                      fminf(1, 1 - mirror.b)));
         }
@@ -81,8 +81,7 @@ static void shade_plain(void *user, const struct surface_view *v,
     shade_transmit(s, &r);
 }
 
-void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit,
-               struct path_queue *next)
+void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
 {
     struct path here = *path;
     air_apply(t, &here, hit->b.t);
@@ -93,7 +92,6 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit,
     s.t = t;
     s.path = &here;
     s.s = hit->b.t;
-    s.next = next;
     s.layer = s.few;
     s.layer_count = 0;
     s.layer_capacity = HIT_LAYERS;

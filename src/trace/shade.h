@@ -12,7 +12,6 @@ struct shading {
     double s;                // length of the ray
     struct interaction at;
     struct surface_view view;
-    struct path_queue *next;
     struct layer *layer;
     uint32_t layer_count, layer_capacity;
     struct layer few[HIT_LAYERS];
@@ -39,6 +38,15 @@ struct plain_result {
 void shade_transmit(struct shading *s, const struct plain_result *r);
 // The index of Fresnel's formula seen from the ray (spec/lighting.md 5.5).
 double fresnel_index(const struct inside *list, const struct interior *interior);
+// Its factor on what a mirror shows, at this cosine between normal and eye; *weight is
+// what it counts for adc_bailout (spec/lighting.md 5.4).
+struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
+                               const struct inside *inside,
+                               const struct interior *interior, float *weight);
+bool finish_has_mirror(const struct finish *f);
+bool finish_takes_light(const struct finish *f);
+// q^n for a cosine q.
+double highlight_power(double q, double n);
 struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
                               float *weight);
 struct vec3 mirrored(struct vec3 d, struct vec3 n, struct vec3 surface);

@@ -43,7 +43,7 @@ struct rgb irid_factor(const struct shading *s, const struct finish *f, struct v
 }
 
 // q^n for a cosine q. Most highlights are far off, or have a whole exponent.
-static double highlight_power(double q, double n)
+double highlight_power(double q, double n)
 {
     static const double dark = 40; // exp(-40) is below any float next to a colour
     static const double by_squares = 4096;
@@ -118,7 +118,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     return rgb_mul(c, l->filter);
 }
 
-static bool layer_takes_light(const struct finish *f)
+bool finish_takes_light(const struct finish *f)
 {
     return f->diffuse != 0 || f->diffuse_back != 0 || f->specular != 0 || f->phong != 0;
 }
@@ -128,7 +128,7 @@ static struct rgb layers_lit(const struct shading *s, const struct lamp *lamp,
 {
     struct rgb sum = {0, 0, 0};
     for (uint32_t i = 0; i < s->layer_count; i++)
-        if (layer_takes_light(s->layer[i].finish))
+        if (finish_takes_light(s->layer[i].finish))
             sum = rgb_add(sum, layer_lit(s, &s->layer[i], lamp, to, side_test));
     return sum;
 }
@@ -181,7 +181,7 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
     value = rgb_mul(value, s->path->through);
     if (!job->shadows || (light->shadowless && !light->projected_through) ||
         view.distance <= 0) {
-        tracer_add(s->t, s->path->sample, value);
+        tracer_add(s->t, value);
         return;
     }
     const struct shadow_request r = {.o = trace_offset(&s->at, view.l),
@@ -189,12 +189,12 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
                                      .t_max = view.distance,
                                      .value = value,
                                      .inside = s->path->inside,
-                                     .sample = s->path->sample,
+                                     .slot = s->t->slot,
                                      .lamp = lamp->index};
     if (area && !light->shadowless)
-        tracer_add(s->t, r.sample, rgb_mul(value, area_shadow(s, lamp, &r)));
+        tracer_add(s->t, rgb_mul(value, area_shadow(s, lamp, &r)));
     else if (light->projected_through)
-        tracer_add(s->t, r.sample, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
+        tracer_add(s->t, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
     else
         shadow_add(s->t, &r);
 }
@@ -203,7 +203,7 @@ void shade_lights(struct shading *s)
 {
     bool any = false;
     for (uint32_t i = 0; i < s->layer_count; i++)
-        any |= layer_takes_light(s->layer[i].finish);
+        any |= finish_takes_light(s->layer[i].finish);
     if (!any)
         return;
     const struct lamp_list *list = &s->t->job->lamps[s->at.surface->light_group];

@@ -44,17 +44,15 @@ static float fresnel(double cosine, double n)
     return (float)fmax(0, fmin(1, 0.5 * a * a * (1 + b * b)));
 }
 
-struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
-                              float *weight)
+struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
+                               const struct inside *inside,
+                               const struct interior *interior, float *weight)
 {
-    const struct finish *f = l->finish;
-    const double cosine = -vec3_dot(s->path->d, l->n);
     struct rgb r;
     if (f->fresnel) {
-        const double n = fresnel_index(s->path->inside, s->at.surface->interior);
+        const double n = fresnel_index(inside, interior);
         r = mix(f->reflection_min, f->reflection_max, fresnel(cosine, n));
-        if (weight)
-            *weight = rgb_max(r);
+        *weight = rgb_max(r);
     } else {
         const double base = 1 - cosine;
         double k = f->reflection_falloff == 1
@@ -65,15 +63,21 @@ struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
         else if (fabs(k - 1) < zero)
             k = 1;
         r = mix(f->reflection_min, f->reflection_max, (float)k);
-        if (weight)
-            *weight = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
+        *weight = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
     }
     if (f->reflection_metallic != 0)
-        r = metal_tint(r, l->color, f->reflection_metallic, cosine);
+        r = metal_tint(r, color, f->reflection_metallic, cosine);
     return r;
 }
 
-static bool has_mirror(const struct finish *f)
+struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
+                              float *weight)
+{
+    return finish_reflectivity(l->finish, -vec3_dot(s->path->d, l->n), l->color,
+                               s->path->inside, s->at.surface->interior, weight);
+}
+
+bool finish_has_mirror(const struct finish *f)
 {
     const struct rgb a = f->reflection_min, b = f->reflection_max;
     return a.r != 0 || a.g != 0 || a.b != 0 || b.r != 0 || b.g != 0 || b.b != 0;
@@ -101,7 +105,7 @@ static void mirrors(struct shading *s, const struct plain_result *r,
     for (uint32_t i = r->begin; i < r->end; i++) {
         const struct layer *l = &s->layer[i];
         const struct finish *f = l->finish;
-        if (!has_mirror(f) || (except && same(l->n, *except)))
+        if (!finish_has_mirror(f) || (except && same(l->n, *except)))
             continue;
         float weight;
         const struct rgb mirror = layer_reflectivity(s, l, &weight);
@@ -120,7 +124,7 @@ static void mirrors(struct shading *s, const struct plain_result *r,
             power_emit(s->t, &p, factor, f->reflection_exponent);
         } else {
             p.through = rgb_mul(factor, irid);
-            path_emit(s->t, s->next, &p);
+            path_emit(s->t, &p);
         }
     }
 }
@@ -139,13 +143,13 @@ static struct crossing_sides cross(const struct shading *s)
     const struct inside *list = s->path->inside;
     struct arena *a = s->t->arena;
     if (!list)
-        return (struct crossing_sides){NULL, x, inside_push(a, list, x), false};
+        return (struct crossing_sides){NULL, x, inside_enter(s->t, list, x), false};
     if (list->interior == x)
         return (struct crossing_sides){x, list->outer ? list->outer->interior : NULL,
                                        list->outer, false};
     if (inside_find(list, x))
         return (struct crossing_sides){x, x, inside_remove(a, list, x), true};
-    return (struct crossing_sides){list->interior, x, inside_push(a, list, x), false};
+    return (struct crossing_sides){list->interior, x, inside_enter(s->t, list, x), false};
 }
 
 static double ior(const struct interior *i) { return i ? interior_ior(i) : 1; }
@@ -200,7 +204,7 @@ static void continue_straight(struct shading *s, const struct bending *b)
     const struct rgb own = b->r->any ? b->r->filter : rgb_gray(b->r->weight);
     p.through = rgb_mul(p.through, rgb_mul(b->fade, own));
     p.through_t *= rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
-    path_emit(s->t, s->next, &p);
+    path_emit(s->t, &p);
 }
 
 // One ray through the surface with index ratio eta, or back from it. False: back.
@@ -218,7 +222,7 @@ static bool bend(struct shading *s, const struct bending *b, double eta, struct 
         p.wavelength = wavelength;
         p.through = rgb_scale(b->r->weight, factor);
         p.through_t = 0;
-        path_emit(s->t, s->next, &p);
+        path_emit(s->t, &p);
         return false;
     }
     const struct vec3 bent =
@@ -230,7 +234,7 @@ static bool bend(struct shading *s, const struct bending *b, double eta, struct 
     p.through = rgb_mul(factor, b->r->any ? b->r->filter : rgb_gray(b->r->weight));
     p.through_t *=
         share_t * rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
-    path_emit(s->t, s->next, &p);
+    path_emit(s->t, &p);
     return true;
 }
 

@@ -1,6 +1,9 @@
+#include <stdlib.h>
+
 #include "math/elementary.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
+#include "trace/scratch.h"
 #include "trace/sky.h"
 
 static const double zero = 1e-10; // spec/lighting.md 0
@@ -42,63 +45,226 @@ static struct rgb occluder_filter(struct tracer *t, const struct interaction *at
     return o.pass;
 }
 
-struct rgb shadow_filter(struct tracer *t, const struct shadow_request *r)
+// ---- among transparent things --------------------------------------------------------
+
+// A shadow ray on its way to the lamp.
+struct shadow_walk {
+    const struct inside *inside;
+    struct rgb pass;
+    double t; // so far
+    uint32_t ray;
+};
+
+static const struct rgb none = {0, 0, 0}, all = {1, 1, 1};
+
+static struct rgb surface_pass(struct tracer *t, const struct ray *ray,
+                               const struct hit *hit, const struct surface *surface)
 {
-    const struct job *job = t->job;
+    const struct even_pass *known = &t->job->pass[surface - t->job->world->surface];
+    if (known->known)
+        return known->pass;
+    struct interaction at;
+    trace_interaction(t->job->world, ray, hit, &at);
+    return occluder_filter(t, &at, ray->d);
+}
+
+// Crosses the surface that was hit; false: nothing passes.
+static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
+                    const struct hit *hit)
+{
+    const struct world *w = t->job->world;
+    const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
+    struct rgb pass = none;
+    if (!surface->opaque)
+        pass = surface_pass(t, ray, hit, surface);
+    const struct interior *x = surface->interior;
+    if (inside_find(s->inside, x)) {
+        if (x->fade_power > 0 && fabs(x->fade_distance) > zero)
+            pass = rgb_mul(pass, interior_fade(x, hit->b.t - s->t));
+        s->inside = inside_remove(t->arena, s->inside, x);
+    } else {
+        s->inside = inside_enter(t, s->inside, x);
+    }
+    s->pass = rgb_mul(s->pass, pass);
+    s->t = hit->b.t;
+    if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)zero)
+        return true;
+    s->pass = none;
+    return false;
+}
+
+// The light that passes, with opaque objects known not to be in the way.
+static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r)
+{
+    struct shadow_walk s = {r->inside, all, 0, 0};
     struct ray_query q = {{r->o, r->d, 0, r->t_max}, OBJECT_NO_SHADOW};
-    const struct inside *inside = r->inside;
-    struct rgb c = {1, 1, 1};
-    for (;;) {
-        const struct hit hit = trace_closest_1(job->world, t->scratch, &q);
-        if (!(hit.b.t < r->t_max))
-            return c;
-        struct interaction at;
-        trace_interaction(job->world, &q.ray, &hit, &at);
-        if (at.surface->opaque)
-            return rgb(0, 0, 0);
-        struct rgb pass = occluder_filter(t, &at, r->d);
-        const struct interior *x = at.surface->interior;
-        if (inside_find(inside, x)) {
-            if (x->fade_power > 0 && fabs(x->fade_distance) > zero)
-                pass = rgb_mul(pass, interior_fade(x, hit.b.t - q.ray.t_min));
-            inside = inside_remove(t->arena, inside, x);
-        } else {
-            inside = inside_push(t->arena, inside, x);
+    struct hit hit;
+    do {
+        q.ray.t_min = s.t;
+        hit = trace_closest_1(t->job->world, t->scratch, &q);
+    } while (hit.b.t < r->t_max && walk_on(t, &s, &q.ray, &hit));
+    return s.pass;
+}
+
+static struct ray batch_ray(const struct ray_batch *b, uint32_t k)
+{
+    return (struct ray){{b->o[0][k], b->o[1][k], b->o[2][k]},
+                        {b->d[0][k], b->d[1][k], b->d[2][k]},
+                        b->t_min[k],
+                        b->t_max[k]};
+}
+
+static bool meets_clear(const struct job *job, const struct ray *ray)
+{
+    const struct box_ray r = box_ray_of(ray);
+    double t;
+    for (uint32_t i = 0; i < job->clear_count; i++)
+        if (box_meets(&job->clear[i], &r, &t))
+            return true;
+    return false;
+}
+
+static void walk_put(struct ray_batch *to, uint32_t i, const struct ray_batch *from,
+                     const struct shadow_walk *s)
+{
+    for (int a = 0; a < 3; a++) {
+        to->o[a][i] = from->o[a][s->ray];
+        to->d[a][i] = from->d[a][s->ray];
+    }
+    to->t_min[i] = s->t;
+    to->t_max[i] = from->t_max[s->ray];
+}
+
+// The same for the rays of a batch that nothing opaque stops: those that meet surfaces
+// go from one to the next together.
+static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
+{
+    struct shadow_walk *s = t->walk;
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        b->pass[k] = all;
+        const struct ray ray = batch_ray(b->rays, k);
+        if (!b->occluded[k] && meets_clear(t->job, &ray))
+            s[n++] = (struct shadow_walk){wave_inside(t, b->slot[k]), all, 0, k};
+    }
+    while (n) {
+        for (uint32_t i = 0; i < n; i++)
+            walk_put(t->walk_rays, i, b->rays, &s[i]);
+        t->walk_rays->count = n;
+        trace_closest(t->job->world, t->scratch, t->walk_rays, t->walk_hit);
+        uint32_t left = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            const struct ray ray = batch_ray(t->walk_rays, i);
+            const bool on = t->walk_hit[i].b.t < ray.t_max &&
+                            walk_on(t, &s[i], &ray, &t->walk_hit[i]);
+            b->pass[s[i].ray] = s[i].pass;
+            if (on)
+                s[left++] = s[i];
         }
-        if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) < (float)zero)
-            return rgb(0, 0, 0);
-        c = rgb_mul(c, pass);
-        q.ray.t_min = hit.b.t;
+        n = left;
     }
 }
 
 // Fog on the way to the light, for lights that are attenuated by it.
-static struct rgb shadow_fog(struct tracer *t, const struct shadow_request *r,
-                             struct rgb c)
+static bool fog_counts(const struct job *job, uint32_t lamp, const struct inside *inside)
 {
-    const struct light *light = t->job->lamp[r->lamp].light;
-    if (!light->media_attenuation || !light->media_interaction || !t->job->atmosphere ||
-        !t->job->scene->fog_count || !inside_hollow(r->inside))
-        return c;
-    return rgb_mul(c, fog_filter(t->job, r->o, r->d, r->t_max));
-}
-
-static struct rgb shadow_rest(struct tracer *t, const struct shadow_request *r)
-{
-    struct rgb c = {1, 1, 1};
-    if (t->job->world->has_transparent)
-        c = shadow_filter(t, r);
-    return shadow_fog(t, r, c);
+    const struct light *light = job->lamp[lamp].light;
+    return light->media_attenuation && light->media_interaction && job->atmosphere &&
+           job->scene->fog_count && inside_hollow(inside);
 }
 
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
 {
     if (!(r->t_max > 0))
-        return rgb(1, 1, 1);
+        return all;
     const struct ray_query q = {{r->o, r->d, 0, r->t_max}, OBJECT_NO_SHADOW};
     if (trace_occluded_1(t->job->world, t->scratch, &q))
-        return rgb(0, 0, 0);
-    return shadow_rest(t, r);
+        return none;
+    struct rgb c = all;
+    if (t->job->world->has_transparent)
+        c = walk_alone(t, r);
+    if (fog_counts(t->job, r->lamp, r->inside))
+        c = rgb_mul(c, fog_filter(t->job, r->o, r->d, r->t_max));
+    return c;
+}
+
+// ---- batches -------------------------------------------------------------------------
+
+static void *must_alloc(size_t count, size_t size)
+{
+    void *p = calloc(count, size);
+    if (!p)
+        abort();
+    return p;
+}
+
+static struct ray_batch *shadow_rays_new(void)
+{
+    struct ray_batch *b = ray_batch_new(BATCH_SIZE);
+    for (uint32_t i = 0; i < b->capacity; i++) {
+        b->t_min[i] = 0;
+        b->hidden_by[i] = OBJECT_NO_SHADOW;
+    }
+    return b;
+}
+
+void shadow_init(struct tracer *t)
+{
+    t->simple.rays = shadow_rays_new();
+    t->rest.rays = shadow_rays_new();
+    t->shadow = must_alloc(BATCH_SIZE, sizeof *t->shadow);
+    t->shadow_order = must_alloc(BATCH_SIZE, sizeof *t->shadow_order);
+    t->lamp_begin = must_alloc(t->job->lamp_count + 1, sizeof *t->lamp_begin);
+    if (!t->job->world->has_transparent)
+        return;
+    t->simple.pass = must_alloc(BATCH_SIZE, sizeof *t->simple.pass);
+    t->rest.pass = must_alloc(BATCH_SIZE, sizeof *t->rest.pass);
+    t->walk = must_alloc(BATCH_SIZE, sizeof *t->walk);
+    t->walk_hit = must_alloc(BATCH_SIZE, sizeof *t->walk_hit);
+    t->walk_rays = shadow_rays_new();
+}
+
+void shadow_end(struct tracer *t)
+{
+    ray_batch_free(t->simple.rays);
+    ray_batch_free(t->rest.rays);
+    ray_batch_free(t->walk_rays);
+    free(t->simple.pass);
+    free(t->rest.pass);
+    free(t->walk);
+    free(t->walk_hit);
+    free(t->shadow);
+    free(t->shadow_order);
+    free(t->lamp_begin);
+}
+
+static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count)
+{
+    b->rays->count = count;
+    trace_occluded(t->job->world, t->scratch, b->rays, b->occluded);
+    if (b->pass)
+        walk_batch(t, b, count);
+}
+
+static void light_add(struct tracer *t, uint32_t slot, struct rgb c)
+{
+    t->wave.lit[0][slot] += c.r;
+    t->wave.lit[1][slot] += c.g;
+    t->wave.lit[2][slot] += c.b;
+}
+
+void shadow_flush_simple(struct tracer *t, uint32_t count)
+{
+    struct shadow_batch *b = &t->simple;
+    batch_trace(t, b, count);
+    for (uint32_t k = 0; k < count; k++) {
+        if (b->occluded[k])
+            continue;
+        struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
+        if (b->pass)
+            c = rgb_mul(c, b->pass[k]);
+        light_add(t, b->slot[k], c);
+    }
 }
 
 void shadow_add(struct tracer *t, const struct shadow_request *r)
@@ -108,17 +274,16 @@ void shadow_add(struct tracer *t, const struct shadow_request *r)
         shadow_flush(t);
 }
 
-static void shadow_put(struct ray_batch *b, uint32_t i, const struct shadow_request *r)
+static void shadow_put(struct shadow_batch *b, uint32_t i, const struct shadow_request *r)
 {
-    b->o[0][i] = r->o.x;
-    b->o[1][i] = r->o.y;
-    b->o[2][i] = r->o.z;
-    b->d[0][i] = r->d.x;
-    b->d[1][i] = r->d.y;
-    b->d[2][i] = r->d.z;
-    b->t_min[i] = 0;
-    b->t_max[i] = r->t_max;
-    b->hidden_by[i] = OBJECT_NO_SHADOW;
+    b->rays->o[0][i] = r->o.x;
+    b->rays->o[1][i] = r->o.y;
+    b->rays->o[2][i] = r->o.z;
+    b->rays->d[0][i] = r->d.x;
+    b->rays->d[1][i] = r->d.y;
+    b->rays->d[2][i] = r->d.z;
+    b->rays->t_max[i] = r->t_max;
+    b->slot[i] = (uint16_t)r->slot;
 }
 
 // Rays to the same lamp side by side, so that packets stay together.
@@ -146,19 +311,24 @@ static void shadow_sort(struct tracer *t)
 void shadow_flush(struct tracer *t)
 {
     const uint32_t count = t->shadow_count;
+    struct shadow_batch *b = &t->rest;
     if (!count)
         return;
     shadow_sort(t);
     for (uint32_t i = 0; i < count; i++)
-        shadow_put(t->shadow_rays, t->shadow_order[i], &t->shadow[i]);
-    t->shadow_rays->count = count;
-    trace_occluded(t->job->world, t->scratch, t->shadow_rays, t->occluded);
+        shadow_put(b, t->shadow_order[i], &t->shadow[i]);
+    batch_trace(t, b, count);
     t->shadow_count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (t->occluded[t->shadow_order[i]])
+        const uint32_t k = t->shadow_order[i];
+        if (b->occluded[k])
             continue;
         const struct shadow_request *r = &t->shadow[i];
-        const struct rgb c = rgb_mul(r->value, shadow_rest(t, r));
-        t->sum[r->sample].lit = rgb_add(t->sum[r->sample].lit, c);
+        struct rgb c = r->value;
+        if (b->pass)
+            c = rgb_mul(c, b->pass[k]);
+        if (fog_counts(t->job, r->lamp, r->inside))
+            c = rgb_mul(c, fog_filter(t->job, r->o, r->d, r->t_max));
+        light_add(t, r->slot, c);
     }
 }

@@ -10,6 +10,7 @@
 #include "trace/job.h"
 
 struct arena;
+struct simple_group;
 
 // The interiors a ray is inside, the last entered first; never changed once made, so
 // that rays share tails.
@@ -19,6 +20,14 @@ struct inside {
     bool hollow; // this one and all outer ones
 };
 
+// The list that was pushed to last, and what came of it: most rays enter what their
+// neighbours have entered.
+struct inside_pushed {
+    const struct inside *list;
+    const struct interior *interior;
+    const struct inside *pushed;
+};
+
 static inline bool inside_hollow(const struct inside *i) { return !i || i->hollow; }
 
 enum path_flags {
@@ -26,30 +35,33 @@ enum path_flags {
     PATH_CONTINUED = 1 << 1, // went straight on: its hit is not a new level
 };
 
+enum { BATCH_SIZE = 1024 };
+
 // A ray on its way, and what its colour counts for. A picture's sample is a sum over
 // such rays: colours are linear in `through`.
 struct path {
     struct vec3 o, d; // d unit
     const struct inside *inside;
     struct rgb through;
-    float through_t;   // how much of what passes is seen as transparency
-    float weight;      // for adc_bailout: an upper bound as the language defines it
-    float wavelength;  // nm; 0: white
-    uint32_t sample;   // index into tracer sums
-    uint32_t hash;     // of the way here; the only source of randomness
+    float through_t;  // how much of what passes is seen as transparency
+    float weight;     // for adc_bailout: an upper bound as the language defines it
+    float wavelength; // nm; 0: white
+    uint32_t sample;  // index into tracer sums
+    uint32_t hash;    // of the way here; the only source of randomness
     uint16_t level;
+    uint16_t parent; // place in its batch of the ray it comes from
     uint8_t flags;
 };
 
+// Rays that wait. `order` says in which order they count: that of their parents.
 struct path_queue {
     struct path *at;
+    uint32_t *order;
     uint32_t count, capacity;
 };
 
-// Light collected by one sample. Direct light that waits for shadow tests is summed
-// apart: its order among itself is fixed, against the rest it is not.
 struct sample_sum {
-    struct rgb local, lit;
+    struct rgb light;
     float t;
 };
 
@@ -59,7 +71,7 @@ struct shadow_request {
     double t_max;
     struct rgb value; // added when nothing is in the way
     const struct inside *inside;
-    uint32_t sample, lamp;
+    uint32_t slot, lamp;
 };
 
 // A mirrored ray whose colour is raised to a power: it is traced as a sample of its
@@ -71,23 +83,57 @@ struct power_request {
     uint32_t sample;
 };
 
-enum { BATCH_SIZE = 1024 };
+// The rays that are traced together: at most BATCH_SIZE of a generation. Each has a slot,
+// its place in the order of the generation; the rays themselves may stand in another
+// order. Light is collected by slot and then added to the samples slot by slot: the sum
+// does not depend on the order in which the hits of a batch are shaded.
+struct wavefront {
+    uint32_t count;
+    const struct path *path; // with order, of each slot; NULL: straight from the camera
+    const uint32_t *order;
+    const struct vec2 *position; // of each slot, straight from the camera
+    struct path_queue *next;
+    uint16_t slot[BATCH_SIZE]; // of each ray
+    // By slot: light that came unhindered, light that passed a shadow test, transparency.
+    float own[3][BATCH_SIZE], lit[3][BATCH_SIZE], t[BATCH_SIZE];
+    float through[3][BATCH_SIZE];
+};
+
+// Shadow rays to one lamp after the other; what each adds to which slot.
+struct shadow_batch {
+    struct ray_batch *rays;
+    float value[3][BATCH_SIZE];
+    uint16_t slot[BATCH_SIZE];
+    uint8_t occluded[BATCH_SIZE];
+    struct rgb *pass; // what transparent things and fog let through; NULL: all
+};
 
 // What one thread needs to trace.
 struct tracer {
     const struct job *job;
     struct trace_scratch *scratch;
     struct arena *arena; // interiors of the current tile
-    struct ray_batch *rays, *shadow_rays;
+    struct ray_batch *rays;
     struct hit *hit;
-    uint8_t *occluded;
-    struct shadow_request *shadow;
+    struct wavefront wave;
+    uint32_t slot;                    // of the ray that is shaded alone
+    struct shadow_batch simple, rest; // of simple surfaces and of all others
+    struct shadow_request *shadow;    // what waits for `rest`
     uint32_t shadow_count;
     uint32_t *shadow_order, *lamp_begin;
+    struct shadow_walk *walk; // shadow rays among transparent things
+    struct ray_batch *walk_rays;
+    struct hit *walk_hit;
+    struct simple_group *group;                                 // BATCH_SIZE / 8 of them
+    uint16_t *class_head, *class_tail, *class_link, *class_ray; // trace/simple.c
+    uint32_t *class_seen, class_count;
     struct sample_sum *sum;
     uint32_t sum_count, sum_capacity;
     struct power_request *power;
     uint32_t power_count, power_capacity;
+    struct wave_frame *frame;
+    struct path_queue camera_queue;
+    struct inside_pushed last_push;
     struct arena *camera_arena;
     const struct inside *camera_inside; // of a camera with one eye
     uint64_t samples;
@@ -112,28 +158,42 @@ void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t coun
                     float (*out)[4]);
 
 // ---- between the parts of the tracer ------------------------------------
-// Traces a queue to its end, adding to the sums.
-void wave_run(struct tracer *t, struct path_queue *queue);
-struct path *path_queue_add(struct path_queue *q);
-
-// Adds what a hit sends towards the camera; rays that go on are appended to next.
-void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit,
-               struct path_queue *next);
+// Adds what a hit sends towards the camera; rays that go on are appended to the wave's
+// next. The slot is the tracer's.
+void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit);
 void shade_miss(struct tracer *t, const struct path *path);
 
+// The ray of a slot of the wave, and the interiors it is inside.
+struct path wave_path(const struct tracer *t, uint32_t slot);
+const struct inside *wave_inside(const struct tracer *t, uint32_t slot);
+
+struct path *path_queue_add(struct path_queue *q);
 // Appends a ray unless its level or weight says that it counts nothing.
-void path_emit(struct tracer *t, struct path_queue *next, const struct path *path);
+static inline bool path_counts(const struct job *job, int level, float weight)
+{
+    return level < job->max_level && weight >= job->adc_bailout;
+}
+void path_emit(struct tracer *t, const struct path *path);
 void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
                 float exponent);
 
+void shadow_init(struct tracer *t);
+void shadow_end(struct tracer *t);
 void shadow_add(struct tracer *t, const struct shadow_request *r);
+// Traces what waits.
 void shadow_flush(struct tracer *t);
+// Traces the first `count` shadow rays of simple surfaces.
+void shadow_flush_simple(struct tracer *t, uint32_t count);
 // What passes of light that runs along the request's ray.
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r);
-// The same with opaque objects known not to be in the way.
-struct rgb shadow_filter(struct tracer *t, const struct shadow_request *r);
 
-void tracer_add(struct tracer *t, uint32_t sample, struct rgb c);
+// Adds to the slot of the tracer.
+static inline void tracer_add(struct tracer *t, struct rgb c)
+{
+    t->wave.own[0][t->slot] += c.r;
+    t->wave.own[1][t->slot] += c.g;
+    t->wave.own[2][t->slot] += c.b;
+}
 
 static inline uint32_t hash_mix(uint32_t h, uint32_t v)
 {

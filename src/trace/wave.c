@@ -1,9 +1,10 @@
-#include <stdlib.h>
+#include "trace/wave.h"
 
-#include "base/arena.h"
+#include <stdlib.h>
+#include <string.h>
+
 #include "math/elementary.h"
-#include "trace/inside.h"
-#include "trace/tracer.h"
+#include "trace/simple.h"
 
 // A generation with more rays than this is traced in pieces, so that memory stays
 // bounded however strongly rays branch. Pieces are whole samples, or, of one sample
@@ -16,65 +17,64 @@ struct wave_frame {
     struct wave_frame *deeper;
 };
 
-static void *grow(void *at, uint32_t *capacity, size_t size)
+static void *grow(void *at, uint32_t capacity, size_t size)
 {
-    *capacity = *capacity ? 2 * *capacity : 256;
-    at = realloc(at, *capacity * size);
+    at = realloc(at, capacity * size);
     if (!at)
         abort();
     return at;
 }
 
+static uint32_t more(uint32_t capacity) { return capacity ? 2 * capacity : 256; }
+
 struct path *path_queue_add(struct path_queue *q)
 {
-    if (q->count == q->capacity)
-        q->at = grow(q->at, &q->capacity, sizeof *q->at);
+    if (q->count == q->capacity) {
+        q->capacity = more(q->capacity);
+        q->at = grow(q->at, q->capacity, sizeof *q->at);
+        q->order = grow(q->order, q->capacity, sizeof *q->order);
+    }
+    q->order[q->count] = q->count;
     return &q->at[q->count++];
 }
 
-void path_emit(struct tracer *t, struct path_queue *next, const struct path *path)
+void path_queue_free(struct path_queue *q)
 {
-    if (path->level < t->job->max_level && path->weight >= t->job->adc_bailout)
-        *path_queue_add(next) = *path;
+    free(q->at);
+    free(q->order);
+}
+
+void path_emit(struct tracer *t, const struct path *path)
+{
+    if (!path_counts(t->job, path->level, path->weight))
+        return;
+    struct path *p = path_queue_add(t->wave.next);
+    *p = *path;
+    p->parent = (uint16_t)t->slot;
 }
 
 void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
                 float exponent)
 {
-    if (path->level >= t->job->max_level || path->weight < t->job->adc_bailout)
+    if (!path_counts(t->job, path->level, path->weight))
         return;
-    if (t->power_count == t->power_capacity)
-        t->power = grow(t->power, &t->power_capacity, sizeof *t->power);
+    if (t->power_count == t->power_capacity) {
+        t->power_capacity = more(t->power_capacity);
+        t->power = grow(t->power, t->power_capacity, sizeof *t->power);
+    }
     t->power[t->power_count++] =
         (struct power_request){*path, factor, exponent, path->sample};
 }
 
-void tracer_add(struct tracer *t, uint32_t sample, struct rgb c)
+void wave_sums_grow(struct tracer *t, uint32_t count)
 {
-    struct sample_sum *s = &t->sum[sample];
-    s->local = rgb_add(s->local, c);
-}
-
-static void sums_grow(struct tracer *t, uint32_t count)
-{
-    while (t->sum_count + count > t->sum_capacity)
-        t->sum = grow(t->sum, &t->sum_capacity, sizeof *t->sum);
+    while (t->sum_count + count > t->sum_capacity) {
+        t->sum_capacity = more(t->sum_capacity);
+        t->sum = grow(t->sum, t->sum_capacity, sizeof *t->sum);
+    }
     for (uint32_t i = 0; i < count; i++)
         t->sum[t->sum_count + i] = (struct sample_sum){0};
     t->sum_count += count;
-}
-
-static void batch_put(struct ray_batch *b, uint32_t i, const struct path *p)
-{
-    b->o[0][i] = p->o.x;
-    b->o[1][i] = p->o.y;
-    b->o[2][i] = p->o.z;
-    b->d[0][i] = p->d.x;
-    b->d[1][i] = p->d.y;
-    b->d[2][i] = p->d.z;
-    b->t_min[i] = 0;
-    b->t_max[i] = INFINITY;
-    b->hidden_by[i] = p->flags & PATH_REFLECTED ? OBJECT_NO_REFLECTION : OBJECT_NO_IMAGE;
 }
 
 static float powered(float c, float exponent)
@@ -88,9 +88,11 @@ static void powers_run(struct tracer *t)
 {
     const uint32_t count = t->power_count, base = t->sum_count;
     struct power_request *request = t->power;
+    struct wave_frame *frame = t->frame;
     t->power = NULL;
+    t->frame = NULL;
     t->power_count = t->power_capacity = 0;
-    sums_grow(t, count);
+    wave_sums_grow(t, count);
     struct path_queue queue = {0};
     for (uint32_t i = 0; i < count; i++) {
         struct path *p = path_queue_add(&queue);
@@ -98,36 +100,171 @@ static void powers_run(struct tracer *t)
         p->sample = base + i;
     }
     wave_run(t, &queue);
+    wave_frames_free(t->frame);
+    t->frame = frame;
     for (uint32_t i = 0; i < count; i++) {
-        const struct sample_sum *s = &t->sum[base + i];
-        const struct rgb c = rgb_add(s->local, s->lit);
+        const struct rgb c = t->sum[base + i].light;
         const float e = request[i].exponent;
-        tracer_add(t, request[i].sample,
-                   rgb_mul(request[i].factor,
-                           rgb(powered(c.r, e), powered(c.g, e), powered(c.b, e))));
+        struct sample_sum *s = &t->sum[request[i].sample];
+        s->light = rgb_add(
+            s->light, rgb_mul(request[i].factor,
+                              rgb(powered(c.r, e), powered(c.g, e), powered(c.b, e))));
     }
     t->sum_count = base;
-    free(queue.at);
+    path_queue_free(&queue);
     free(request);
 }
 
-static void generation(struct tracer *t, const struct path *path, uint32_t count,
-                       struct path_queue *next)
+// ---- batches --------------------------------------------------------------
+
+struct path wave_path(const struct tracer *t, uint32_t slot)
 {
-    for (uint32_t begin = 0; begin < count; begin += BATCH_SIZE) {
-        const uint32_t n = count - begin < BATCH_SIZE ? count - begin : BATCH_SIZE;
-        for (uint32_t i = 0; i < n; i++)
-            batch_put(t->rays, i, &path[begin + i]);
-        t->rays->count = n;
-        trace_closest(t->job->world, t->scratch, t->rays, t->hit);
-        for (uint32_t i = 0; i < n; i++) {
-            if (t->hit[i].b.t < INFINITY)
-                shade_hit(t, &path[begin + i], &t->hit[i], next);
-            else
-                shade_miss(t, &path[begin + i]);
+    const struct wavefront *w = &t->wave;
+    if (w->path)
+        return w->path[w->order[slot]];
+    return (struct path){
+        .o = {t->rays->o[0][slot], t->rays->o[1][slot], t->rays->o[2][slot]},
+        .d = {t->rays->d[0][slot], t->rays->d[1][slot], t->rays->d[2][slot]},
+        .inside = t->camera_inside,
+        .through = {1, 1, 1},
+        .through_t = 1,
+        .weight = 1,
+        .sample = slot,
+        .hash = tracer_position_hash(w->position[slot])};
+}
+
+const struct inside *wave_inside(const struct tracer *t, uint32_t slot)
+{
+    const struct wavefront *w = &t->wave;
+    return w->path ? w->path[w->order[slot]].inside : t->camera_inside;
+}
+
+// Rays that leave in similar directions side by side, so that packets stay together.
+static unsigned ray_key(const struct path *p)
+{
+    return (unsigned)(p->d.x < 0) | (unsigned)(p->d.y < 0) << 1 |
+           (unsigned)(p->d.z < 0) << 2 | (unsigned)(p->flags & PATH_REFLECTED) << 3;
+}
+
+static void wave_put(struct tracer *t)
+{
+    enum { KEYS = 16 };
+    struct wavefront *w = &t->wave;
+    struct ray_batch *b = t->rays;
+    uint16_t begin[KEYS + 1] = {0};
+    uint8_t key[BATCH_SIZE];
+    for (uint32_t i = 0; i < w->count; i++) {
+        key[i] = (uint8_t)ray_key(&w->path[w->order[i]]);
+        begin[key[i] + 1]++;
+    }
+    for (int i = 1; i < KEYS; i++)
+        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
+    for (uint32_t i = 0; i < w->count; i++) {
+        const struct path *p = &w->path[w->order[i]];
+        const uint32_t k = begin[key[i]]++;
+        b->o[0][k] = p->o.x;
+        b->o[1][k] = p->o.y;
+        b->o[2][k] = p->o.z;
+        b->d[0][k] = p->d.x;
+        b->d[1][k] = p->d.y;
+        b->d[2][k] = p->d.z;
+        b->hidden_by[k] =
+            p->flags & PATH_REFLECTED ? OBJECT_NO_REFLECTION : OBJECT_NO_IMAGE;
+        w->slot[k] = (uint16_t)i;
+        w->through[0][i] = p->through.r;
+        w->through[1][i] = p->through.g;
+        w->through[2][i] = p->through.b;
+    }
+    b->count = w->count;
+}
+
+// Brings the rays emitted since `first` into the order of their parents.
+static void emitted_sort(struct path_queue *q, uint32_t first)
+{
+    uint32_t begin[BATCH_SIZE + 1] = {0};
+    bool sorted = true;
+    for (uint32_t i = first + 1; i < q->count && sorted; i++)
+        sorted = q->at[i - 1].parent <= q->at[i].parent;
+    if (sorted)
+        return;
+    for (uint32_t i = first; i < q->count; i++)
+        begin[q->at[i].parent + 1]++;
+    for (int i = 1; i <= BATCH_SIZE; i++)
+        begin[i] += begin[i - 1];
+    for (uint32_t i = first; i < q->count; i++)
+        q->order[first + begin[q->at[i].parent]++] = i;
+}
+
+static void missed(struct tracer *t, uint32_t k)
+{
+    const struct job *job = t->job;
+    struct wavefront *w = &t->wave;
+    t->slot = w->slot[k];
+    if (!job->even_sky) {
+        const struct path p = wave_path(t, t->slot);
+        shade_miss(t, &p);
+        return;
+    }
+    const bool opaque = t->rays->hidden_by[k] == OBJECT_NO_REFLECTION;
+    const struct rgb c = job->sky[opaque];
+    const float through_t = w->path ? w->path[w->order[t->slot]].through_t : 1;
+    tracer_add(t, rgb_mul(rgb(w->through[0][t->slot], w->through[1][t->slot],
+                              w->through[2][t->slot]),
+                          c));
+    w->t[t->slot] += through_t * job->sky_clear[opaque];
+}
+
+static void sums_add(struct tracer *t)
+{
+    const struct wavefront *w = &t->wave;
+    for (uint32_t i = 0; i < w->count; i++) {
+        struct sample_sum *s = &t->sum[w->path ? w->path[w->order[i]].sample : i];
+        s->light = rgb_add(s->light,
+                           rgb(w->own[0][i] + w->lit[0][i], w->own[1][i] + w->lit[1][i],
+                               w->own[2][i] + w->lit[2][i]));
+        s->t += w->t[i];
+    }
+}
+
+// Traces and shades the rays of the batch.
+static void wave_trace(struct tracer *t)
+{
+    struct wavefront *w = &t->wave;
+    for (int k = 0; k < 3; k++) {
+        memset(w->own[k], 0, w->count * sizeof w->own[k][0]);
+        memset(w->lit[k], 0, w->count * sizeof w->lit[k][0]);
+    }
+    memset(w->t, 0, w->count * sizeof w->t[0]);
+    const uint32_t first = w->next->count;
+    trace_closest(t->job->world, t->scratch, t->rays, t->hit);
+    for (uint32_t k = 0; k < w->count; k++) {
+        if (!(t->hit[k].b.t < INFINITY)) {
+            missed(t, k);
+        } else if (!simple_take(t, k)) {
+            t->slot = w->slot[k];
+            const struct path p = wave_path(t, t->slot);
+            shade_hit(t, &p, &t->hit[k]);
         }
     }
+    simple_shade(t);
     shadow_flush(t);
+    sums_add(t);
+    emitted_sort(w->next, first);
+}
+
+// Traces rays of a generation; what they send on is appended to next.
+static void generation(struct tracer *t, const struct path *path, const uint32_t *order,
+                       uint32_t count, struct path_queue *next)
+{
+    struct wavefront *w = &t->wave;
+    for (uint32_t begin = 0; begin < count; begin += BATCH_SIZE) {
+        w->count = count - begin < BATCH_SIZE ? count - begin : BATCH_SIZE;
+        w->path = path;
+        w->order = order + begin;
+        w->next = next;
+        wave_put(t);
+        wave_trace(t);
+    }
     if (t->power_count)
         powers_run(t);
 }
@@ -138,153 +275,89 @@ static uint32_t piece(const struct path_queue *q, uint32_t begin)
     const uint32_t left = q->count - begin;
     if (left <= WAVE_MAX)
         return left;
-    const uint32_t first = q->at[begin].sample;
+    const uint32_t first = q->at[q->order[begin]].sample;
     uint32_t end = begin + WAVE_MAX;
-    if (q->at[end].sample == first)
+    if (q->at[q->order[end]].sample == first)
         return WAVE_MAX; // a part of one sample; its rest may join the next piece
-    while (q->at[end].sample == q->at[end - 1].sample)
+    while (q->at[q->order[end]].sample == q->at[q->order[end - 1]].sample)
         end--;
     return end - begin;
 }
 
-static void frame_run(struct tracer *t, struct wave_frame **slot, struct path *path,
-                      uint32_t count)
+static struct wave_frame *frame_at(struct wave_frame **slot)
 {
     if (!*slot && !(*slot = calloc(1, sizeof **slot)))
         abort();
-    struct wave_frame *f = *slot;
-    int turn = 0;
-    while (count) {
-        struct path_queue *next = &f->next[turn];
-        next->count = 0;
-        generation(t, path, count, next);
-        if (next->count > WAVE_MAX) {
-            for (uint32_t i = 0, n; i < next->count; i += n) {
-                n = piece(next, i);
-                frame_run(t, &f->deeper, next->at + i, n);
+    return *slot;
+}
+
+static void frame_run(struct tracer *t, struct wave_frame **slot, const struct path *path,
+                      const uint32_t *order, uint32_t count);
+
+// Traces what a generation sent on, and all that comes of it.
+static void next_run(struct tracer *t, struct wave_frame *f, int turn)
+{
+    for (;;) {
+        const struct path_queue *q = &f->next[turn];
+        if (q->count > WAVE_MAX) {
+            for (uint32_t i = 0, n; i < q->count; i += n) {
+                n = piece(q, i);
+                frame_run(t, &f->deeper, q->at, q->order + i, n);
             }
             return;
         }
-        path = next->at;
-        count = next->count;
+        if (!q->count)
+            return;
         turn = !turn;
+        f->next[turn].count = 0;
+        generation(t, q->at, q->order, q->count, &f->next[turn]);
     }
 }
 
-void wave_run(struct tracer *t, struct path_queue *queue)
+static void frame_run(struct tracer *t, struct wave_frame **slot, const struct path *path,
+                      const uint32_t *order, uint32_t count)
 {
-    struct wave_frame *frame = NULL;
-    for (uint32_t i = 0, n; i < queue->count; i += n) {
-        n = piece(queue, i);
-        frame_run(t, &frame, queue->at + i, n);
-    }
+    struct wave_frame *f = frame_at(slot);
+    f->next[0].count = 0;
+    generation(t, path, order, count, &f->next[0]);
+    next_run(t, f, 0);
+}
+
+void wave_frames_free(struct wave_frame *frame)
+{
     while (frame) {
         struct wave_frame *deeper = frame->deeper;
-        free(frame->next[0].at);
-        free(frame->next[1].at);
+        path_queue_free(&frame->next[0]);
+        path_queue_free(&frame->next[1]);
         free(frame);
         frame = deeper;
     }
 }
 
-struct tracer *tracer_new(const struct job *job)
+void wave_run(struct tracer *t, const struct path_queue *queue)
 {
-    struct tracer *t = calloc(1, sizeof *t);
-    if (!t)
-        abort();
-    t->job = job;
-    t->scratch = trace_scratch_new(job->world);
-    t->arena = arena_new(64 * 1024);
-    t->camera_arena = arena_new(1024);
-    t->rays = ray_batch_new(BATCH_SIZE);
-    t->shadow_rays = ray_batch_new(BATCH_SIZE);
-    t->hit = calloc(BATCH_SIZE, sizeof *t->hit);
-    t->occluded = calloc(BATCH_SIZE, 1);
-    t->shadow = calloc(BATCH_SIZE, sizeof *t->shadow);
-    t->shadow_order = calloc(BATCH_SIZE, sizeof *t->shadow_order);
-    t->lamp_begin = calloc(job->lamp_count + 1, sizeof *t->lamp_begin);
-    if (!t->hit || !t->occluded || !t->shadow || !t->shadow_order || !t->lamp_begin)
-        abort();
-    if (camera_has_one_eye(job->camera))
-        t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
-    return t;
+    for (uint32_t i = 0, n; i < queue->count; i += n) {
+        n = piece(queue, i);
+        frame_run(t, &t->frame, queue->at, queue->order + i, n);
+    }
 }
 
-void tracer_free(struct tracer *t)
+void wave_run_camera(struct tracer *t, const struct vec2 *position, uint32_t count)
 {
-    trace_scratch_free(t->scratch);
-    arena_free(t->arena);
-    arena_free(t->camera_arena);
-    ray_batch_free(t->rays);
-    ray_batch_free(t->shadow_rays);
-    free(t->hit);
-    free(t->occluded);
-    free(t->shadow);
-    free(t->shadow_order);
-    free(t->lamp_begin);
-    free(t->sum);
-    free(t->power);
-    free(t);
-}
-
-// The random numbers of a sample depend on its place alone.
-static uint32_t position_hash(struct vec2 p)
-{
-    // 1/1024 of a pixel tells all sample places apart.
-    const int32_t x = (int32_t)floor(p.u * 1024), y = (int32_t)floor(p.v * 1024);
-    return hash_mix(hash_mix(1, (uint32_t)x), (uint32_t)y);
-}
-
-void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
-                 float (*out)[4])
-{
-    arena_reset(t->arena);
-    t->sum_count = 0;
-    sums_grow(t, count);
-    struct path_queue queue = {0};
+    struct wave_frame *f = frame_at(&t->frame);
+    struct wavefront *w = &t->wave;
+    f->next[0].count = 0;
+    w->count = t->rays->count = count;
+    w->path = NULL;
+    w->position = position;
+    w->next = &f->next[0];
     for (uint32_t i = 0; i < count; i++) {
-        if (!ray[i].exists) {
-            t->sum[i].t = 1;
-            continue;
-        }
-        struct path *p = path_queue_add(&queue);
-        *p = (struct path){.o = ray[i].ray.o,
-                           .d = ray[i].ray.d,
-                           .through = {1, 1, 1},
-                           .through_t = 1,
-                           .weight = 1,
-                           .sample = i,
-                           .hash = position_hash(ray[i].position)};
-        p->inside = camera_has_one_eye(t->job->camera)
-                        ? t->camera_inside
-                        : inside_at(t->arena, t->job->world, p->o);
+        w->slot[i] = (uint16_t)i;
+        for (int k = 0; k < 3; k++)
+            w->through[k][i] = 1;
     }
-    wave_run(t, &queue);
-    free(queue.at);
-    for (uint32_t i = 0; i < count; i++) {
-        const struct sample_sum *s = &t->sum[i];
-        const struct rgb c = rgb_add(s->local, s->lit);
-        out[i][0] = c.r;
-        out[i][1] = c.g;
-        out[i][2] = c.b;
-        out[i][3] = s->t;
-    }
-    t->samples += count;
-}
-
-void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
-                    float (*out)[4])
-{
-    struct tracer_ray ray[BATCH_SIZE];
-    const struct render_settings *s = &t->job->settings;
-    for (uint32_t begin = 0; begin < count; begin += BATCH_SIZE) {
-        const uint32_t n = count - begin < BATCH_SIZE ? count - begin : BATCH_SIZE;
-        for (uint32_t i = 0; i < n; i++) {
-            const struct vec2 p = position[begin + i];
-            ray[i].position = p;
-            ray[i].exists =
-                camera_ray(t->job->camera, p.u, p.v, s->width, s->height, &ray[i].ray);
-        }
-        tracer_rays(t, ray, n, out + begin);
-    }
+    wave_trace(t);
+    if (t->power_count)
+        powers_run(t);
+    next_run(t, f, 0);
 }

@@ -1,0 +1,474 @@
+// Shading eight hits at a time, compiled once per instruction set as
+// trace/packet_kernel.c. Each expression is that of the general rule, named beside it, in
+// the same order: the bits are the same.
+#include "trace/shade_kernel.h"
+
+#include "math/elementary.h"
+#include "trace/shade.h"
+#include "trace/shade_lanes.h"
+#include "trace/shade_place.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b)  PASTE_(a, b)
+#define TEXT_(a)     #a
+#define TEXT(a)      TEXT_(a)
+
+static const double zero = 1e-10; // spec/lighting.md 0
+
+// ---- cameras (camera_ray) ---------------------------------------------------------------
+
+static void camera(const struct job *job, const struct vec2 *position, uint32_t count,
+                   struct ray_batch *out)
+{
+    const struct camera *c = job->camera;
+    const struct real8 width = r8_set(job->settings.width),
+                       height = r8_set(job->settings.height), half = r8_set(0.5);
+    const struct vec8 right = V8_SET(c->right), up = V8_SET(c->up);
+    const struct vec8 location = V8_SET(c->location), direction = V8_SET(c->direction);
+    for (uint32_t i = 0; i < count; i += 8) {
+        double px[8], py[8];
+        for (uint32_t k = 0; k < 8; k++) {
+            const struct vec2 *p = &position[i + k < count ? i + k : i];
+            px[k] = p->u;
+            py[k] = p->v;
+        }
+        const struct real8 u = r8_sub(r8_div(r8_load(px), width), half);
+        const struct real8 v = r8_sub(half, r8_div(r8_load(py), height));
+        const struct vec8 d = v8_normalize(v8_mad(v8_mad(direction, u, right), v, up));
+        r8_store(out->o[0] + i, location.x);
+        r8_store(out->o[1] + i, location.y);
+        r8_store(out->o[2] + i, location.z);
+        r8_store(out->d[0] + i, d.x);
+        r8_store(out->d[1] + i, d.y);
+        r8_store(out->d[2] + i, d.z);
+        for (uint32_t k = 0; k < 8; k++)
+            out->hidden_by[i + k] = OBJECT_NO_IMAGE;
+    }
+}
+
+// ---- places -----------------------------------------------------------------------------
+
+LANES_INLINE struct real8 gather(const double *from, const struct simple_group *g,
+                                 bool in_row)
+{
+    if (in_row)
+        return r8_load(from + g->ray[0]);
+    double v[8];
+    for (int i = 0; i < 8; i++)
+        v[i] = from[g->ray[i]];
+    return r8_load(v);
+}
+
+// A checker of two colours; false: the pattern needs the general rule.
+LANES_INLINE bool checker8(const struct tracer *t, const struct surface *s,
+                           const struct simple_surface *x, struct simple_group *g)
+{
+    static const double far = 1e8; // what pattern_warp clamps to lies beyond
+    const double edge = 1e-10;     // as the pattern's
+    const struct transform *m = &s->texture_transform;
+    struct vec8 p = v8_load((const double(*)[8])g->p);
+    (void)t;
+    if (!m->identity)
+        p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+    for (const struct warp *w = x->pigment->pattern.warps; w; w = w->next)
+        if (!w->transform.identity)
+            p = v8_row_times(v8_sub(p, V8_SET(w->transform.offset)),
+                             &w->transform.inverse);
+    if (m8_bits(r8_le(v8_max_abs(p), r8_set(far))) != 255)
+        return false;
+    const struct real8 e = r8_set(edge);
+    const struct real8 cell =
+        r8_add(r8_add(r8_floor(r8_add(p.x, e)), r8_floor(r8_add(p.y, e))),
+               r8_floor(r8_add(p.z, e)));
+    const struct real8 even = r8_mul(r8_floor(r8_mul(cell, r8_set(0.5))), r8_set(2));
+    const unsigned odd = m8_bits(r8_lt(even, cell));
+    for (int i = 0; i < 8; i++) {
+        const struct rgb c = x->color[odd >> i & 1];
+        g->color[0][i] = c.r;
+        g->color[1][i] = c.g;
+        g->color[2][i] = c.b;
+    }
+    return true;
+}
+
+static void colors(struct tracer *t, const struct leaf *const leaf[8],
+                   struct simple_group *g)
+{
+    const struct world *w = t->job->world;
+    uint32_t same = 0;
+    for (int i = 1; i < 8; i++)
+        same += leaf[i]->surface == leaf[0]->surface;
+    const struct simple_surface *first = &t->job->simple[leaf[0]->surface];
+    if (same == 7 && first->kind == SIMPLE_CHECKER &&
+        checker8(t, &w->surface[leaf[0]->surface], first, g))
+        return;
+    for (int i = 0; i < 8; i++) {
+        const struct simple_surface *x = &t->job->simple[leaf[i]->surface];
+        struct rgb c = x->color[0];
+        if (x->kind != SIMPLE_SOLID && (g->live >> i & 1))
+            c = simple_color(t, &w->surface[leaf[i]->surface], g, i);
+        g->color[0][i] = c.r;
+        g->color[1][i] = c.g;
+        g->color[2][i] = c.b;
+    }
+}
+
+static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
+                  struct simple_group *g)
+{
+    const struct leaf *leaf[8];
+    uint32_t part[8], same = 0;
+    double hit_t[8], hit_dt[8];
+    g->live = (1u << count) - 1;
+    for (uint32_t i = 0; i < 8; i++) {
+        const uint32_t k = ray[i < count ? i : 0];
+        const struct boundary *b = &t->hit[k].b;
+        g->ray[i] = k;
+        g->slot[i] = t->wave.slot[k];
+        leaf[i] = &t->job->world->leaf[b->leaf];
+        part[i] = b->part;
+        hit_t[i] = b->t;
+        hit_dt[i] = b->dt;
+        same += leaf[i] == leaf[0];
+    }
+    const struct ray_batch *b = t->rays;
+    const bool rays_in_row = count == 8 && g->ray[7] - g->ray[0] == 7;
+    const struct vec8 o = {gather(b->o[0], g, rays_in_row),
+                           gather(b->o[1], g, rays_in_row),
+                           gather(b->o[2], g, rays_in_row)};
+    const struct vec8 d = {gather(b->d[0], g, rays_in_row),
+                           gather(b->d[1], g, rays_in_row),
+                           gather(b->d[2], g, rays_in_row)};
+    const struct real8 at = r8_load(hit_t);
+    const struct real8 size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)));
+    struct place8 x = {.p = v8_mad(o, at, d)};
+    if ((same == 8 && place_leaf(leaf[0], part, &x)) || place_spheres(leaf, &x)) {
+        x.ns = x.ng;
+        x.error = r8_add(r8_mul(r8_load(hit_dt), r8_abs(v8_dot(d, x.ng))),
+                         place_error(leaf[0], size));
+    } else {
+        place_each(t, g, &x);
+    }
+    v8_store(g->d, d);
+    v8_store(g->p, x.p);
+    v8_store(g->ng, x.ng);
+    r8_store(g->error, x.error);
+    const struct mask8 turned = r8_lt(r8_set(0), v8_dot(x.ns, d));
+    v8_store(g->n, v8_select(turned, v8_neg(x.ns), x.ns));
+    g->in_row = rays_in_row;
+    for (uint32_t i = 0; i < 8; i++) {
+        g->in_row &= g->slot[i] == g->slot[0] + i;
+        for (int c = 0; c < 3; c++)
+            g->through[c][i] = t->wave.through[c][g->slot[i]];
+    }
+    colors(t, leaf, g);
+}
+
+// ---- light ------------------------------------------------------------------------------
+
+LANES_INLINE void add_own(struct tracer *t, const struct simple_group *g, unsigned live,
+                          struct rgb8 c)
+{
+    float(*own)[BATCH_SIZE] = t->wave.own;
+    if (g->in_row && live == 255) {
+        float *r = &own[0][g->slot[0]], *s = &own[1][g->slot[0]],
+              *u = &own[2][g->slot[0]];
+        f8_store(r, f8_add(f8_load(r), c.r));
+        f8_store(s, f8_add(f8_load(s), c.g));
+        f8_store(u, f8_add(f8_load(u), c.b));
+        return;
+    }
+    float v[3][8];
+    f8_store(v[0], c.r);
+    f8_store(v[1], c.g);
+    f8_store(v[2], c.b);
+    for (; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        for (int k = 0; k < 3; k++)
+            own[k][g->slot[i]] += v[k][i];
+    }
+}
+
+static void own(struct tracer *t, const struct simple_class *c,
+                const struct simple_group *g)
+{
+    const struct rgb8 color = rgb8_load((const float(*)[8])g->color);
+    add_own(t, g, g->live,
+            rgb8_mul(rgb8_load((const float(*)[8])g->through),
+                     rgb8_mul(color, rgb8_set(c->own))));
+}
+
+// highlight_power in the lanes of `bits`; 0 elsewhere.
+LANES_INLINE struct float8 powers8(struct real8 q, double n, unsigned bits)
+{
+    static const double dark = 40, by_squares = 4096;
+    bits &= m8_bits(r8_le(r8_mul(r8_set(n), r8_sub(r8_set(1), q)), r8_set(dark)));
+    struct real8 power = r8_set(bits ? 1 : 0);
+    if (bits && n == floor(n) && n >= 0 && n <= by_squares) {
+        for (uint32_t k = (uint32_t)n; k; k >>= 1) {
+            if (k & 1)
+                power = r8_mul(power, q);
+            q = r8_mul(q, q);
+        }
+    } else if (bits) {
+        double v[8];
+        r8_store(v, q);
+        for (unsigned m = bits; m; m &= m - 1)
+            v[__builtin_ctz(m)] = highlight_power(v[__builtin_ctz(m)], n);
+        power = r8_load(v);
+    }
+    return f8_of(r8_select(m8_of(bits), power, r8_set(0)));
+}
+
+// The sum of phong and specular (highlights of trace/shade_light.c).
+LANES_INLINE struct float8 highlights8(const struct finish *f, struct vec8 d,
+                                       struct vec8 n, struct vec8 to, unsigned live)
+{
+    struct float8 sum = f8_set(0);
+    if (f->phong != 0) {
+        const double least = f->phong_size < 60 ? 0 : 0.0008;
+        const struct vec8 r = v8_mad(d, r8_mul(r8_set(-2), v8_dot(d, n)), n);
+        const struct real8 q = v8_dot(r, to);
+        const unsigned bits = live & m8_bits(r8_lt(r8_set(least), q));
+        if (bits)
+            sum = f8_add(
+                sum, f8_mul(f8_set(f->phong), powers8(q, (double)f->phong_size, bits)));
+    }
+    if (f->specular != 0) {
+        const struct vec8 h = v8_sub(to, d);
+        const struct real8 q = v8_dot(h, n), length = r8_sqrt(v8_dot(h, h));
+        const unsigned bits =
+            live & m8_bits(m8_and(r8_lt(r8_set(0), q), r8_lt(r8_set(0), length)));
+        if (bits)
+            sum = f8_add(sum,
+                         f8_mul(f8_set(f->specular),
+                                powers8(r8_div(q, length), (double)f->roughness, bits)));
+    }
+    return sum;
+}
+
+// Metals tint their highlights, lane by lane.
+static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
+                          struct float8 sum, struct real8 facing)
+{
+    float s[8], c[3][8];
+    double cosine[8];
+    f8_store(s, sum);
+    r8_store(cosine, facing);
+    for (int i = 0; i < 8; i++) {
+        struct rgb x = rgb_gray(s[i]);
+        if (s[i] != 0)
+            x = metal_tint(x, rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
+                           f->metallic, cosine[i]);
+        c[0][i] = x.r;
+        c[1][i] = x.g;
+        c[2][i] = x.b;
+    }
+    return rgb8_load((const float(*)[8])c);
+}
+
+static struct real8 brilliant(struct real8 cosine, double brilliance)
+{
+    double v[8];
+    r8_store(v, cosine);
+    for (int i = 0; i < 8; i++)
+        v[i] = det_pow(v[i], brilliance);
+    return r8_load(v);
+}
+
+// layer_lit. Takes lanes that get nothing out of *live.
+LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *lamp,
+                              const struct simple_group *g, struct vec8 to,
+                              unsigned *live)
+{
+    const struct finish *f = k->finish;
+    const struct vec8 n = v8_load((const double(*)[8])g->n);
+    const struct real8 facing = v8_dot(n, to);
+    unsigned back = 0;
+    if (k->side_test) {
+        back = *live & m8_bits(r8_lt(facing, r8_set(zero)));
+        if (f->diffuse_back == 0) {
+            *live &= ~back;
+            back = 0;
+        }
+    }
+    struct rgb8 c = rgb8_set((struct rgb){0, 0, 0});
+    if (!*live)
+        return c;
+    if (f->diffuse > 0 || back) {
+        struct real8 cosine = r8_abs(facing);
+        if (f->brilliance != 1)
+            cosine = brilliant(cosine, (double)f->brilliance);
+        float strength[8];
+        for (int i = 0; i < 8; i++)
+            strength[i] = fmaxf(0, back >> i & 1 ? f->diffuse_back : f->diffuse);
+        c = rgb8_scale(f8_mul(f8_of(cosine), f8_load(strength)),
+                       rgb8_load((const float(*)[8])g->color));
+    }
+    if (!lamp->light->shadowless) {
+        const struct vec8 d = v8_load((const double(*)[8])g->d);
+        const struct float8 sum = highlights8(f, d, n, to, *live & ~back);
+        if (f->metallic != 0)
+            c = rgb8_add(c, tinted(f, g, sum, facing));
+        else
+            c = rgb8_add(c, (struct rgb8){sum, sum, sum});
+    }
+    return c;
+}
+
+struct light8 {
+    struct vec8 to;
+    struct real8 distance;
+    struct rgb8 color;
+};
+
+// lamp_direction, from the lamp's centre.
+LANES_INLINE struct light8 direction8(const struct lamp *lamp, struct vec8 p)
+{
+    const struct light *light = lamp->light;
+    struct light8 v = {.color = rgb8_set(light->color)};
+    const struct vec8 to = v8_sub(V8_SET(light->location), p);
+    if (light->parallel || light->kind == LIGHT_CYLINDER) {
+        struct lamp_view one;
+        lamp_direction(lamp, light->location, light->location, &one);
+        v.to = V8_SET(one.l);
+        v.distance = v8_dot(to, v.to);
+        return v;
+    }
+    v.distance = r8_sqrt(v8_dot(to, to));
+    const struct real8 inv = r8_div(r8_set(1), v.distance);
+    const struct vec8 unit = {r8_mul(inv, to.x), r8_mul(inv, to.y), r8_mul(inv, to.z)};
+    v.to = v8_select(r8_lt(r8_set(0), v.distance), unit, to);
+    return v;
+}
+
+static bool is_black(struct rgb c)
+{
+    const float e = (float)zero;
+    return fabsf(c.r) < e && fabsf(c.g) < e && fabsf(c.b) < e;
+}
+
+// The rest of lamp_view, lane by lane; returns the lanes that are lit.
+static unsigned attenuate(const struct lamp *lamp, const struct simple_group *g,
+                          struct light8 *v)
+{
+    double to[3][8], distance[8];
+    float color[3][8] = {{0}};
+    unsigned lit = 0;
+    v8_store(to, v->to);
+    r8_store(distance, v->distance);
+    for (unsigned m = g->live; m; m &= m - 1) {
+        const int i = __builtin_ctz(m);
+        const struct lamp_view one = {
+            {to[0][i], to[1][i], to[2][i]}, distance[i], lamp->light->color};
+        const double factor = lamp_attenuation(
+            lamp, lamp->light->location, vec3(g->p[0][i], g->p[1][i], g->p[2][i]), &one);
+        struct rgb c = one.color;
+        if (factor != 1)
+            c = rgb_scale((float)factor, c);
+        if (factor == 0 || is_black(c))
+            continue;
+        lit |= 1u << i;
+        color[0][i] = c.r;
+        color[1][i] = c.g;
+        color[2][i] = c.b;
+    }
+    v->color = rgb8_load((const float(*)[8])color);
+    return lit;
+}
+
+LANES_INLINE unsigned black8(struct rgb8 c)
+{
+    const struct float8 o = f8_set(0);
+    return f8_le(c.r, o) & f8_le(o, c.r) & f8_le(c.g, o) & f8_le(o, c.g) & f8_le(c.b, o) &
+           f8_le(o, c.b);
+}
+
+// Queues the shadow rays of the lanes (trace_offset).
+LANES_INLINE uint32_t queue8(struct tracer *t, const struct simple_group *g,
+                             unsigned live, const struct light8 *v, struct rgb8 value,
+                             uint32_t queued)
+{
+    struct shadow_batch *b = &t->simple;
+    const struct vec8 ng = v8_load((const double(*)[8])g->ng);
+    const struct real8 side =
+        r8_select(r8_lt(v8_dot(v->to, ng), r8_set(0)), r8_set(-1), r8_set(1));
+    const struct real8 by = r8_mul(r8_mul(r8_set(2), side), r8_load(g->error));
+    const struct vec8 o = v8_mad(v8_load((const double(*)[8])g->p), by, ng);
+    if (live == 255) {
+        r8_store(b->rays->o[0] + queued, o.x);
+        r8_store(b->rays->o[1] + queued, o.y);
+        r8_store(b->rays->o[2] + queued, o.z);
+        r8_store(b->rays->d[0] + queued, v->to.x);
+        r8_store(b->rays->d[1] + queued, v->to.y);
+        r8_store(b->rays->d[2] + queued, v->to.z);
+        r8_store(b->rays->t_max + queued, v->distance);
+        f8_store(b->value[0] + queued, value.r);
+        f8_store(b->value[1] + queued, value.g);
+        f8_store(b->value[2] + queued, value.b);
+        for (uint32_t i = 0; i < 8; i++)
+            b->slot[queued + i] = g->slot[i];
+        return queued + 8;
+    }
+    double all[7][8];
+    float c[3][8];
+    v8_store(all, o);
+    v8_store(all + 3, v->to);
+    r8_store(all[6], v->distance);
+    f8_store(c[0], value.r);
+    f8_store(c[1], value.g);
+    f8_store(c[2], value.b);
+    for (; live; live &= live - 1, queued++) {
+        const int i = __builtin_ctz(live);
+        for (int k = 0; k < 3; k++) {
+            b->rays->o[k][queued] = all[k][i];
+            b->rays->d[k][queued] = all[3 + k][i];
+            b->value[k][queued] = c[k][i];
+        }
+        b->rays->t_max[queued] = all[6][i];
+        b->slot[queued] = g->slot[i];
+    }
+    return queued;
+}
+
+// shade_lamp.
+static uint32_t light(struct tracer *t, const struct simple_class *c,
+                      const struct lamp *lamp, const struct simple_group *g,
+                      uint32_t groups, uint32_t queued)
+{
+    const struct light *l = lamp->light;
+    const bool even =
+        l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0);
+    const bool shadowed = t->job->shadows && !l->shadowless;
+    if (even && is_black(l->color))
+        return queued;
+    for (const struct simple_group *end = g + groups; g < end; g++) {
+        struct light8 v = direction8(lamp, v8_load((const double(*)[8])g->p));
+        unsigned live = even ? g->live : attenuate(lamp, g, &v);
+        const struct rgb8 sum = lit8(c, lamp, g, v.to, &live);
+        if (!live)
+            continue;
+        struct rgb8 value =
+            rgb8_mul(v.color, rgb8_add(rgb8_set((struct rgb){0, 0, 0}), sum));
+        live &= ~black8(value);
+        if (!live)
+            continue;
+        value = rgb8_mul(value, rgb8_load((const float(*)[8])g->through));
+        const unsigned bare =
+            shadowed ? live & m8_bits(r8_le(v.distance, r8_set(0))) : live;
+        if (bare)
+            add_own(t, g, bare, value);
+        live &= ~bare;
+        if (!live)
+            continue;
+        if (queued + 8 > BATCH_SIZE) {
+            shadow_flush_simple(t, queued);
+            queued = 0;
+        }
+        queued = queue8(t, g, live, &v, value, queued);
+    }
+    return queued;
+}
+
+const struct shade_kernels PASTE(shade_kernels_, ISA) = {TEXT(ISA), camera, place, own,
+                                                         light};

@@ -1,0 +1,28 @@
+#ifndef TRACE_SHADE_KERNEL_H
+#define TRACE_SHADE_KERNEL_H
+
+#include "trace/simple.h"
+
+// What shading compiles once per instruction set, as trace/packet.h.
+struct shade_kernels {
+    const char *name;
+    // The rays of a camera with quick_camera, as camera_ray gives them.
+    void (*camera)(const struct job *job, const struct vec2 *position, uint32_t count,
+                   struct ray_batch *out);
+    // Fills a group from up to eight rays of the batch and their hits.
+    void (*place)(struct tracer *t, const uint16_t *ray, uint32_t count,
+                  struct simple_group *g);
+    // Adds what the group's surfaces give off by themselves.
+    void (*own)(struct tracer *t, const struct simple_class *c,
+                const struct simple_group *g);
+    // Light of one lamp on groups of one class. `queued` shadow rays wait; returns how many
+    // do then.
+    uint32_t (*light)(struct tracer *t, const struct simple_class *c,
+                      const struct lamp *lamp, const struct simple_group *g,
+                      uint32_t groups, uint32_t queued);
+};
+
+extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,
+    shade_kernels_avx512;
+
+#endif

@@ -1,0 +1,304 @@
+#include "trace/simple.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "trace/accel.h"
+#include "trace/packet.h"
+#include "trace/shade.h"
+#include "trace/shade_kernel.h"
+
+// ---- which surfaces -------------------------------------------------------------------
+
+static const struct shade_kernels *kernels_named(const char *name)
+{
+#ifdef LAMBERT_X86
+    if (strcmp(name, shade_kernels_avx512.name) == 0)
+        return &shade_kernels_avx512;
+    if (strcmp(name, shade_kernels_avx2.name) == 0)
+        return &shade_kernels_avx2;
+#else
+    (void)name;
+#endif
+    return &shade_kernels_base;
+}
+
+static bool is_solid(struct rgbft c) { return c.filter == 0 && c.transmit == 0; }
+
+static bool pigment_is_simple(const struct pigment *p)
+{
+    if (p->kind == PIGMENT_SOLID)
+        return is_solid(p->color);
+    if (p->kind != PIGMENT_COLORS || p->pattern.pigment)
+        return false;
+    for (uint32_t i = 0; i < p->colors->count; i++)
+        if (!is_solid(p->colors->color[i]))
+            return false;
+    return true;
+}
+
+static bool only_moved(const struct pattern *p)
+{
+    for (const struct warp *w = p->warps; w; w = w->next)
+        if (w->kind != WARP_TRANSFORM)
+            return false;
+    return !p->turbulence;
+}
+
+static enum simple_pigment pigment_kind(const struct pigment *p)
+{
+    if (p->kind == PIGMENT_SOLID)
+        return SIMPLE_SOLID;
+    const struct color_map *m = p->colors;
+    const bool two = m->count == 2 && m->key[0] == 0 && m->key[1] == 1;
+    return p->pattern.ops == &checker_pattern_ops && p->pattern.frequency == 0 &&
+                   p->pattern.wave == WAVE_RAMP && two && only_moved(&p->pattern)
+               ? SIMPLE_CHECKER
+               : SIMPLE_ANY;
+}
+
+static bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
+{
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct light *l = list->lamp[i]->light;
+        if (!list->lamp[i]->inert &&
+            (l->projected_through || (l->area && job->area_lights && job->shadows)))
+            return false;
+    }
+    return true;
+}
+
+static bool surface_is_simple(const struct job *job, const struct surface *s)
+{
+    const struct texture *x = s->texture;
+    if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
+        s->wants_uv)
+        return false;
+    const struct texture_layer *l = &x->layer[0];
+    const struct finish *f = l->finish;
+    return !(l->normal && job->normals) && pigment_is_simple(l->pigment) &&
+           f->irid == 0 && f->crand <= 0 && f->reflection_exponent == 1 &&
+           lamps_are_simple(job, &job->lamps[s->light_group]);
+}
+
+static bool same_rgb(struct rgb a, struct rgb b)
+{
+    return a.r == b.r && a.g == b.g && a.b == b.b;
+}
+
+// What shading of simple surfaces looks at.
+static bool same_finish(const struct finish *a, const struct finish *b)
+{
+    return a == b ||
+           (same_rgb(a->ambient, b->ambient) && same_rgb(a->emission, b->emission) &&
+            a->diffuse == b->diffuse && a->diffuse_back == b->diffuse_back &&
+            a->brilliance == b->brilliance && a->phong == b->phong &&
+            a->phong_size == b->phong_size && a->specular == b->specular &&
+            a->roughness == b->roughness && a->metallic == b->metallic &&
+            same_rgb(a->reflection_min, b->reflection_min) &&
+            same_rgb(a->reflection_max, b->reflection_max) &&
+            a->reflection_falloff == b->reflection_falloff &&
+            a->reflection_metallic == b->reflection_metallic && a->fresnel == b->fresnel);
+}
+
+enum { RECENT = 16 }; // classes that a surface is compared with
+
+static uint32_t class_of(struct job *job, struct simple_class *all,
+                         const struct surface *s)
+{
+    const struct finish *f = s->texture->layer[0].finish;
+    const bool side_test = !(s->flags & OBJECT_DOUBLE_ILLUMINATE);
+    const uint32_t count = job->simple_class_count;
+    for (uint32_t i = count; i-- > 0 && count - i <= RECENT;)
+        if (all[i].side_test == side_test && all[i].light_group == s->light_group &&
+            same_finish(all[i].finish, f))
+            return i;
+    all[count] = (struct simple_class){
+        .finish = f,
+        .light_group = s->light_group,
+        .lamps = &job->lamps[s->light_group],
+        .own = rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission),
+        .side_test = side_test,
+        .takes_light = finish_takes_light(f),
+        .mirror = job->mirrors && finish_has_mirror(f),
+    };
+    return job->simple_class_count++;
+}
+
+void simple_compile(struct job *job, struct arena *a)
+{
+    const struct world *w = job->world;
+    const struct scene *scene = w->scene;
+    // For tests: everything by the general rule.
+    const char *wish = getenv("LAMBERT_SHADING");
+    const bool general = wish && strcmp(wish, "general") == 0;
+    const struct camera *c = job->camera;
+    job->kernels = kernels_named(w->accel->kernels->name);
+    job->quick_camera =
+        !general && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
+    const bool air = job->atmosphere && (scene->fog_count || scene->rainbow_count);
+    if (general || air || !job->lights || !job->pigments || !(1 > job->adc_bailout))
+        return;
+    struct simple_surface *simple =
+        arena_new_array(a, struct simple_surface, w->surface_count + 1);
+    struct simple_class *all =
+        arena_new_array(a, struct simple_class, w->surface_count + 1);
+    for (uint32_t i = 0; i < w->surface_count; i++) {
+        simple[i].class = SIMPLE_NONE;
+        if (!surface_is_simple(job, &w->surface[i]))
+            continue;
+        const struct pigment *p = w->surface[i].texture->layer[0].pigment;
+        simple[i] = (struct simple_surface){.class = class_of(job, all, &w->surface[i]),
+                                            .kind = pigment_kind(p),
+                                            .pigment = p};
+        if (simple[i].kind == SIMPLE_SOLID)
+            simple[i].color[0] = rgbft_rgb(p->color);
+        else
+            for (uint32_t k = 0; k < 2 && k < p->colors->count; k++)
+                simple[i].color[k] = rgbft_rgb(p->colors->color[k]);
+    }
+    job->simple_class = all;
+    job->simple = job->simple_class_count ? simple : NULL;
+}
+
+// ---- hits ------------------------------------------------------------------------------
+
+enum { END = UINT16_MAX };
+
+void simple_init(struct tracer *t)
+{
+    const uint32_t classes = t->job->simple_class_count;
+    if (!classes)
+        return;
+    t->group = aligned_alloc(64, (BATCH_SIZE / 8 * sizeof *t->group + 63) & ~(size_t)63);
+    t->class_head = malloc(classes * sizeof *t->class_head);
+    t->class_tail = malloc(classes * sizeof *t->class_tail);
+    t->class_seen = malloc(BATCH_SIZE * sizeof *t->class_seen);
+    t->class_link = malloc(BATCH_SIZE * sizeof *t->class_link);
+    t->class_ray = malloc(BATCH_SIZE * sizeof *t->class_ray);
+    if (!t->group || !t->class_head || !t->class_tail || !t->class_seen ||
+        !t->class_link || !t->class_ray)
+        abort();
+    for (uint32_t i = 0; i < classes; i++)
+        t->class_head[i] = END;
+}
+
+void simple_end(struct tracer *t)
+{
+    free(t->group);
+    free(t->class_head);
+    free(t->class_tail);
+    free(t->class_seen);
+    free(t->class_link);
+    free(t->class_ray);
+}
+
+bool simple_take(struct tracer *t, uint32_t k)
+{
+    const struct job *job = t->job;
+    if (!job->simple)
+        return false;
+    const uint32_t class = job->simple[job->world->leaf[t->hit[k].b.leaf].surface].class;
+    if (class == SIMPLE_NONE)
+        return false;
+    if (t->class_head[class] == END) {
+        t->class_head[class] = (uint16_t)k;
+        t->class_seen[t->class_count++] = class;
+    } else {
+        t->class_link[t->class_tail[class]] = (uint16_t)k;
+    }
+    t->class_tail[class] = (uint16_t)k;
+    t->class_link[k] = END;
+    return true;
+}
+
+struct rgb simple_color(const struct tracer *t, const struct surface *s,
+                        const struct simple_group *g, int lane)
+{
+    const struct vec3 p = vec3(g->p[0][lane], g->p[1][lane], g->p[2][lane]);
+    const struct vec3 n = vec3(g->n[0][lane], g->n[1][lane], g->n[2][lane]);
+    struct texture_point at = {.p = p,
+                               .normal = n,
+                               .ray_d = vec3(g->d[0][lane], g->d[1][lane], g->d[2][lane]),
+                               .p_world = p,
+                               .normal_seen = n};
+    (void)t;
+    if (!s->texture_transform.identity) {
+        at.p = transform_inverse_point(&s->texture_transform, p);
+        at.normal = transform_inverse_normal(&s->texture_transform, n);
+    }
+    struct rgbft c;
+    pigment_color(s->texture->layer[0].pigment, &at, &c);
+    return rgbft_rgb(c);
+}
+
+// The mirrored rays of a group: mirrors of trace/shade_transmit.c.
+static void mirror(struct tracer *t, const struct simple_class *c,
+                   const struct simple_group *g)
+{
+    const struct world *w = t->job->world;
+    for (unsigned m = g->live; m; m &= m - 1) {
+        const int i = __builtin_ctz(m);
+        struct path p = wave_path(t, g->slot[i]);
+        if (!(p.flags & PATH_CONTINUED))
+            p.level++;
+        p.flags &= (uint8_t)~PATH_CONTINUED;
+        if (!path_counts(t->job, p.level, p.weight))
+            continue;
+        const struct interaction at = {.p = {g->p[0][i], g->p[1][i], g->p[2][i]},
+                                       .ng = {g->ng[0][i], g->ng[1][i], g->ng[2][i]},
+                                       .error = g->error[i]};
+        const struct vec3 n = vec3(g->n[0][i], g->n[1][i], g->n[2][i]);
+        const struct surface *s = &w->surface[w->leaf[t->hit[g->ray[i]].b.leaf].surface];
+        float weight;
+        const struct rgb mirror =
+            finish_reflectivity(c->finish, -vec3_dot(p.d, n),
+                                rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
+                                p.inside, s->interior, &weight);
+        if (mirror.r == 0 && mirror.g == 0 && mirror.b == 0)
+            continue;
+        p.d = mirrored(p.d, n, n);
+        p.o = trace_offset(&at, p.d);
+        p.hash = hash_mix(p.hash, 1);
+        p.flags |= PATH_REFLECTED;
+        p.through_t = 0;
+        p.weight *= weight;
+        p.through = rgb_mul(mirror, p.through);
+        t->slot = g->slot[i];
+        path_emit(t, &p);
+    }
+}
+
+static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t first,
+                        uint32_t *queued)
+{
+    const struct shade_kernels *kernels = t->job->kernels;
+    uint32_t count = 0;
+    for (uint32_t k = first; k != END; k = t->class_link[k])
+        t->class_ray[count++] = (uint16_t)k;
+    const uint32_t groups = (count + 7) / 8;
+    for (uint32_t i = 0; i < groups; i++) {
+        const uint32_t left = count - 8 * i;
+        kernels->place(t, t->class_ray + 8 * i, left < 8 ? left : 8, &t->group[i]);
+        kernels->own(t, c, &t->group[i]);
+    }
+    for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)
+        if (!c->lamps->lamp[i]->inert)
+            *queued = kernels->light(t, c, c->lamps->lamp[i], t->group, groups, *queued);
+    for (uint32_t i = 0; i < groups && c->mirror; i++)
+        mirror(t, c, &t->group[i]);
+}
+
+void simple_shade(struct tracer *t)
+{
+    uint32_t queued = 0;
+    for (uint32_t i = 0; i < t->class_count; i++) {
+        const uint32_t class = t->class_seen[i];
+        shade_class(t, &t->job->simple_class[class], t->class_head[class], &queued);
+        t->class_head[class] = END;
+    }
+    t->class_count = 0;
+    if (queued)
+        shadow_flush_simple(t, queued);
+}

@@ -1,0 +1,57 @@
+#ifndef TRACE_SIMPLE_H
+#define TRACE_SIMPLE_H
+
+#include "trace/tracer.h"
+
+// Simple surfaces are opaque everywhere, of one layer without a normal, and their light
+// follows from finish, lamps and the colour at the point. Their hits are shaded eight at a
+// time (trace/shade_kernel.h), with the arithmetic, and hence the bits, of trace/shade.c.
+
+enum { SIMPLE_NONE = UINT32_MAX };
+
+// All surfaces whose light has the same rule.
+struct simple_class {
+    const struct finish *finish;
+    uint32_t light_group;
+    const struct lamp_list *lamps;
+    struct rgb own; // light given off, before it is multiplied by the colour
+    bool side_test; // light from behind counts apart
+    bool takes_light, mirror;
+};
+
+enum simple_pigment {
+    SIMPLE_SOLID,
+    SIMPLE_CHECKER, // two colours, moved by transforms alone
+    SIMPLE_ANY,
+};
+
+struct simple_surface {
+    uint32_t class; // SIMPLE_NONE: not simple
+    enum simple_pigment kind;
+    struct rgb color[2];
+    const struct pigment *pigment;
+};
+
+// Eight hits of one class. Lanes that are not live repeat one that is.
+struct simple_group {
+    double d[3][8], p[3][8], error[8]; // of the ray; the point, as struct interaction
+    double n[3][8], ng[3][8];          // n: towards the ray
+    float color[3][8], through[3][8];
+    uint16_t slot[8];
+    uint32_t ray[8];
+    unsigned live;
+    bool in_row; // eight slots in a row
+};
+
+void simple_compile(struct job *job, struct arena *a);
+void simple_init(struct tracer *t);
+void simple_end(struct tracer *t);
+// Keeps the hit of ray k of the batch if its surface is simple.
+bool simple_take(struct tracer *t, uint32_t k);
+// Shades the hits that were kept.
+void simple_shade(struct tracer *t);
+// The colour at lane `lane` by the general rule.
+struct rgb simple_color(const struct tracer *t, const struct surface *s,
+                        const struct simple_group *g, int lane);
+
+#endif

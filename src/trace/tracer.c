@@ -1,0 +1,143 @@
+#include "trace/tracer.h"
+
+#include <stdlib.h>
+
+#include "base/arena.h"
+#include "trace/inside.h"
+#include "trace/shade_kernel.h"
+#include "trace/simple.h"
+#include "trace/wave.h"
+
+static void *must_alloc(size_t count, size_t size)
+{
+    void *p = calloc(count ? count : 1, size);
+    if (!p)
+        abort();
+    return p;
+}
+
+// Rays that start at their origin and end nowhere.
+static struct ray_batch *endless_new(void)
+{
+    struct ray_batch *b = ray_batch_new(BATCH_SIZE);
+    for (uint32_t i = 0; i < b->capacity; i++) {
+        b->t_min[i] = 0;
+        b->t_max[i] = INFINITY;
+    }
+    return b;
+}
+
+struct tracer *tracer_new(const struct job *job)
+{
+    struct tracer *t = must_alloc(1, sizeof *t);
+    t->job = job;
+    t->scratch = trace_scratch_new(job->world);
+    t->arena = arena_new(64 * 1024);
+    t->camera_arena = arena_new(1024);
+    t->rays = endless_new();
+    t->hit = must_alloc(BATCH_SIZE, sizeof *t->hit);
+    shadow_init(t);
+    simple_init(t);
+    if (camera_has_one_eye(job->camera))
+        t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
+    return t;
+}
+
+void tracer_free(struct tracer *t)
+{
+    trace_scratch_free(t->scratch);
+    arena_free(t->arena);
+    arena_free(t->camera_arena);
+    ray_batch_free(t->rays);
+    wave_frames_free(t->frame);
+    path_queue_free(&t->camera_queue);
+    shadow_end(t);
+    simple_end(t);
+    free(t->hit);
+    free(t->sum);
+    free(t->power);
+    free(t);
+}
+
+uint32_t tracer_position_hash(struct vec2 p)
+{
+    // 1/1024 of a pixel tells all sample places apart.
+    const int32_t x = (int32_t)floor(p.u * 1024), y = (int32_t)floor(p.v * 1024);
+    return hash_mix(hash_mix(1, (uint32_t)x), (uint32_t)y);
+}
+
+static void begin(struct tracer *t, uint32_t count)
+{
+    arena_reset(t->arena);
+    t->last_push = (struct inside_pushed){0};
+    t->sum_count = 0;
+    wave_sums_grow(t, count);
+    t->samples += count;
+}
+
+static void results(const struct tracer *t, uint32_t count, float (*out)[4])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const struct sample_sum *s = &t->sum[i];
+        out[i][0] = s->light.r;
+        out[i][1] = s->light.g;
+        out[i][2] = s->light.b;
+        out[i][3] = s->t;
+    }
+}
+
+void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
+                 float (*out)[4])
+{
+    begin(t, count);
+    t->camera_queue.count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!ray[i].exists) {
+            t->sum[i].t = 1;
+            continue;
+        }
+        struct path *p = path_queue_add(&t->camera_queue);
+        *p = (struct path){.o = ray[i].ray.o,
+                           .d = ray[i].ray.d,
+                           .through = {1, 1, 1},
+                           .through_t = 1,
+                           .weight = 1,
+                           .sample = i,
+                           .hash = tracer_position_hash(ray[i].position)};
+        p->inside = camera_has_one_eye(t->job->camera)
+                        ? t->camera_inside
+                        : inside_at(t->arena, t->job->world, p->o);
+    }
+    wave_run(t, &t->camera_queue);
+    results(t, count, out);
+}
+
+static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
+                               uint32_t count, float (*out)[4])
+{
+    struct tracer_ray ray[BATCH_SIZE];
+    const struct render_settings *s = &t->job->settings;
+    for (uint32_t i = 0; i < count; i++) {
+        ray[i].position = position[i];
+        ray[i].exists = camera_ray(t->job->camera, position[i].u, position[i].v, s->width,
+                                   s->height, &ray[i].ray);
+    }
+    tracer_rays(t, ray, count, out);
+}
+
+void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
+                    float (*out)[4])
+{
+    const struct job *job = t->job;
+    for (uint32_t first = 0; first < count; first += BATCH_SIZE) {
+        const uint32_t n = count - first < BATCH_SIZE ? count - first : BATCH_SIZE;
+        if (!job->quick_camera) {
+            samples_one_by_one(t, position + first, n, out + first);
+            continue;
+        }
+        begin(t, n);
+        job->kernels->camera(job, position + first, n, t->rays);
+        wave_run_camera(t, position + first, n);
+        results(t, n, out + first);
+    }
+}

@@ -1,0 +1,18 @@
+#ifndef TRACE_WAVE_H
+#define TRACE_WAVE_H
+
+#include "trace/tracer.h"
+
+// Room for `count` more samples, with sums of zero.
+void wave_sums_grow(struct tracer *t, uint32_t count);
+// Traces a queue to its end, adding to the sums.
+void wave_run(struct tracer *t, const struct path_queue *queue);
+// The same for the `count` rays that stand in the tracer's batch, straight from a camera
+// with one eye; their samples are 0 to count - 1.
+void wave_run_camera(struct tracer *t, const struct vec2 *position, uint32_t count);
+void wave_frames_free(struct wave_frame *frame);
+void path_queue_free(struct path_queue *q);
+// The random numbers of a sample depend on its place alone.
+uint32_t tracer_position_hash(struct vec2 p);
+
+#endif
