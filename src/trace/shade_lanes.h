@@ -4,6 +4,7 @@
 // What shading needs beyond trace/lanes.h: colours are floats, computed in lanes too.
 
 #include "math/color.h"
+#include "math/transform.h"
 #include "trace/lanes.h"
 
 #if defined(__AVX__)
