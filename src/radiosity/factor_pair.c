@@ -1,0 +1,163 @@
+// Form factors of two elements with nothing between.
+#include "radiosity/form_factor.h"
+#include "radiosity/polygon.h"
+
+static const double pi = 3.14159265358979323846;
+
+bool element_at(const struct factor_state *s, uint32_t element, double u, double v,
+                struct element_point *out)
+{
+    const struct enclosure *e = s->enclosure;
+    if (e->point)
+        return e->point(s->of_enclosure, element, u, v, out);
+    out->p = polygon_uniform(&e->element[element], u, v);
+    out->normal = e->element[element].normal;
+    out->error = 0;
+    return true;
+}
+
+bool pair_is_dark(const struct element *a, const struct element *b)
+{
+    // Relative to the size of both; below it a height is rounding.
+    static const double flat = 1e-9;
+    const struct vec3 between = vec3_sub(b->centre, a->centre);
+    const double size = vec3_length(between);
+    bool a_sees = a->curved, b_sees = b->curved;
+    for (uint32_t i = 0; i < b->corner_count && !a_sees; i++)
+        a_sees = vec3_dot(vec3_sub(b->corner[i], a->centre), a->normal) > flat * size;
+    for (uint32_t i = 0; i < a->corner_count && !b_sees; i++)
+        b_sees = vec3_dot(vec3_sub(a->corner[i], b->centre), b->normal) > flat * size;
+    return !a_sees || !b_sees;
+}
+
+// A quadrature node at (u, v). Curved elements have their nodes on the surface.
+static bool node_at(const struct factor_state *s, uint32_t element, double u, double v,
+                    struct element_point *out, double *jacobian)
+{
+    const struct element *e = &s->enclosure->element[element];
+    out->p = polygon_point(e, u, v, jacobian);
+    out->normal = e->normal;
+    out->error = 0;
+    if (!s->enclosure->point || (!e->curved && e->coverage >= 1))
+        return true;
+    return element_at(s, element, u, v, out);
+}
+
+// Part of the small element's parameter square.
+struct panel {
+    double u, v, side;
+};
+
+// Sums over the panel: of area, and of area times the factor of the points.
+struct panel_sum {
+    double area, factor;
+};
+
+static struct panel_sum panel_integral(const struct factor_state *s, uint32_t small,
+                                       const struct element *big, struct panel at, int k)
+{
+    const struct gauss *g = gauss_rule(k);
+    struct panel_sum sum = {0, 0};
+    for (int i = 0; i < k; i++) {
+        for (int j = 0; j < k; j++) {
+            struct element_point from;
+            double jacobian;
+            if (!node_at(s, small, at.u + at.side * g->at[i], at.v + at.side * g->at[j],
+                         &from, &jacobian))
+                continue;
+            const double w = g->weight[i] * g->weight[j] * jacobian * at.side * at.side;
+            sum.area += w;
+            sum.factor +=
+                w * lambert_polygon(from.p, from.normal, big->corner, big->corner_count);
+        }
+    }
+    return sum;
+}
+
+enum { PANEL_DEPTH = 8 };
+
+// Quarters the panel until that changes less than `allowed`.
+static struct panel_sum panel_refine(const struct factor_state *s, uint32_t small,
+                                     const struct element *big, struct panel at,
+                                     struct panel_sum whole, double allowed, int depth)
+{
+    const int k = s->settings->points + 1;
+    struct panel_sum quarter[4], sum = {0, 0};
+    struct panel part[4];
+    for (int i = 0; i < 4; i++) {
+        const double half = at.side / 2;
+        part[i] = (struct panel){at.u + (i & 1) * half, at.v + (i >> 1) * half, half};
+        quarter[i] = panel_integral(s, small, big, part[i], k);
+        sum.area += quarter[i].area;
+        sum.factor += quarter[i].factor;
+    }
+    if (depth == 0 || fabs(sum.factor - whole.factor) <= allowed)
+        return sum;
+    sum = (struct panel_sum){0, 0};
+    for (int i = 0; i < 4; i++) {
+        const struct panel_sum q =
+            panel_refine(s, small, big, part[i], quarter[i], allowed / 2, depth - 1);
+        sum.area += q.area;
+        sum.factor += q.factor;
+    }
+    return sum;
+}
+
+double factor_analytic(struct factor_state *s, uint32_t small, uint32_t big)
+{
+    const struct element *a = &s->enclosure->element[small];
+    const struct element *b = &s->enclosure->element[big];
+    const double distance = vec3_length(vec3_sub(b->centre, a->centre));
+    const double radius = polygon_radius(a);
+    const struct panel all = {0, 0, 1};
+    const bool near = distance - polygon_radius(b) < 3 * radius;
+    const int k = s->settings->points;
+    struct panel_sum sum = panel_integral(s, small, b, all, near ? k + 1 : k);
+    if (near && sum.area > 0) {
+        const double allowed = s->settings->tolerance * fmax(sum.factor, 1e-3 * sum.area);
+        sum = panel_refine(s, small, b, all, sum, allowed, PANEL_DEPTH);
+    }
+    return sum.area > 0 ? sum.factor / sum.area * (double)b->coverage : 0;
+}
+
+double point_kernel(const struct element_point *a, const struct element_point *b)
+{
+    const struct vec3 d = vec3_sub(b->p, a->p);
+    const double ca = vec3_dot(d, a->normal), cb = -vec3_dot(d, b->normal);
+    const double r2 = vec3_dot(d, d);
+    return ca > 0 && cb > 0 ? ca * cb / (pi * r2 * r2) : 0;
+}
+
+double factor_area(struct factor_state *s, uint32_t small, uint32_t big)
+{
+    const int k = s->settings->points;
+    const struct gauss *g = gauss_rule(k);
+    struct element_point to[GAUSS_MAX * GAUSS_MAX], from;
+    double weight[GAUSS_MAX * GAUSS_MAX], jacobian, area = 0, sum = 0;
+    uint32_t count = 0;
+    for (int i = 0; i < k * k; i++) {
+        if (!node_at(s, big, g->at[i / k], g->at[i % k], &to[count], &jacobian))
+            continue;
+        weight[count++] = g->weight[i / k] * g->weight[i % k] * jacobian;
+    }
+    for (int i = 0; i < k * k; i++) {
+        if (!node_at(s, small, g->at[i / k], g->at[i % k], &from, &jacobian))
+            continue;
+        const double w = g->weight[i / k] * g->weight[i % k] * jacobian;
+        area += w;
+        for (uint32_t j = 0; j < count; j++)
+            sum += w * weight[j] * point_kernel(&from, &to[j]);
+    }
+    return area > 0 ? sum / area : 0;
+}
+
+double factor_disc(struct factor_state *s, uint32_t small, uint32_t big)
+{
+    // Wallace, Elmquist, Haines 1989: A cos cos / (pi r^2 + A), between the centres.
+    const struct element *a = &s->enclosure->element[small];
+    const struct element *b = &s->enclosure->element[big];
+    const struct vec3 d = vec3_sub(b->centre, a->centre);
+    const double ca = vec3_dot(d, a->normal), cb = -vec3_dot(d, b->normal);
+    const double r2 = vec3_dot(d, d);
+    return ca > 0 && cb > 0 ? b->area * ca * cb / (r2 * (pi * r2 + b->area)) : 0;
+}

@@ -1,0 +1,112 @@
+// Form factors by rays, and what hides one element from another.
+#include <stdlib.h>
+
+#include "math/elementary.h"
+#include "radiosity/form_factor.h"
+#include "radiosity/ray_put.h"
+#include "radiosity/sequence.h"
+#include "trace/intersect.h"
+
+static const double pi = 3.14159265358979323846;
+
+struct vec3 cosine_direction(struct vec3 n, double u, double v)
+{
+    const double r = sqrt(u), angle = 2 * pi * v;
+    const double x = r * det_cos(angle), y = r * det_sin(angle), z = sqrt(1 - u);
+    // Duff et al. 2017: a frame about n without a branch on its direction.
+    const double sign = n.z < 0 ? -1 : 1, a = -1 / (sign + n.z), b = n.x * n.y * a;
+    const struct vec3 t = vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    const struct vec3 w = vec3(b, sign + n.y * n.y * a, -n.y);
+    return vec3_mad(vec3_mad(vec3_scale(x, t), y, w), z, n);
+}
+
+struct seen {
+    double all, visible;
+    uint32_t hidden, rays;
+};
+
+// Shadow rays [begin, end) of a pair's sequence.
+static void look(struct factor_state *s, uint32_t a, uint32_t b, uint32_t begin,
+                 uint32_t end, struct seen *seen)
+{
+    enum { MOST = 256 };
+    double weight[MOST];
+    const uint32_t seed = sequence_seed(sequence_seed(a, b), s->settings->seed);
+    struct ray_batch *rays = s->rays;
+    rays->count = 0;
+    for (uint32_t i = begin; i < end && rays->count < MOST; i++) {
+        struct element_point from, to;
+        double x[4];
+        sobol_point(i, seed, x);
+        if (!element_at(s, a, x[0], x[1], &from) || !element_at(s, b, x[2], x[3], &to))
+            continue;
+        const double w = point_kernel(&from, &to);
+        if (w <= 0)
+            continue;
+        weight[rays->count] = w;
+        ray_put_between(rays, &from, &to);
+    }
+    if (!rays->count)
+        return;
+    s->enclosure->occluded(s->of_enclosure, rays, s->hidden);
+    s->ray_count += rays->count;
+    for (uint32_t i = 0; i < rays->count; i++) {
+        seen->all += weight[i];
+        seen->rays++;
+        if (s->hidden[i])
+            seen->hidden++;
+        else
+            seen->visible += weight[i];
+    }
+}
+
+double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b)
+{
+    if (!s->enclosure->occluded)
+        return 1;
+    const uint32_t few = (uint32_t)s->settings->shadow_rays;
+    struct seen seen = {0, 0, 0, 0};
+    look(s, a, b, 0, few, &seen);
+    if (seen.rays == 0 || (seen.hidden && seen.hidden < seen.rays))
+        look(s, a, b, few, 5 * few, &seen);
+    return seen.all > 0 ? seen.visible / seen.all : 0;
+}
+
+static void cast_row(struct factor_state *s, uint32_t i, float *row,
+                     void (*sequence)(uint32_t, uint32_t, double[4]))
+{
+    const uint32_t count = (uint32_t)s->settings->rays;
+    const uint32_t seed = sequence_seed(i, s->settings->seed);
+    uint32_t cast = 0;
+    for (uint32_t j = 0; j < s->enclosure->count; j++)
+        row[j] = 0;
+    for (uint32_t k = 0; k < count;) {
+        s->rays->count = 0;
+        for (; k < count && s->rays->count < s->rays->capacity; k++) {
+            struct element_point from;
+            double x[4];
+            sequence(k, seed, x);
+            if (!element_at(s, i, x[0], x[1], &from))
+                continue;
+            ray_put(s->rays, &from, cosine_direction(from.normal, x[2], x[3]), INFINITY);
+        }
+        s->enclosure->closest(s->of_enclosure, s->rays, s->met);
+        cast += s->rays->count;
+        for (uint32_t r = 0; r < s->rays->count; r++)
+            if (s->met[r] != ELEMENT_NONE)
+                row[s->met[r]] += 1;
+    }
+    s->ray_count += cast;
+    for (uint32_t j = 0; j < s->enclosure->count && cast; j++)
+        row[j] /= (float)cast;
+}
+
+void row_rays(struct factor_state *s, uint32_t i, float *row)
+{
+    cast_row(s, i, row, random_point);
+}
+
+void row_sobol(struct factor_state *s, uint32_t i, float *row)
+{
+    cast_row(s, i, row, sobol_point);
+}
