@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "image/image.h"
+#include "image/texels.h"
 
 // What the file formats share. Only src/image includes it.
 
@@ -47,5 +48,73 @@ bool png_decode(struct image *im, const uint8_t *data, size_t size, struct trans
 bool ppm_decode(struct image *im, const uint8_t *data, size_t size, struct transfer t,
                 struct codec_error e);
 bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec_error e);
+
+enum image_type image_type_of_bytes(const uint8_t *data, size_t size);
+// The whole file, to be freed.
+bool file_bytes(const char *path, struct byte_buffer *b, struct codec_error e);
+
+// One reader per file type (read_NAME.c). On failure what was allocated stays in *t and
+// is freed by the caller.
+typedef bool texels_reader(struct texels *t, const uint8_t *data, size_t size,
+                           struct codec_error e);
+texels_reader png_texels, jpeg_texels, tiff_texels, gif_texels, tga_texels, pnm_texels,
+    bmp_texels, iff_texels, hdr_texels, exr_texels;
+
+// Fills in the sizes and allocates zeroed texels, unless the file cannot hold so many:
+// a byte of it gives at most `most` texels (0: the format sets no bound). The memory is
+// touched only as it is filled, so a header that lies costs little.
+bool texels_allocate(struct texels *t, uint64_t width, uint64_t height, int channels,
+                     enum texel_format format, size_t file_size, double most,
+                     struct codec_error e);
+bool texels_palette(struct texels *t, int count, struct codec_error e); // opaque black
+static inline uint8_t *texels_row8(const struct texels *t, int y)
+{
+    return (uint8_t *)t->data + (size_t)y * (size_t)t->width * (size_t)t->channels;
+}
+static inline uint16_t *texels_row16(const struct texels *t, int y)
+{
+    return (uint16_t *)t->data + (size_t)y * (size_t)t->width * (size_t)t->channels;
+}
+
+// Reads on from a place in memory; past the end it gives zeros and remembers.
+struct byte_reader {
+    const uint8_t *at, *end;
+    bool ended;
+};
+static inline unsigned read_u8(struct byte_reader *r)
+{
+    if (r->at < r->end)
+        return *r->at++;
+    r->ended = true;
+    return 0;
+}
+static inline unsigned read_le16(struct byte_reader *r)
+{
+    unsigned v = read_u8(r);
+    return v | read_u8(r) << 8;
+}
+static inline uint32_t read_le32(struct byte_reader *r)
+{
+    uint32_t v = read_le16(r);
+    return v | (uint32_t)read_le16(r) << 16;
+}
+static inline unsigned read_be16(struct byte_reader *r)
+{
+    unsigned v = read_u8(r) << 8;
+    return v | read_u8(r);
+}
+static inline uint32_t read_be32(struct byte_reader *r)
+{
+    uint32_t v = (uint32_t)read_be16(r) << 16;
+    return v | read_be16(r);
+}
+static inline void read_skip(struct byte_reader *r, size_t n)
+{
+    if (n > (size_t)(r->end - r->at)) {
+        r->ended = true;
+        n = (size_t)(r->end - r->at);
+    }
+    r->at += n;
+}
 
 #endif

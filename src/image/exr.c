@@ -235,7 +235,8 @@ static void interleave(struct image *im, const float *planes, bool grey)
     }
 }
 
-static bool read_opened(exr_context_t f, struct image *im, struct codec_error e)
+static bool read_opened(exr_context_t f, struct image *im, size_t size,
+                        struct codec_error e)
 {
     struct layout l = {0};
     exr_attr_box2i_t box;
@@ -249,8 +250,14 @@ static bool read_opened(exr_context_t f, struct image *im, struct codec_error e)
         return codec_fail(e, "%s", exr_get_error_code_as_string(r));
     if (!l.grey && !l.color)
         return codec_fail(e, "the file has neither R G B nor Y channels");
-    if (!image_init(im, box.max.x - box.min.x + 1, box.max.y - box.min.y + 1,
-                    l.alpha ? 4 : 3))
+    const int64_t width = (int64_t)box.max.x - box.min.x + 1;
+    const int64_t height = (int64_t)box.max.y - box.min.y + 1;
+    // Every chunk of up to 256 rows has its place in the file's table, 8 bytes.
+    if (width < 1 || height < 1 || width > INT32_MAX || height > INT32_MAX ||
+        width * height > INT32_MAX || (size_t)(height / 256) > size / 8)
+        return codec_fail(e, "it claims %lld x %lld pixels in %zu bytes",
+                          (long long)width, (long long)height, size);
+    if (!image_init(im, (int)width, (int)height, l.alpha ? 4 : 3))
         return codec_fail(e, "out of memory");
     float *planes = calloc((size_t)im->width * (size_t)im->height,
                            (size_t)im->channels * sizeof *planes);
@@ -270,9 +277,24 @@ bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec
     exr_result_t r = exr_start_read(&f, "picture", &init);
     if (r)
         return codec_fail(e, "%s", exr_get_error_code_as_string(r));
-    bool ok = read_opened(f, im, e);
+    bool ok = read_opened(f, im, size, e);
     exr_finish(&f);
     if (!ok)
         image_free(im);
     return ok;
+}
+
+bool exr_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
+{
+    struct image im;
+    if (!exr_decode(&im, data, size, e))
+        return false;
+    t->width = im.width;
+    t->height = im.height;
+    t->channels = im.channels;
+    t->format = TEXEL_F32;
+    t->max = 1;
+    t->premultiplied = true;
+    t->data = im.pixel; // handed over
+    return true;
 }

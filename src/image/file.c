@@ -137,7 +137,7 @@ bool image_write(const struct image *im, const char *path,
     case IMAGE_PNG: ok = png_encode(im, options, &bytes, e); break;
     case IMAGE_PPM: ok = ppm_encode(im, options, &bytes, e); break;
     case IMAGE_EXR: ok = exr_encode(im, options, &bytes, e); break;
-    case IMAGE_UNKNOWN: codec_fail(e, "no such file type"); break;
+    default: codec_fail(e, "no such file type"); break;
     }
     if (ok)
         ok = write_bytes(path, &bytes, e);
@@ -145,7 +145,7 @@ bool image_write(const struct image *im, const char *path,
     return ok;
 }
 
-static bool read_bytes(const char *path, struct byte_buffer *b, struct codec_error e)
+bool file_bytes(const char *path, struct byte_buffer *b, struct codec_error e)
 {
     FILE *f = fopen(path, "rb");
     if (!f)
@@ -160,14 +160,29 @@ static bool read_bytes(const char *path, struct byte_buffer *b, struct codec_err
 }
 
 // By the first bytes: names lie.
-static enum image_type type_of_bytes(const uint8_t *data, size_t size)
+enum image_type image_type_of_bytes(const uint8_t *data, size_t size)
 {
+    static const struct {
+        const char *text;
+        size_t size;
+        enum image_type type;
+    } marks[] = {{"\xff\xd8\xff", 3, IMAGE_JPEG},
+                 {"II*\0", 4, IMAGE_TIFF},
+                 {"MM\0*", 4, IMAGE_TIFF},
+                 {"GIF8", 4, IMAGE_GIF},
+                 {"BM", 2, IMAGE_BMP},
+                 {"FORM", 4, IMAGE_IFF},
+                 {"#?RADIANCE", 10, IMAGE_HDR},
+                 {"#?RGBE", 6, IMAGE_HDR}};
     if (size >= 8 && memcmp(data, "\x89PNG\r\n\x1a\n", 8) == 0)
         return IMAGE_PNG;
     if (size >= 4 && memcmp(data, "\x76\x2f\x31\x01", 4) == 0)
         return IMAGE_EXR;
-    if (size >= 2 && data[0] == 'P')
+    if (size >= 2 && data[0] == 'P' && data[1] >= '1' && data[1] <= '6')
         return IMAGE_PPM;
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++)
+        if (size >= marks[i].size && memcmp(data, marks[i].text, marks[i].size) == 0)
+            return marks[i].type;
     return IMAGE_UNKNOWN;
 }
 
@@ -178,7 +193,7 @@ enum image_type image_type_of_file(const char *path)
     size_t n = f ? fread(start, 1, sizeof start, f) : 0;
     if (f)
         fclose(f);
-    return type_of_bytes(start, n);
+    return image_type_of_bytes(start, n);
 }
 
 bool image_read(struct image *im, const char *path, struct transfer transfer, char *error,
@@ -187,13 +202,13 @@ bool image_read(struct image *im, const char *path, struct transfer transfer, ch
     struct codec_error e = {error, error_size};
     struct byte_buffer b = {0};
     *im = (struct image){0};
-    bool ok = read_bytes(path, &b, e);
+    bool ok = file_bytes(path, &b, e);
     if (ok) {
-        switch (type_of_bytes(b.data, b.size)) {
+        switch (image_type_of_bytes(b.data, b.size)) {
         case IMAGE_PNG: ok = png_decode(im, b.data, b.size, transfer, e); break;
         case IMAGE_EXR: ok = exr_decode(im, b.data, b.size, e); break;
         case IMAGE_PPM: ok = ppm_decode(im, b.data, b.size, transfer, e); break;
-        case IMAGE_UNKNOWN: ok = codec_fail(e, "not a PNG, EXR or PPM file"); break;
+        default: ok = codec_fail(e, "not a PNG, EXR or PPM file"); break;
         }
     }
     free(b.data);

@@ -29,8 +29,21 @@ double transfer_encode(struct transfer t, double linear);
 double transfer_decode(struct transfer t, double encoded);
 bool transfer_equal(struct transfer a, struct transfer b);
 
-enum image_type { IMAGE_PNG, IMAGE_EXR, IMAGE_PPM, IMAGE_UNKNOWN };
-enum image_type image_type_of(const char *path); // by extension
+// The first three can be written; image/texels.h reads all.
+enum image_type {
+    IMAGE_PNG,
+    IMAGE_EXR,
+    IMAGE_PPM,
+    IMAGE_JPEG,
+    IMAGE_TIFF,
+    IMAGE_GIF,
+    IMAGE_TGA,
+    IMAGE_BMP,
+    IMAGE_IFF,
+    IMAGE_HDR,
+    IMAGE_UNKNOWN
+};
+enum image_type image_type_of(const char *path); // by extension, if it can be written
 
 struct image_metadata {
     const char *const *key;

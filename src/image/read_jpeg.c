@@ -1,0 +1,73 @@
+// JPEG files through libjpeg-turbo. A file that ends too early is an error, as for the
+// other types; libjpeg itself would fill in grey.
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+#include "image/codec.h"
+
+struct job {
+    struct jpeg_error_mgr manager; // first: libjpeg hands this back
+    jmp_buf back;
+    struct codec_error error;
+};
+
+static void on_error(j_common_ptr c)
+{
+    struct job *job = (struct job *)c->err;
+    char text[JMSG_LENGTH_MAX];
+    job->manager.format_message(c, text);
+    codec_fail(job->error, "%s", text);
+    longjmp(job->back, 1);
+}
+
+// Level -1: the data is damaged.
+static void on_message(j_common_ptr c, int level)
+{
+    if (level < 0)
+        on_error(c);
+}
+
+static bool read_all(struct jpeg_decompress_struct *c, struct texels *t,
+                     const uint8_t *data, size_t size, struct codec_error e)
+{
+    jpeg_mem_src(c, data, (unsigned long)size);
+    jpeg_read_header(c, TRUE);
+    bool grey = c->jpeg_color_space == JCS_GRAYSCALE;
+    if (c->num_components != 1 && c->num_components != 3)
+        return codec_fail(e, "JPEG files of %d colour channels cannot be read",
+                          c->num_components);
+    c->out_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
+    // A block of 64 texels takes a bit at least, in the first scan; a block of the
+    // coarsest sampling covers 16 times as many.
+    if (!texels_allocate(t, c->image_width, c->image_height, grey ? 1 : 3, TEXEL_U8, size,
+                         64 * 8 * 16, e))
+        return false;
+    jpeg_start_decompress(c);
+    while (c->output_scanline < c->output_height) {
+        JSAMPROW row = texels_row8(t, (int)c->output_scanline);
+        jpeg_read_scanlines(c, &row, 1);
+    }
+    jpeg_finish_decompress(c);
+    return true;
+}
+
+bool jpeg_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
+{
+    struct jpeg_decompress_struct c;
+    struct job job = {.error = e};
+    memset(&c, 0, sizeof c);
+    c.err = jpeg_std_error(&job.manager);
+    job.manager.error_exit = on_error;
+    job.manager.emit_message = on_message;
+    volatile bool ok = false;
+    if (!setjmp(job.back)) {
+        jpeg_create_decompress(&c);
+        ok = read_all(&c, t, data, size, e);
+    }
+    jpeg_destroy_decompress(&c);
+    return ok;
+}
