@@ -179,6 +179,7 @@ static struct ast_list add_element(struct parse *p, struct ast_list list, struct
 %token END_OF_TOKENS            // the last; never read
 %precedence VALUE_ENDS          // a value ends only where no operator follows
 %precedence PART
+%precedence '('
 %left '+' '-'
 %left '*' '/'
 
@@ -325,6 +326,7 @@ item:
   | RGB                                 { $$ = word(p, @1, $1); }
   | PART                                { $$ = word(p, @1, $1); }
   | GRAY                                { $$ = word(p, @1, $1); }
+  | CALL1 %prec VALUE_ENDS              { $$ = word(p, @1, $1); } // of julia_fractal
   | XYZ '(' args ')' ':' value
     {
         $$ = of_list(p, AST_CALL, @$, WORD_xyz, ast_append($3, $6).first);

@@ -59,6 +59,9 @@ static const struct sample samples[] = {
     {"mesh2", CUBE " inside_vector <.3,1,.2>"},
     {"polygon", "10, <-1,-1,0>, <1,-1,0>, <1,1,0>, <-1,1,0>, <-1,-1,0>, <-.5,-.5,0>, "
                 "<.5,-.5,0>, <.5,.5,0>, <-.5,.5,0>, <-.5,-.5,0>"},
+    {"julia_fractal", "<-.1, .1, .2, 0> quaternion sqr max_iteration 4 precision 60"},
+    {"julia_fractal", "<-.1, .2, .1, -.1> hypercomplex cube max_iteration 4 precision 60 "
+                      "slice <.1, .2, .3, 1>, .1"},
     {"text", NULL}, // needs a font file
 };
 
