@@ -8,6 +8,7 @@
 #include "math/vec.h"
 
 struct arena;
+struct heights;
 struct texture;
 struct transform;
 
@@ -48,6 +49,8 @@ void args_warn(struct args *a, const char *message);
 // with the include files; the extension is added when the name has none.
 bool args_find_file(struct args *a, const char *role, const char *name,
                     const char *extension, const char **path);
+// The heights of `[type] "file" [gamma g]` or `function w, h { }`, in the scene's arena.
+bool args_heights(struct args *a, struct heights *out);
 // The transforms after the arguments of a part that is no object of its own (a blob
 // component), composed; textures there are not built yet and are reported.
 bool args_transforms(struct args *a, struct transform *out);

@@ -5,7 +5,7 @@ liblambert_a_SOURCES += \
 	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
-	%D%/shapes/julia.h %D%/shapes/julia_fractal.c %D%/shapes/julia_iterate.c \
+	%D%/heights.h %D%/shapes/height_field.c %D%/shapes/height_field.h %D%/shapes/julia.h %D%/shapes/julia_fractal.c %D%/shapes/julia_iterate.c \
 	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \
 	%D%/shapes/ovus.c %D%/shapes/plane.c %D%/shapes/plane.h %D%/shapes/poly.c %D%/shapes/polygon.c %D%/shapes/prism.c \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \

@@ -9,6 +9,7 @@
 #include "base/arena.h"
 #include "math/transform.h"
 #include "scene/args.h"
+#include "scene/heights.h"
 
 struct args {
     const char *at;
@@ -178,6 +179,17 @@ bool args_find_file(struct args *a, const char *role, const char *name,
     (void)extension;
     (void)path;
     return false;
+}
+
+// Hills, 9 by 7 samples.
+bool args_heights(struct args *a, struct heights *out)
+{
+    out->width = 9;
+    out->height = 7;
+    out->at = arena_new_array(a->arena, float, 63);
+    for (int i = 0; i < 63; i++)
+        out->at[i] = (float)(20000 + (i * 7919) % 40000);
+    return true;
 }
 
 bool args_transforms(struct args *a, struct transform *out)

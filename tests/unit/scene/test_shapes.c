@@ -62,6 +62,8 @@ static const struct sample samples[] = {
     {"julia_fractal", "<-.1, .1, .2, 0> quaternion sqr max_iteration 4 precision 60"},
     {"julia_fractal", "<-.1, .2, .1, -.1> hypercomplex cube max_iteration 4 precision 60 "
                       "slice <.1, .2, .3, 1>, .1"},
+    {"height_field", ""},
+    {"height_field", "smooth water_level .5"},
     {"text", NULL}, // needs a font file
 };
 
