@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/sphere.h"
 #include "trace/packet.h"
@@ -71,8 +72,17 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_BOX;
     if (l->ops == &plane_ops)
         return PACKET_PLANE;
-    if (l->ops == &cylinder_ops && !((const struct cylinder *)l->shape)->open)
-        return PACKET_CYLINDER;
+    if (l->ops == &cylinder_ops)
+        return ((const struct cylinder *)l->shape)->open ? PACKET_OPEN_CYLINDER
+                                                         : PACKET_CYLINDER;
+    if (l->ops == &cone_ops)
+        return ((const struct cone *)l->shape)->open ? PACKET_OPEN_CONE : PACKET_CONE;
+    if (l->ops == &quadric_ops)
+        return PACKET_QUADRIC;
+    if (l->ops == &disc_ops)
+        return PACKET_DISC;
+    if (l->ops == &triangle_ops || l->ops == &smooth_triangle_ops)
+        return PACKET_TRIANGLE;
     return PACKET_NONE;
 }
 
@@ -92,7 +102,8 @@ static bool is_intersection(const struct world *w, const struct world_object *o)
 static bool is_product(const struct accel *accel, const struct world_object *o)
 {
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
-        if (accel->leaf_shape[i] == PACKET_NONE)
+        if (accel->leaf_shape[i] == PACKET_NONE ||
+            accel->leaf_shape[i] > PACKET_QUADRIC)
             return false;
     return o->leaf_count < LARGE_OBJECT;
 }

@@ -19,6 +19,12 @@ enum packet_shape {
     PACKET_BOX,
     PACKET_PLANE,
     PACKET_CYLINDER,
+    PACKET_CONE,
+    PACKET_QUADRIC,
+    PACKET_OPEN_CYLINDER, // these are not solid to the eye, or to anything: no product
+    PACKET_OPEN_CONE,
+    PACKET_DISC,
+    PACKET_TRIANGLE,
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };

@@ -39,6 +39,8 @@ struct mask8 {
 #define P_SQRT _mm512_sqrt_pd
 #define P_NEG(x) _mm512_xor_pd(x, _mm512_set1_pd(-0.0))
 #define P_ABS _mm512_abs_pd
+#define P_COPYSIGN(x, y) \
+    _mm512_or_pd(_mm512_abs_pd(x), _mm512_and_pd(_mm512_set1_pd(-0.0), y))
 #define P_LT(x, y) _mm512_cmp_pd_mask(x, y, _CMP_LT_OQ)
 #define P_LE(x, y) _mm512_cmp_pd_mask(x, y, _CMP_LE_OQ)
 #define P_EQ(x, y) _mm512_cmp_pd_mask(x, y, _CMP_EQ_OQ)
@@ -72,6 +74,7 @@ struct mask8 {
 #define P_SQRT _mm256_sqrt_pd
 #define P_NEG(x) _mm256_xor_pd(x, _mm256_set1_pd(-0.0))
 #define P_ABS(x) _mm256_andnot_pd(_mm256_set1_pd(-0.0), x)
+#define P_COPYSIGN(x, y) _mm256_or_pd(P_ABS(x), _mm256_and_pd(_mm256_set1_pd(-0.0), y))
 #define P_LT(x, y) _mm256_cmp_pd(x, y, _CMP_LT_OQ)
 #define P_LE(x, y) _mm256_cmp_pd(x, y, _CMP_LE_OQ)
 #define P_EQ(x, y) _mm256_cmp_pd(x, y, _CMP_EQ_OQ)
@@ -120,6 +123,7 @@ struct mask8 {
 #define P_SQRT _mm_sqrt_pd
 #define P_NEG(x) _mm_xor_pd(x, _mm_set1_pd(-0.0))
 #define P_ABS(x) _mm_andnot_pd(_mm_set1_pd(-0.0), x)
+#define P_COPYSIGN(x, y) _mm_or_pd(P_ABS(x), _mm_and_pd(_mm_set1_pd(-0.0), y))
 #define P_LT _mm_cmplt_pd
 #define P_LE _mm_cmple_pd
 #define P_EQ _mm_cmpeq_pd
@@ -178,6 +182,7 @@ struct mask8 {
 #define P_SQRT(x) sqrt(x)
 #define P_NEG(x) (-(x))
 #define P_ABS(x) fabs(x)
+#define P_COPYSIGN(x, y) copysign(x, y)
 #define P_LT(x, y) ((x) < (y))
 #define P_LE(x, y) ((x) <= (y))
 #define P_EQ(x, y) ((x) == (y))
@@ -213,6 +218,7 @@ LANES_2(real8, real8, r8_mul, R2, P_MUL)
 LANES_2(real8, real8, r8_div, R2, P_DIV)
 LANES_2(real8, real8, r8_min, R2, P_MIN) // x < y ? x : y
 LANES_2(real8, real8, r8_max, R2, P_MAX) // x > y ? x : y
+LANES_2(real8, real8, r8_copysign, R2, P_COPYSIGN) // |x| with the sign of y
 LANES_2(mask8, real8, r8_lt, R2, P_LT)
 LANES_2(mask8, real8, r8_le, R2, P_LE)
 LANES_2(mask8, real8, r8_eq, R2, P_EQ)

@@ -41,10 +41,19 @@ const struct packet_kernels *packet_kernels_choose(void)
 
 // ---- lanes ----------------------------------------------------------------------------
 
+static struct ray_query query_of(const struct packet *p, int i)
+{
+    return (struct ray_query){
+        .ray = {vec3(p->o[0][i], p->o[1][i], p->o[2][i]),
+                vec3(p->d[0][i], p->d[1][i], p->d[2][i]), p->t_min[i], p->t_max[i]},
+        .hidden_by = p->hidden_by[i]};
+}
+
 struct search *packet_lane_begin(struct packet *p, int lane)
 {
     struct search *f = &p->search[lane];
     if (!(p->searching >> lane & 1)) {
+        p->query[lane] = query_of(p, lane);
         *f = search_of(p->w, p->s, &p->query[lane], p->mode);
         p->searching |= 1u << lane;
     }
@@ -75,21 +84,15 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object)
     return found;
 }
 
-// The boundary of a lane's nearest hit.
-static struct hit lane_hit(struct packet *p, int lane)
+struct hit packet_lane_hit(struct packet *p, int lane)
 {
     const uint32_t object = p->object[lane];
-    if (object == UINT32_MAX)
-        return (struct hit){.b = {.t = INFINITY}};
-    if (p->searching >> lane & 1 && p->search[lane].object == object &&
-        p->search[lane].known)
-        return (struct hit){p->search[lane].b};
-    // A packet's kernel found it: the leaf has a crossing of just this t.
+    const struct ray_query q = query_of(p, lane);
     struct boundary_list *list = &p->s->crossings;
     list->count = 0;
     const struct world_object *o = &p->w->object[object];
-    leaf_crossings(p->w, o->is_csg ? p->leaf[lane] : o->first_leaf,
-                   &p->query[lane].ray, list);
+    leaf_crossings(p->w, o->is_csg ? p->leaf[lane] : o->first_leaf, &q.ray, list);
+    // A packet's kernel found it: the leaf has a crossing of just this t.
     for (uint32_t i = 0; i < list->count; i++)
         if (list->at[i].t == p->t[lane] && list->at[i].drawn)
             return (struct hit){list->at[i]};
@@ -102,23 +105,27 @@ static void load(struct packet *p, const struct ray_batch *r, uint32_t first)
 {
     const uint32_t count = r->count - first < 8 ? r->count - first : 8;
     p->alive = (1u << count) - 1;
-    p->known = p->searching = p->hidden_any = 0;
-    for (uint32_t i = 0; i < 8; i++) {
-        const uint32_t k = i < count ? first + i : first;
+    p->searching = p->hidden_any = 0;
+    for (int a = 0; a < 3; a++) {
+        memcpy(p->o[a], r->o[a] + first, sizeof p->o[a]);
+        memcpy(p->d[a], r->d[a] + first, sizeof p->d[a]);
+    }
+    memcpy(p->t_min, r->t_min + first, sizeof p->t_min);
+    memcpy(p->t_max, r->t_max + first, sizeof p->t_max);
+    memcpy(p->hidden_by, r->hidden_by + first, sizeof p->hidden_by);
+    for (uint32_t i = count; i < 8; i++) {
         for (int a = 0; a < 3; a++) {
-            p->o[a][i] = r->o[a][k];
-            p->d[a][i] = r->d[a][k];
+            p->o[a][i] = p->o[a][0];
+            p->d[a][i] = p->d[a][0];
         }
-        p->t_min[i] = r->t_min[k];
-        p->t_max[i] = r->t_max[k];
+        p->t_min[i] = p->t_min[0];
+        p->t_max[i] = p->t_max[0];
+        p->hidden_by[i] = p->hidden_by[0];
+    }
+    for (uint32_t i = 0; i < 8; i++) {
         p->t[i] = INFINITY;
         p->object[i] = UINT32_MAX;
-        p->hidden_by[i] = r->hidden_by[k];
-        p->hidden_any |= r->hidden_by[k];
-        p->query[i] = (struct ray_query){
-            .ray = {vec3(p->o[0][i], p->o[1][i], p->o[2][i]),
-                    vec3(p->d[0][i], p->d[1][i], p->d[2][i]), p->t_min[i], p->t_max[i]},
-            .hidden_by = p->hidden_by[i]};
+        p->hidden_any |= p->hidden_by[i];
     }
 }
 
@@ -132,9 +139,7 @@ void trace_closest(const struct world *w, struct trace_scratch *s,
     s->stats.rays += rays->count;
     for (uint32_t i = 0; i < rays->count; i += 8) {
         load(&p, rays, i);
-        w->accel->kernels->trace(&p);
-        for (uint32_t k = i; k < i + 8 && k < rays->count; k++)
-            out[k] = lane_hit(&p, (int)(k - i));
+        w->accel->kernels->trace(&p, out + i);
     }
 }
 
@@ -148,7 +153,7 @@ void trace_occluded(const struct world *w, struct trace_scratch *s,
     s->stats.shadow_rays += rays->count;
     for (uint32_t i = 0; i < rays->count; i += 8) {
         load(&p, rays, i);
-        w->accel->kernels->trace(&p);
+        w->accel->kernels->trace(&p, NULL);
         for (uint32_t k = i; k < i + 8 && k < rays->count; k++)
             out[k] = p.object[k - i] != UINT32_MAX;
     }

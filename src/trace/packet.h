@@ -40,13 +40,13 @@ struct packet {
     double t_begin[8], scale[8];
     uint32_t object[8]; // UINT32_MAX: none
     uint32_t leaf[8];   // of an unknown boundary
-    unsigned alive, known, searching;
+    unsigned alive, searching;
     unsigned hidden_any, hidden_by[8];
     const struct world *w;
     struct trace_scratch *s;
     enum sweep_mode mode;
     struct ray_query query[8];
-    struct search search[8]; // filled where `searching`
+    struct search search[8]; // both filled where `searching`
 };
 
 // Tries the object with the rays of `lanes` one by one; says where it became the nearest.
@@ -54,12 +54,22 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object);
 // The search that continues the lane, and its end.
 struct search *packet_lane_begin(struct packet *p, int lane);
 void packet_lane_end(struct packet *p, int lane);
+// The boundary of a lane's nearest hit, by the shape itself.
+struct hit packet_lane_hit(struct packet *p, int lane);
+
+// Whether the lane's search holds that boundary.
+static inline bool packet_lane_known(const struct packet *p, int lane)
+{
+    return (p->searching >> lane & 1) && p->search[lane].object == p->object[lane] &&
+           p->search[lane].known;
+}
 
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
-    // Finds the nearest (or, opaque, any) hit of the alive lanes.
-    void (*trace)(struct packet *p);
+    // Finds the nearest (or, opaque, any) hit of the alive lanes, and its boundary unless
+    // `out` (by lane) is NULL.
+    void (*trace)(struct packet *p, struct hit *out);
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
 };

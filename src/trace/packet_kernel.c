@@ -1,8 +1,7 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
 // flags choose the width in trace/lanes.h. All give the same bits.
 #include "trace/packet.h"
-#include "trace/packet_product.h"
-#include "trace/packet_shapes.h"
+#include "trace/packet_objects.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
@@ -135,184 +134,7 @@ static void walk(struct search *f, struct bvh8_ray *r, int32_t child)
     }
 }
 
-// ---- eight rays ---------------------------------------------------------------------------
-
-struct eight {
-    struct packet *p;
-    struct ray8 ray;
-    struct vec8 inverse; // 1 / d
-    struct real8 t_min, t_max;
-};
-
-// Lanes of `bits` that may see an object of these flags.
-LANES_INLINE unsigned seeing(const struct packet *p, unsigned flags, unsigned bits)
-{
-    if (!(flags & p->hidden_any))
-        return bits;
-    for (unsigned m = bits; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m);
-        if (flags & p->hidden_by[lane])
-            bits &= ~(1u << lane);
-    }
-    return bits;
-}
-
-// Takes t where it is wanted and nearer (of equal ones the object declared first).
-LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint32_t object,
-                           uint32_t leaf)
-{
-    struct packet *p = e->p;
-    const struct real8 best = r8_load(p->t);
-    bits &= m8_bits(m8_and(r8_lt(e->t_min, t), r8_lt(t, e->t_max)));
-    const unsigned nearer = bits & m8_bits(r8_lt(t, best));
-    unsigned won = nearer;
-    for (unsigned m = bits & m8_bits(r8_eq(t, best)); m; m &= m - 1)
-        if (object < p->object[__builtin_ctz(m)])
-            won |= m & -m;
-    if (!won)
-        return 0;
-    r8_store(p->t, r8_select(m8_of(won), t, best));
-    for (unsigned m = won; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m);
-        p->object[lane] = object;
-        p->leaf[lane] = leaf;
-    }
-    return won;
-}
-
-LANES_INLINE struct real8 transformed(struct vec8 v, const struct mat3 *m, int j)
-{
-    return r8_add(r8_add(r8_mul(v.x, r8_set(m->m[0][j])), r8_mul(v.y, r8_set(m->m[1][j]))),
-                  r8_mul(v.z, r8_set(m->m[2][j])));
-}
-
-// The rays in a leaf's own space, as transform_inverse_ray.
-static struct ray8 local_ray(const struct leaf *l, const struct ray8 *ray)
-{
-    const struct mat3 *m = &l->transform.inverse;
-    const struct vec8 o = v8_sub(ray->o, V8_SET(l->transform.offset));
-    return ray8_of(
-        (struct vec8){transformed(o, m, 0), transformed(o, m, 1), transformed(o, m, 2)},
-        (struct vec8){transformed(ray->d, m, 0), transformed(ray->d, m, 1),
-                      transformed(ray->d, m, 2)});
-}
-
-static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
-{
-    const struct world *w = e->p->w;
-    const uint32_t leaf = w->object[object].first_leaf;
-    const struct leaf *l = &w->leaf[leaf];
-    struct ray8 own;
-    const struct ray8 *ray = &e->ray;
-    if (!l->transform.identity) {
-        own = local_ray(l, ray);
-        ray = &own;
-    }
-    struct span8 x;
-    switch (w->accel->leaf_shape[leaf]) { // apart, so that no error bound is computed
-    case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
-    case PACKET_BOX: x = span8_box(l->shape, ray); break;
-    case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
-    default: x = span8_plane(l->shape, ray); break;
-    }
-    bits &= m8_bits(x.met);
-    if (!bits)
-        return 0;
-    const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
-    return take(e, bits, t, object, leaf);
-}
-
-// The lanes that meet the box before their nearest hit, as box_meets.
-LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
-{
-    const struct real8 grow = r8_set(1 + 2 * GAMMA(3));
-    struct real8 near = e->t_min, far = r8_min(e->t_max, r8_load(e->p->t));
-#pragma GCC unroll 3
-    for (int a = 0; a < 3; a++) {
-        const struct real8 o = a == 0 ? e->ray.o.x : a == 1 ? e->ray.o.y : e->ray.o.z;
-        const struct real8 inv = a == 0   ? e->inverse.x
-                                 : a == 1 ? e->inverse.y
-                                          : e->inverse.z;
-        const struct real8 t0 = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
-        const struct real8 t1 = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
-        const struct mask8 back = r8_lt(inv, r8_set(0));
-        near = r8_max(r8_select(back, t1, t0), near); // NaN: the origin in a face
-        far = r8_min(r8_mul(r8_select(back, t0, t1), grow), far);
-    }
-    return m8_bits(r8_le(near, far));
-}
-
-static unsigned product(struct eight *e, unsigned bits, uint32_t object)
-{
-    struct packet *p = e->p;
-    const struct world *w = p->w;
-    const struct world_object *o = &w->object[object];
-    bits &= box_lanes(e, &o->bounds);
-    if (!bits)
-        return 0;
-    bool complement[PRODUCT_LEAVES];
-    struct product x = {.t_min = e->t_min,
-                        .t_max = e->t_max,
-                        .in = r8_set(-INFINITY),
-                        .out = r8_set(INFINITY),
-                        .in_e = r8_set(0),
-                        .out_e = r8_set(0),
-                        .in_at = r8_set(-1),
-                        .out_at = r8_set(-1),
-                        .bounds = r8_set(0),
-                        .unsure = m8_of(0)};
-    for (uint32_t i = 0; i < o->leaf_count; i++) {
-        const struct leaf *l = &w->leaf[o->first_leaf + i];
-        const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
-        struct ray8 own;
-        const struct ray8 *ray = &e->ray;
-        if (!l->transform.identity) {
-            own = local_ray(l, ray);
-            ray = &own;
-        }
-        struct span8 s;
-        switch (shape) {
-        case PACKET_SPHERE: s = span8_sphere(l->shape, ray); break;
-        case PACKET_BOX: s = span8_box(l->shape, ray); break;
-        case PACKET_CYLINDER: s = span8_cylinder(l->shape, ray); break;
-        default: s = span8_plane(l->shape, ray); break;
-        }
-        complement[i] = l->inverted;
-        bits &= product_add(&x, l->inverted, shape != PACKET_PLANE, &s);
-        if (!bits)
-            return 0;
-    }
-    struct real8 t, at;
-    unsigned unsure;
-    const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
-    unsigned won = found ? take(e, found, t, object, o->first_leaf) : 0;
-    if (won) {
-        double which[8];
-        r8_store(which, at);
-        for (unsigned m = won; m; m &= m - 1) {
-            const int lane = __builtin_ctz(m);
-            p->leaf[lane] = o->first_leaf + (uint32_t)which[lane] / 2;
-        }
-    }
-    p->s->stats.csg_tests++;
-    return unsure ? won | packet_try_object(p, unsure, object) : won;
-}
-
-static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
-{
-    struct packet *p = e->p;
-    const struct accel *a = p->w->accel;
-    const struct world_object *o = &p->w->object[object];
-    if (a->object_shape[object] == PACKET_NONE || a->object_shape[object] == PACKET_SPONGE)
-        return packet_try_object(p, bits, object);
-    bits = seeing(p, o->flags, bits);
-    if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
-        return 0;
-    if (a->object_shape[object] == PACKET_PRODUCT)
-        return product(e, bits, object);
-    p->s->stats.leaf_tests++;
-    return lone(e, bits, object);
-}
+// ---- the tree ---------------------------------------------------------------------------
 
 // Item i of the tree: a bare sphere stands in the tree's own list, so that most tests
 // touch nothing else.
@@ -336,8 +158,6 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
     const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
     return take(e, bits, t, object, 0);
 }
-
-// ---- the tree -----------------------------------------------------------------------------
 
 struct packet_entry {
     float near[8]; // where the lanes enter the box; beyond all where they do not
@@ -515,28 +335,37 @@ static void traverse(struct eight *e, unsigned lanes)
     }
 }
 
-static void trace(struct packet *p)
+static void find(struct eight *e, struct packet *p)
 {
     const struct accel *a = p->w->accel;
+    for (uint32_t i = 0; i < a->infinite_count && p->alive; i++) {
+        const unsigned won = try_eight(e, p->alive, a->infinite[i]);
+        if (p->mode == SWEEP_OPAQUE)
+            p->alive &= ~won;
+    }
+    if (!p->alive || !a->top.node)
+        return;
+    const unsigned lanes = tree_begin(e);
+    if (lanes)
+        traverse(e, lanes);
+}
+
+static void trace(struct packet *p, struct hit *out)
+{
+    const unsigned lanes = p->alive;
     struct eight e = {
         .p = p,
         .ray = ray8_of(
             (struct vec8){r8_load(p->o[0]), r8_load(p->o[1]), r8_load(p->o[2])},
             (struct vec8){r8_load(p->d[0]), r8_load(p->d[1]), r8_load(p->d[2])}),
         .t_min = r8_load(p->t_min),
-        .t_max = r8_load(p->t_max)};
+        .t_max = r8_load(p->t_max),
+        .sheared = false};
     e.inverse = (struct vec8){r8_div(r8_set(1), e.ray.d.x), r8_div(r8_set(1), e.ray.d.y),
                               r8_div(r8_set(1), e.ray.d.z)};
-    for (uint32_t i = 0; i < a->infinite_count && p->alive; i++) {
-        const unsigned won = try_eight(&e, p->alive, a->infinite[i]);
-        if (p->mode == SWEEP_OPAQUE)
-            p->alive &= ~won;
-    }
-    if (!p->alive || !a->top.node)
-        return;
-    const unsigned lanes = tree_begin(&e);
-    if (lanes)
-        traverse(&e, lanes);
+    find(&e, p);
+    if (out)
+        hits(&e, lanes, out);
 }
 
 const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace, walk};

@@ -6,12 +6,6 @@
 #include "scene/args.h"
 #include "scene/shape.h"
 
-struct triangle {
-    struct vec3 p[3], n[3];
-    struct vec3 face; // unit
-    bool smooth, degenerate;
-};
-
 struct triangle_ray triangle_ray_of(const struct ray *r)
 {
     struct triangle_ray q = {.o = r->o};

@@ -5,6 +5,12 @@
 
 #include "math/vec.h"
 
+struct triangle {
+    struct vec3 p[3], n[3];
+    struct vec3 face; // unit
+    bool smooth, degenerate;
+};
+
 // A ray prepared for watertight triangle tests (Woop, Benthin & Wald 2013): sheared so
 // that it runs along the axis of its largest direction component. Edge functions of a
 // shared edge are then the exact negatives of each other, and with closed edges no ray

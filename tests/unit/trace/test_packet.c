@@ -7,10 +7,13 @@
 
 #include "base/arena.h"
 #include "scene/shapes/box.h"
+#include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/plane.h"
+#include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
+#include "scene/shapes/triangle.h"
 #include "trace/packet.h"
 
 static const struct pigment grey = {.kind = PIGMENT_SOLID, .color = {.r = .5f}};
@@ -57,11 +60,66 @@ static struct object *of(struct maker *m, const struct shape_ops *ops, const voi
     return object_new_shape(m->a, ops, copy, (struct span){0});
 }
 
+static struct cone random_cone(struct maker *m, struct vec3 c, double r)
+{
+    struct cone k = {.frame = frame_around(c, m->grid ? vec3(0, 0, 1) : somewhere(m, 1)),
+                     .length = 2 * r,
+                     .r0 = chance(m) < .2 ? 0 : r,
+                     .r1 = between(m, 0, 2) * r};
+    k.slope = (k.r1 - k.r0) / k.length;
+    return k;
+}
+
+// Ellipsoids, hyperboloids of both kinds, paraboloids, cylinders, saddles, cones.
+static struct quadric random_quadric(struct maker *m, struct vec3 c, double r)
+{
+    struct quadric q = {.centre = c, .xx = 1, .yy = 1.5, .zz = 1, .constant = -r * r};
+    const int kind = (int)(7 * chance(m));
+    if (kind == 1 || kind == 2)
+        q.zz = -1;
+    if (kind == 2)
+        q.constant = r * r;
+    if (kind == 3)
+        q.yy = 0, q.linear.y = -1;
+    if (kind == 4)
+        q.yy = 0;
+    if (kind == 5)
+        q.yy = 0, q.zz = -1, q.linear.y = 1;
+    if (kind == 6)
+        q.zz = -1, q.constant = 0;
+    if (!m->grid && chance(m) < .3)
+        q.xy = q.yz = .25;
+    return q;
+}
+
+static struct object *random_triangle(struct maker *m, struct vec3 c)
+{
+    struct triangle t = {.smooth = chance(m) < .5};
+    for (int i = 0; i < 3; i++) {
+        t.p[i] = vec3_add(c, somewhere(m, 1));
+        t.n[i] = vec3(0, 0, 1);
+    }
+    t.face = triangle_normal(t.p);
+    t.degenerate = vec3_dot(t.face, t.face) == 0;
+    return of(m, t.smooth ? &smooth_triangle_ops : &triangle_ops, &t);
+}
+
 static struct object *random_shape(struct maker *m)
 {
     const struct vec3 c = somewhere(m, 1);
     const double r = .25 + between(m, .25, 1);
-    const int kind = (int)(5 * chance(m));
+    const int kind = (int)(8 * chance(m));
+    if (kind == 5) {
+        struct cone k = random_cone(m, c, r);
+        k.open = chance(m) < .3;
+        return of(m, &cone_ops, &k);
+    }
+    if (kind == 6) {
+        const struct quadric q = random_quadric(m, c, r);
+        return of(m, &quadric_ops, &q);
+    }
+    if (kind == 7)
+        return random_triangle(m, c);
     if (kind == 0) {
         const struct box b = {vec3_sub(c, vec3(r, r, r)), vec3_add(c, vec3(r, r, r))};
         return of(m, &box_ops, &b);
@@ -79,7 +137,7 @@ static struct object *random_shape(struct maker *m)
             .open = chance(m) < .3};
         return of(m, &cylinder_ops, &z);
     }
-    if (kind == 3 && chance(m) < .3) {
+    if (kind == 3 && chance(m) < .5) {
         const struct disc d = {c, vec3(0, 1, 0), r, .5 * r};
         return of(m, &disc_ops, &d);
     }
@@ -198,6 +256,8 @@ static void assert_same(const struct boundary *a, const struct boundary *b)
     assert_int_equal(a->leaf, b->leaf);
     assert_int_equal(a->part, b->part);
     assert_int_equal(a->crossing, b->crossing);
+    assert_memory_equal(&a->u, &b->u, sizeof a->u);
+    assert_memory_equal(&a->v, &b->v, sizeof a->v);
 }
 
 static int check_world(struct world *w, struct maker *m)
@@ -262,6 +322,46 @@ static void lone_shapes(void **state)
     check_random(2, 60, 0, 4, true);
 }
 
+// Each kernel by itself: a world of one kind of shape.
+static void every_kernel(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 8; kind++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 40 + (uint64_t)kind};
+        for (int i = 0; i < 24; i++) {
+            m.grid = i % 3 == 0;
+            const struct vec3 c = somewhere(&m, 3);
+            const double r = .5 + between(&m, .25, 1);
+            const struct cylinder z = {.frame = frame_around(c, vec3(0, i % 2, 1)),
+                                       .length = 2 * r,
+                                       .radius = r,
+                                       .open = kind == 0};
+            struct cone cone = random_cone(&m, c, r);
+            cone.open = kind == 2;
+            const struct quadric q = random_quadric(&m, c, r);
+            const struct disc d = {c, vec3_normalize(vec3(i % 2, 1, i % 3)), 2 * r, r};
+            const struct box b = {c, vec3_add(c, vec3(r, 2, r))};
+            const struct sphere s = {c, r, transform_identity.linear};
+            const struct plane p = {vec3_normalize(vec3(i % 2, 1, i % 3)), c};
+            struct object *o = kind <= 0   ? of(&m, &cylinder_ops, &z)
+                               : kind <= 2 ? of(&m, &cone_ops, &cone)
+                               : kind == 3 ? of(&m, &quadric_ops, &q)
+                               : kind == 4 ? of(&m, &disc_ops, &d)
+                               : kind == 5 ? random_triangle(&m, c)
+                               : kind == 6 ? i % 2 ? of(&m, &box_ops, &b)
+                                                   : of(&m, &plane_ops, &p)
+                                           : of(&m, &sphere_ops, &s);
+            if (i % 4 == 0) {
+                struct transform t = transform_scale(vec3(1, 1.5, .75));
+                object_transform(m.a, o, &t);
+            }
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 static void one_product(void **state)
 {
     (void)state;
@@ -286,10 +386,14 @@ static struct object *random_product(struct maker *m, double off)
             .frame = frame_around(c, vec3(0, m->grid ? 0 : .5, 1)),
             .length = 2 * r,
             .radius = r};
+        const struct cone cone = random_cone(m, c, r);
+        const struct quadric q = random_quadric(m, c, r);
         const double k = chance(m);
-        struct object *o = k < .4    ? of(m, &box_ops, &b)
-                           : k < .65 ? of(m, &sphere_ops, &s)
-                           : k < .85 ? of(m, &cylinder_ops, &z)
+        struct object *o = k < .3    ? of(m, &box_ops, &b)
+                           : k < .5 ? of(m, &sphere_ops, &s)
+                           : k < .65 ? of(m, &cylinder_ops, &z)
+                           : k < .75 ? of(m, &cone_ops, &cone)
+                           : k < .9 ? of(m, &quadric_ops, &q)
                                      : of(m, &plane_ops, &p);
         if (chance(m) < .3) {
             struct transform t = transform_scale(vec3(1, 2, 1));
@@ -383,6 +487,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lone_shapes),
+        cmocka_unit_test(every_kernel),
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(sponges),

@@ -1,0 +1,316 @@
+#ifndef TRACE_PACKET_OBJECTS_H
+#define TRACE_PACKET_OBJECTS_H
+
+// Eight rays and one object.
+#include "trace/packet.h"
+#include "trace/packet_cross.h"
+#include "trace/packet_product.h"
+
+struct eight {
+    struct packet *p;
+    struct ray8 ray;
+    struct vec8 inverse; // 1 / d
+    struct real8 t_min, t_max;
+    struct shear8 shear; // for triangles, if `sheared`
+    bool sheared;
+};
+
+// Lanes of `bits` that may see an object of these flags.
+LANES_INLINE unsigned seeing(const struct packet *p, unsigned flags, unsigned bits)
+{
+    if (!(flags & p->hidden_any))
+        return bits;
+    for (unsigned m = bits; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        if (flags & p->hidden_by[lane])
+            bits &= ~(1u << lane);
+    }
+    return bits;
+}
+
+// Takes t where it is wanted and nearer (of equal ones the object declared first).
+LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint32_t object,
+                           uint32_t leaf)
+{
+    struct packet *p = e->p;
+    const struct real8 best = r8_load(p->t);
+    bits &= m8_bits(m8_and(r8_lt(e->t_min, t), r8_lt(t, e->t_max)));
+    const unsigned nearer = bits & m8_bits(r8_lt(t, best));
+    unsigned won = nearer;
+    for (unsigned m = bits & m8_bits(r8_eq(t, best)); m; m &= m - 1)
+        if (object < p->object[__builtin_ctz(m)])
+            won |= m & -m;
+    if (!won)
+        return 0;
+    r8_store(p->t, r8_select(m8_of(won), t, best));
+    for (unsigned m = won; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        p->object[lane] = object;
+        p->leaf[lane] = leaf;
+    }
+    return won;
+}
+
+LANES_INLINE struct real8 transformed(struct vec8 v, const struct mat3 *m, int j)
+{
+    return r8_add(r8_add(r8_mul(v.x, r8_set(m->m[0][j])), r8_mul(v.y, r8_set(m->m[1][j]))),
+                  r8_mul(v.z, r8_set(m->m[2][j])));
+}
+
+// The rays in a leaf's own space, as transform_inverse_ray.
+static struct ray8 local_ray(const struct leaf *l, const struct ray8 *ray)
+{
+    const struct mat3 *m = &l->transform.inverse;
+    const struct vec8 o = v8_sub(ray->o, V8_SET(l->transform.offset));
+    return ray8_of(
+        (struct vec8){transformed(o, m, 0), transformed(o, m, 1), transformed(o, m, 2)},
+        (struct vec8){transformed(ray->d, m, 0), transformed(ray->d, m, 1),
+                      transformed(ray->d, m, 2)});
+}
+
+// The rays as a leaf's shape sees them.
+LANES_INLINE const struct ray8 *leaf_ray(const struct leaf *l, const struct ray8 *ray,
+                                         struct ray8 *own)
+{
+    if (l->transform.identity)
+        return ray;
+    *own = local_ray(l, ray);
+    return own;
+}
+
+static struct cross8 cross8_triangle(struct eight *e, const struct triangle *s,
+                                     const struct ray8 *ray)
+{
+    if (s->degenerate)
+        return cross8_none();
+    if (ray != &e->ray) {
+        const struct shear8 shear = shear8_of(ray);
+        return cross8_corners(s->p, &shear, ray->o_max);
+    }
+    if (!e->sheared) {
+        e->shear = shear8_of(ray);
+        e->sheared = true;
+    }
+    return cross8_corners(s->p, &e->shear, ray->o_max);
+}
+
+// All that the eight lines have in common with a leaf.
+static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
+{
+    const struct leaf *l = &e->p->w->leaf[leaf];
+    struct ray8 own;
+    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    switch ((enum packet_shape)e->p->w->accel->leaf_shape[leaf]) {
+    case PACKET_SPHERE: return cross8_sphere(l->shape, ray);
+    case PACKET_BOX: return cross8_box(l->shape, ray);
+    case PACKET_PLANE: return cross8_plane(l->shape, ray);
+    case PACKET_CYLINDER:
+    case PACKET_OPEN_CYLINDER: return cross8_cylinder(l->shape, ray);
+    case PACKET_CONE:
+    case PACKET_OPEN_CONE: return cross8_cone(l->shape, ray);
+    case PACKET_DISC: return cross8_disc(l->shape, ray);
+    case PACKET_QUADRIC: return cross8_quadric(l->shape, ray);
+    case PACKET_TRIANGLE: return cross8_triangle(e, l->shape, ray);
+    default: return cross8_none();
+    }
+}
+
+static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf)
+{
+    const struct cross8 x = leaf_cross(e, leaf);
+    const unsigned odd = bits & m8_bits(x.odd);
+    const struct mask8 first = m8_and(x.drawn[0], r8_lt(e->t_min, x.t[0]));
+    const unsigned met = bits & m8_bits(m8_and(x.met, m8_or(first, x.drawn[1])));
+    const unsigned won =
+        met ? take(e, met, r8_select(first, x.t[0], x.t[1]), object, leaf) : 0;
+    return odd ? won | packet_try_object(e->p, odd, object) : won;
+}
+
+static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
+{
+    const struct world *w = e->p->w;
+    const uint32_t leaf = w->object[object].first_leaf;
+    const struct leaf *l = &w->leaf[leaf];
+    struct ray8 own;
+    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    struct span8 x;
+    switch ((enum packet_shape)w->accel->leaf_shape[leaf]) { // no error bound is computed
+    case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
+    case PACKET_BOX: x = span8_box(l->shape, ray); break;
+    case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
+    case PACKET_PLANE: x = span8_plane(l->shape, ray); break;
+    default: return lone_cross(e, bits, object, leaf);
+    }
+    bits &= m8_bits(x.met);
+    if (!bits)
+        return 0;
+    const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
+    return take(e, bits, t, object, leaf);
+}
+
+// The lanes that meet the box before their nearest hit, as box_meets.
+LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
+{
+    const struct real8 grow = r8_set(1 + 2 * GAMMA(3));
+    struct real8 near = e->t_min, far = r8_min(e->t_max, r8_load(e->p->t));
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct real8 o = a == 0 ? e->ray.o.x : a == 1 ? e->ray.o.y : e->ray.o.z;
+        const struct real8 inv = a == 0   ? e->inverse.x
+                                 : a == 1 ? e->inverse.y
+                                          : e->inverse.z;
+        const struct real8 t0 = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
+        const struct real8 t1 = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
+        const struct mask8 back = r8_lt(inv, r8_set(0));
+        near = r8_max(r8_select(back, t1, t0), near); // NaN: the origin in a face
+        far = r8_min(r8_mul(r8_select(back, t0, t1), grow), far);
+    }
+    return m8_bits(r8_le(near, far));
+}
+
+static unsigned product(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world *w = p->w;
+    const struct world_object *o = &w->object[object];
+    bits &= box_lanes(e, &o->bounds);
+    if (!bits)
+        return 0;
+    bool complement[PRODUCT_LEAVES];
+    struct product x = {.t_min = e->t_min,
+                        .t_max = e->t_max,
+                        .in = r8_set(-INFINITY),
+                        .out = r8_set(INFINITY),
+                        .in_e = r8_set(0),
+                        .out_e = r8_set(0),
+                        .in_at = r8_set(-1),
+                        .out_at = r8_set(-1),
+                        .bounds = r8_set(0),
+                        .unsure = m8_of(0)};
+    for (uint32_t i = 0; i < o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[o->first_leaf + i];
+        const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
+        struct ray8 own;
+        const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+        struct span8 s;
+        struct mask8 odd = m8_of(0);
+        switch (shape) {
+        case PACKET_SPHERE: s = span8_sphere(l->shape, ray); break;
+        case PACKET_BOX: s = span8_box(l->shape, ray); break;
+        case PACKET_CYLINDER: s = span8_cylinder(l->shape, ray); break;
+        case PACKET_CONE: s = span8_cone(l->shape, ray, &odd); break;
+        case PACKET_QUADRIC: s = span8_quadric(l->shape, ray, &odd); break;
+        default: s = span8_plane(l->shape, ray); break;
+        }
+        x.unsure = m8_or(x.unsure, odd);
+        complement[i] = l->inverted;
+        bits &= product_add(&x, l->inverted, shape != PACKET_PLANE, &s);
+        if (!bits)
+            return 0;
+    }
+    struct real8 t, at;
+    unsigned unsure;
+    const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
+    unsigned won = found ? take(e, found, t, object, o->first_leaf) : 0;
+    if (won) {
+        double which[8];
+        r8_store(which, at);
+        for (unsigned m = won; m; m &= m - 1) {
+            const int lane = __builtin_ctz(m);
+            p->leaf[lane] = o->first_leaf + (uint32_t)which[lane] / 2;
+        }
+    }
+    p->s->stats.csg_tests++;
+    return unsure ? won | packet_try_object(p, unsure, object) : won;
+}
+
+static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct accel *a = p->w->accel;
+    const struct world_object *o = &p->w->object[object];
+    if (a->object_shape[object] == PACKET_NONE || a->object_shape[object] == PACKET_SPONGE)
+        return packet_try_object(p, bits, object);
+    bits = seeing(p, o->flags, bits);
+    if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
+        return 0;
+    if (a->object_shape[object] == PACKET_PRODUCT)
+        return product(e, bits, object);
+    p->s->stats.leaf_tests++;
+    return lone(e, bits, object);
+}
+
+// ---- hits -----------------------------------------------------------------------------------
+
+LANES_INLINE enum crossing crossing_of(const struct cross8 *x, int which, int lane,
+                                       bool inverted)
+{
+    if (x->sheet)
+        return CROSS_TOUCH;
+    const bool enters = (m8_bits(x->enters) >> lane & 1) == (which == 0);
+    return enters != inverted ? CROSS_ENTER : CROSS_EXIT;
+}
+
+// The boundaries of the lanes that hit the same leaf. Returns the lanes done: all but those
+// whose hit is of another making.
+static unsigned leaf_hits(struct eight *e, unsigned lanes, uint32_t leaf, struct hit *out)
+{
+    const struct cross8 x = leaf_cross(e, leaf);
+    const struct real8 t = r8_load(e->p->t);
+    const unsigned met = lanes & m8_bits(x.met);
+    const unsigned first = met & m8_bits(m8_and(x.drawn[0], r8_eq(t, x.t[0])));
+    const unsigned second = met & m8_bits(m8_and(x.drawn[1], r8_eq(t, x.t[1]))) & ~first;
+    const bool inverted = e->p->w->leaf[leaf].inverted;
+    double dt[2][8], part[2][8], u[8], v[8];
+    for (int i = 0; i < 2; i++) {
+        r8_store(dt[i], x.dt[i]);
+        r8_store(part[i], x.part[i]);
+    }
+    r8_store(u, x.u);
+    r8_store(v, x.v);
+    for (unsigned m = first | second; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m), k = !(first >> lane & 1);
+        out[lane].b = (struct boundary){.t = e->p->t[lane],
+                                        .dt = dt[k][lane],
+                                        .u = u[lane],
+                                        .v = v[lane],
+                                        .part = (uint32_t)part[k][lane],
+                                        .leaf = leaf,
+                                        .crossing = crossing_of(&x, k, lane, inverted),
+                                        .drawn = 1};
+    }
+    return first | second;
+}
+
+// The boundaries of the lanes' hits. Packets keep t and the leaf only; what most rays of a
+// packet hit is one leaf, whose boundaries are made for all at once.
+static void hits(struct eight *e, unsigned lanes, struct hit *out)
+{
+    struct packet *p = e->p;
+    for (unsigned m = lanes; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        const uint32_t object = p->object[lane];
+        if (object == UINT32_MAX) {
+            out[lane].b = (struct boundary){.t = INFINITY};
+            lanes &= ~(1u << lane);
+        } else if (packet_lane_known(p, lane)) {
+            out[lane].b = p->search[lane].b;
+            lanes &= ~(1u << lane);
+        } else if (!p->w->object[object].is_csg) {
+            p->leaf[lane] = p->w->object[object].first_leaf;
+        }
+    }
+    while (lanes) {
+        const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
+        unsigned same = 0;
+        for (unsigned m = lanes; m; m &= m - 1)
+            if (p->leaf[__builtin_ctz(m)] == leaf)
+                same |= m & -m;
+        const unsigned left = same & ~leaf_hits(e, same, leaf, out);
+        for (unsigned m = left; m; m &= m - 1)
+            out[__builtin_ctz(m)] = packet_lane_hit(p, __builtin_ctz(m));
+        lanes &= ~same;
+    }
+}
+
+#endif
