@@ -1,4 +1,4 @@
-// Functions: from the body's tree to a tape of steps (spec/language 4.16).
+// Functions: from the body's tree to a tape (spec/language 4.16).
 
 #include "eval/function.h"
 
@@ -7,24 +7,24 @@
 #include "base/arena.h"
 #include "eval/builder.h"
 #include "eval/expr.h"
-#include "eval/function_tape.h"
 #include "eval/internal.h"
+#include "eval/spline.h"
+#include "scene/texture.h"
 
-enum { STEPS_MAX = 65535, NAMES_MAX = FUNCTION_PARAMETERS_MAX + 64 };
+enum { NAMES_MAX = TAPE_ARGUMENTS_MAX + 64, MORE_ARGUMENTS = 10000 };
+
+static const double pi = 3.14159265358979323846;
 
 struct compiler {
     struct eval *e;
-    struct step *step;
-    uint32_t count, capacity;
-    uint16_t free; // the first register in nobody's use
+    struct tape_builder *b;
     const char *name[NAMES_MAX];
     size_t len[NAMES_MAX];
-    uint16_t at[NAMES_MAX]; // register of each name
+    uint32_t at[NAMES_MAX]; // value of each name
     int names;
-    bool standard; // no parameter list: x y z, u = x, v = y
 };
 
-static bool compile(struct compiler *c, const struct ast *n, uint16_t to);
+static bool compile(struct compiler *c, const struct ast *n, uint32_t *to);
 
 static bool refuse(struct compiler *c, const struct ast *n, const char *what)
 {
@@ -32,29 +32,11 @@ static bool refuse(struct compiler *c, const struct ast *n, const char *what)
     return false;
 }
 
-static struct step *emit(struct compiler *c, enum step_op op, uint16_t to, uint16_t a,
-                         uint16_t b)
+static bool wrong_count(struct compiler *c, const struct ast *n, const char *name,
+                        int count)
 {
-    if (c->count == c->capacity) {
-        uint32_t capacity = 2 * c->capacity + 32;
-        struct step *grown = arena_new_array(c->e->parse, struct step, capacity);
-        if (c->count)
-            memcpy(grown, c->step, c->count * sizeof *grown);
-        c->step = grown;
-        c->capacity = capacity;
-    }
-    struct step *s = &c->step[c->count++];
-    *s = (struct step){.op = (uint8_t)op, .to = to, .a = a, .b = b};
-    return s;
-}
-
-static bool take(struct compiler *c, const struct ast *n, int count, uint16_t *first)
-{
-    if (c->free + count > FUNCTION_REGISTERS || c->count >= STEPS_MAX - 8)
-        return refuse(c, n, "an expression this large");
-    *first = c->free;
-    c->free = (uint16_t)(c->free + count);
-    return true;
+    diag_at(c->e->diags, DIAG_CALL_ARGUMENTS, n->where, name, count);
+    return false;
 }
 
 static bool name_of(const struct ast *n, const char **name, size_t *len)
@@ -79,20 +61,19 @@ static int find_name(const struct compiler *c, const struct ast *n)
         return -1;
     for (int i = c->names; i-- > 0;)
         if (c->len[i] == len && !memcmp(c->name[i], name, len))
-            return c->at[i];
+            return i;
     return -1;
 }
 
-static bool add_name(struct compiler *c, const struct ast *n, uint16_t at)
+static bool add_name(struct compiler *c, const struct ast *n, uint32_t at)
 {
-    if (c->names == NAMES_MAX ||
-        !name_of(n, &c->name[c->names], &c->len[c->names]))
+    if (c->names == NAMES_MAX || !name_of(n, &c->name[c->names], &c->len[c->names]))
         return refuse(c, n, "this as a name");
     c->at[c->names++] = at;
     return true;
 }
 
-static bool constant(struct compiler *c, const struct ast *n, uint16_t to)
+static bool constant(struct compiler *c, const struct ast *n, uint32_t *to)
 {
     double v;
     if (n->kind == AST_CONSTANT && n->word != WORD_pi && n->word != WORD_clock) {
@@ -103,25 +84,25 @@ static bool constant(struct compiler *c, const struct ast *n, uint16_t to)
     } else if (!eval_float(c->e, n, &v)) {
         return false;
     }
-    emit(c, STEP_CONSTANT, to, 0, 0)->k = v;
+    *to = tape_constant(c->b, v);
     return true;
 }
 
-static enum step_op op_of(int op)
+// ---- operators ----------------------------------------------------------------------
+
+static enum tape_op op_of(int op)
 {
     switch (op) {
-    case '+': return STEP_ADD;
-    case '-': return STEP_SUBTRACT;
-    case '*': return STEP_MULTIPLY;
-    case '/': return STEP_DIVIDE;
-    case '<': return STEP_LESS;
-    case '>': return STEP_GREATER;
-    case '=': return STEP_EQUAL;
-    case OP_NE: return STEP_NOT_EQUAL;
-    case OP_LE: return STEP_LESS_EQUAL;
-    case OP_GE: return STEP_GREATER_EQUAL;
-    case '&': return STEP_AND;
-    default: return STEP_OR;
+    case '+': return TAPE_ADD;
+    case '-': return TAPE_SUBTRACT;
+    case '*': return TAPE_MULTIPLY;
+    case '/': return TAPE_DIVIDE;
+    case '<': return TAPE_LESS;
+    case '>': return TAPE_GREATER;
+    case '=': return TAPE_EQUAL;
+    case OP_NE: return TAPE_NOT_EQUAL;
+    case OP_LE: return TAPE_LESS_EQUAL;
+    default: return TAPE_GREATER_EQUAL;
     }
 }
 
@@ -131,44 +112,45 @@ static bool is_logic(const struct ast *n)
 }
 
 // `a & b | c & d`: the tree is left associative with equal precedence, but in a
-// function & binds tighter. r[to] is the sum so far, r[to + 1] the running product.
-static bool logic(struct compiler *c, const struct ast *n, uint16_t sum, uint16_t product,
-                  uint16_t work)
+// function & binds tighter. sum | product is what has been read.
+static bool logic(struct compiler *c, const struct ast *n, uint32_t *sum,
+                  uint32_t *product)
 {
+    uint32_t right;
     if (!is_logic(n->left)) {
-        emit(c, STEP_CONSTANT, sum, 0, 0)->k = 0;
+        *sum = tape_constant(c->b, 0);
         if (!compile(c, n->left, product))
             return false;
-    } else if (!logic(c, n->left, sum, product, work)) {
+    } else if (!logic(c, n->left, sum, product)) {
         return false;
     }
+    if (!compile(c, n->right, &right))
+        return false;
     if (n->op == '|') {
-        emit(c, STEP_OR, sum, sum, product);
-        return compile(c, n->right, product);
+        *sum = tape_binary(c->b, TAPE_OR, *sum, *product);
+        *product = right;
+    } else {
+        *product = tape_binary(c->b, TAPE_AND, *product, right);
     }
-    if (!compile(c, n->right, work))
-        return false;
-    emit(c, STEP_AND, product, product, work);
     return true;
 }
 
-static bool binary(struct compiler *c, const struct ast *n, uint16_t to)
+static bool binary(struct compiler *c, const struct ast *n, uint32_t *to)
 {
-    uint16_t r;
-    if (!take(c, n, 3, &r))
-        return false;
+    uint32_t left, right;
     if (n->op == '&' || n->op == '|') {
-        if (!logic(c, n, r, (uint16_t)(r + 1), (uint16_t)(r + 2)))
+        if (!logic(c, n, &left, &right))
             return false;
-        emit(c, STEP_OR, to, r, (uint16_t)(r + 1));
-    } else {
-        if (!compile(c, n->left, r) || !compile(c, n->right, (uint16_t)(r + 1)))
-            return false;
-        emit(c, op_of(n->op), to, r, (uint16_t)(r + 1));
+        *to = tape_binary(c->b, TAPE_OR, left, right);
+        return true;
     }
-    c->free = r;
+    if (!compile(c, n->left, &left) || !compile(c, n->right, &right))
+        return false;
+    *to = tape_binary(c->b, op_of(n->op), left, right);
     return true;
 }
+
+// ---- built-in functions -------------------------------------------------------------
 
 static int count_list(const struct ast *n)
 {
@@ -178,110 +160,210 @@ static int count_list(const struct ast *n)
     return count;
 }
 
-static bool arguments(struct compiler *c, const struct ast *n, uint16_t *first,
-                      int *count)
+// The body as a tape of its own: of the counter and of everything that has a name here.
+static struct tape *loop_body(struct compiler *c, const struct ast *counter,
+                              const struct ast *term)
 {
-    *count = count_list(n->list);
-    if (!take(c, n, *count, first))
-        return false;
-    uint16_t at = *first;
-    for (const struct ast *a = n->list; a; a = a->next)
-        if (!compile(c, a, at++))
-            return false;
-    return true;
+    struct compiler inner = *c;
+    uint32_t result;
+    inner.b = tape_builder_new(c->e->parse);
+    for (int i = 0; i < c->names; i++)
+        inner.at[i] = tape_argument(inner.b, i + 1);
+    if (!add_name(&inner, counter, tape_argument(inner.b, 0)) ||
+        !compile(&inner, term, &result))
+        return NULL;
+    struct tape *t = tape_finish(inner.b, c->e->arena, c->names + 1, &result, 1);
+    if (!t)
+        refuse(c, term, "an expression this large");
+    return t;
 }
 
 // sum(k, from, to, e), prod(...)
-static bool loop(struct compiler *c, const struct ast *n, uint16_t to)
+static bool loop(struct compiler *c, const struct ast *n, uint32_t *to)
 {
-    uint16_t r; // k, end, total, term, 1, test
-    if (count_list(n->list) != 4) {
-        diag_at(c->e->diags, DIAG_CALL_ARGUMENTS, n->where, word_text(n->word),
-                count_list(n->list));
+    uint32_t first, last;
+    if (count_list(n->list) != 4)
+        return wrong_count(c, n, word_text(n->word), count_list(n->list));
+    const struct ast *from = n->list->next, *end = from->next;
+    if (!compile(c, from, &first) || !compile(c, end, &last))
         return false;
-    }
-    const struct ast *from = n->list->next, *end = from->next, *term = end->next;
-    bool product = n->word == WORD_prod;
-    if (!take(c, n, 6, &r) || !compile(c, from, r) ||
-        !compile(c, end, (uint16_t)(r + 1)) || !add_name(c, n->list, r))
+    const struct tape *body = loop_body(c, n->list, end->next);
+    if (!body)
         return false;
-    emit(c, STEP_CONSTANT, (uint16_t)(r + 2), 0, 0)->k = product;
-    emit(c, STEP_CONSTANT, (uint16_t)(r + 4), 0, 0)->k = 1;
-    uint32_t start = c->count;
-    emit(c, STEP_LESS_EQUAL, (uint16_t)(r + 5), r, (uint16_t)(r + 1));
-    uint32_t leave = c->count;
-    emit(c, STEP_UNLESS, 0, (uint16_t)(r + 5), 0);
-    if (!compile(c, term, (uint16_t)(r + 3)))
-        return false;
-    emit(c, product ? STEP_MULTIPLY : STEP_ADD, (uint16_t)(r + 2), (uint16_t)(r + 2),
-         (uint16_t)(r + 3));
-    emit(c, STEP_ADD, r, r, (uint16_t)(r + 4));
-    emit(c, STEP_JUMP, (uint16_t)start, 0, 0);
-    c->step[leave].to = (uint16_t)c->count;
-    emit(c, STEP_COPY, to, (uint16_t)(r + 2), 0);
-    c->names--;
-    c->free = r;
+    *to = tape_loop(c->b, n->word == WORD_prod, body, first, last, c->at, c->names);
     return true;
 }
 
-static bool builtin(struct compiler *c, const struct ast *n, uint16_t to)
+static bool unary_op(enum word w, enum tape_op *op)
 {
-    int least, most, count;
-    uint16_t first;
+    switch (w) {
+    case WORD_sin: *op = TAPE_SIN; return true;
+    case WORD_cos: *op = TAPE_COS; return true;
+    case WORD_tan: *op = TAPE_TAN; return true;
+    case WORD_asin: *op = TAPE_ASIN; return true;
+    case WORD_acos: *op = TAPE_ACOS; return true;
+    case WORD_atan: *op = TAPE_ATAN; return true;
+    case WORD_sinh: *op = TAPE_SINH; return true;
+    case WORD_cosh: *op = TAPE_COSH; return true;
+    case WORD_tanh: *op = TAPE_TANH; return true;
+    case WORD_asinh: *op = TAPE_ASINH; return true;
+    case WORD_acosh: *op = TAPE_ACOSH; return true;
+    case WORD_atanh: *op = TAPE_ATANH; return true;
+    case WORD_abs: *op = TAPE_ABS; return true;
+    case WORD_int: *op = TAPE_INTEGER; return true;
+    case WORD_floor: *op = TAPE_FLOOR; return true;
+    case WORD_ceil: *op = TAPE_CEIL; return true;
+    case WORD_sqrt: *op = TAPE_SQRT; return true;
+    case WORD_exp: *op = TAPE_EXP; return true;
+    case WORD_ln: *op = TAPE_LOG; return true;
+    case WORD_log: *op = TAPE_LOG10; return true;
+    default: return false;
+    }
+}
+
+static bool arity(enum word w, int *least, int *most)
+{
+    enum tape_op op;
+    *least = *most = 1;
+    switch (w) {
+    case WORD_radians:
+    case WORD_degrees: return true;
+    case WORD_div:
+    case WORD_mod:
+    case WORD_atan2:
+    case WORD_pow: *least = *most = 2; return true;
+    case WORD_min:
+    case WORD_max:
+        *least = 2;
+        *most = MORE_ARGUMENTS;
+        return true;
+    case WORD_select:
+        *least = 3;
+        *most = 4;
+        return true;
+    default: return unary_op(w, &op);
+    }
+}
+
+static uint32_t turned(struct compiler *c, uint32_t x, double times, double over)
+{
+    const uint32_t v = tape_binary(c->b, TAPE_MULTIPLY, x, tape_constant(c->b, times));
+    return tape_quotient(c->b, v, tape_constant(c->b, over));
+}
+
+static uint32_t applied(struct compiler *c, enum word w, const uint32_t *a, int n)
+{
+    enum tape_op op;
+    if (unary_op(w, &op))
+        return tape_unary(c->b, op, a[0]);
+    switch (w) {
+    case WORD_radians: return turned(c, a[0], pi, 180);
+    case WORD_degrees: return turned(c, a[0], 180, pi);
+    case WORD_div: return tape_unary(c->b, TAPE_INTEGER, tape_quotient(c->b, a[0], a[1]));
+    case WORD_mod: return tape_binary(c->b, TAPE_MOD, a[0], a[1]);
+    case WORD_atan2: return tape_binary(c->b, TAPE_ATAN2, a[0], a[1]);
+    case WORD_pow: return tape_binary(c->b, TAPE_POW, a[0], a[1]);
+    default: return tape_select(c->b, a[0], a[1], a[2], a[n - 1]);
+    }
+}
+
+static bool extreme(struct compiler *c, const struct ast *n, uint32_t *to)
+{
+    const enum tape_op op = n->word == WORD_min ? TAPE_MIN : TAPE_MAX;
+    uint32_t v;
+    if (!compile(c, n->list, to))
+        return false;
+    for (const struct ast *a = n->list->next; a; a = a->next) {
+        if (!compile(c, a, &v))
+            return false;
+        *to = tape_binary(c->b, op, *to, v);
+    }
+    return true;
+}
+
+static bool builtin(struct compiler *c, const struct ast *n, uint32_t *to)
+{
+    int least, most;
+    const int count = count_list(n->list);
+    uint32_t v[4];
     if (n->word == WORD_sum || n->word == WORD_prod)
         return loop(c, n, to);
-    if (!function_math_arity(n->word, &least, &most))
+    if (!arity(n->word, &least, &most))
         return refuse(c, n, word_text(n->word));
-    if (!arguments(c, n, &first, &count))
-        return false;
-    if (count < least || count > most) {
-        diag_at(c->e->diags, DIAG_CALL_ARGUMENTS, n->where, word_text(n->word), count);
-        return false;
-    }
-    emit(c, STEP_MATH, to, first, (uint16_t)count)->word = n->word;
-    c->free = first;
+    if (count < least || count > most)
+        return wrong_count(c, n, word_text(n->word), count);
+    if (most == MORE_ARGUMENTS)
+        return extreme(c, n, to);
+    int i = 0;
+    for (const struct ast *a = n->list; a; a = a->next)
+        if (!compile(c, a, &v[i++]))
+            return false;
+    *to = applied(c, n->word, v, count);
     return true;
+}
+
+// ---- declared functions -------------------------------------------------------------
+
+static int part_of(enum word member)
+{
+    switch (member) {
+    case WORD_y:
+    case WORD_v:
+    case WORD_green: return 1;
+    case WORD_z:
+    case WORD_blue: return 2;
+    case WORD_t:
+    case WORD_filter: return 3;
+    case WORD_transmit: return 4;
+    default: return 0;
+    }
+}
+
+static uint32_t gray(struct compiler *c, const uint32_t *v)
+{
+    static const double weight[] = {0.297, 0.589, 0.114};
+    uint32_t sum = tape_constant(c->b, 0);
+    for (int i = 0; i < 3; i++)
+        sum = tape_binary(
+            c->b, TAPE_ADD, sum,
+            tape_binary(c->b, TAPE_MULTIPLY, tape_constant(c->b, weight[i]), v[i]));
+    return sum;
 }
 
 // `member`: the .x after the call, or WORD_NONE.
-static bool apply(struct compiler *c, const struct ast *n, enum word member, uint16_t to)
+static bool apply(struct compiler *c, const struct ast *n, enum word member, uint32_t *to)
 {
-    int count, part = 0;
-    uint16_t first;
+    uint32_t in[TAPE_ARGUMENTS_MAX], out[TAPE_WIDTH_MAX];
     if (n->value->kind != VALUE_FUNCTION)
         return refuse(c, n, "a spline");
-    const struct function *f = n->value->data;
-    switch (member) {
-    case WORD_y: case WORD_v: case WORD_green: part = 1; break;
-    case WORD_z: case WORD_blue: part = 2; break;
-    case WORD_t: case WORD_filter: part = 3; break;
-    case WORD_transmit: part = 4; break;
-    default: break;
-    }
-    if (part >= f->width || (member == WORD_NONE && f->width > 1))
+    const struct tape *f = n->value->data;
+    const int part = part_of(member), count = count_list(n->list);
+    if (part >= tape_width(f) || (member == WORD_NONE && tape_width(f) > 1))
         return refuse(c, n, member ? word_text(member) : "a vector");
-    if (!arguments(c, n, &first, &count))
-        return false;
-    if (count != f->parameters) {
-        diag_at(c->e->diags, DIAG_CALL_ARGUMENTS, n->where,
-                arena_printf(c->e->parse, "%.*s", (int)n->len, n->text), count);
-        return false;
-    }
-    emit(c, member == WORD_gray ? STEP_GRAY : STEP_CALL, to, first, (uint16_t)part)
-        ->callee = f;
-    c->free = first;
+    if (count != tape_arguments(f))
+        return wrong_count(c, n, arena_printf(c->e->parse, "%.*s", (int)n->len, n->text),
+                           count);
+    int i = 0;
+    for (const struct ast *a = n->list; a; a = a->next)
+        if (!compile(c, a, &in[i++]))
+            return false;
+    tape_call(c->b, f, in, out);
+    *to = member == WORD_gray && tape_width(f) > 2 ? gray(c, out) : out[part];
     return true;
 }
 
-static bool compile(struct compiler *c, const struct ast *n, uint16_t to)
+static bool compile(struct compiler *c, const struct ast *n, uint32_t *to)
 {
     int name = find_name(c, n);
     if (name >= 0) {
-        emit(c, STEP_COPY, to, (uint16_t)name, 0);
+        *to = c->at[name];
         return true;
     }
     switch (n->kind) {
-    case AST_NUMBER: case AST_CONSTANT: case AST_VALUE: case AST_INDEX:
+    case AST_NUMBER:
+    case AST_CONSTANT:
+    case AST_VALUE:
+    case AST_INDEX:
     case AST_UNDECLARED: return constant(c, n, to);
     case AST_BINARY: return binary(c, n, to);
     case AST_CALL: return builtin(c, n, to);
@@ -296,110 +378,172 @@ static bool compile(struct compiler *c, const struct ast *n, uint16_t to)
         if (!compile(c, n->left, to))
             return false;
         if (n->op == '-')
-            emit(c, STEP_NEGATE, to, to, 0);
+            *to = tape_unary(c->b, TAPE_NEGATE, *to);
         return true;
     default: return refuse(c, n, "this");
     }
 }
 
-static bool standard_names(struct compiler *c)
+// ---- bodies -------------------------------------------------------------------------
+
+static void standard_names(struct compiler *c)
 {
     static const char *const names[] = {"x", "y", "z", "u", "v"};
     for (int i = 0; i < 5; i++) {
         c->name[i] = names[i];
         c->len[i] = 1;
-        c->at[i] = (uint16_t)(i % 3);
+        c->at[i] = tape_argument(c->b, i % 3);
     }
     c->names = 5;
-    return true;
 }
 
 static bool parameter_names(struct compiler *c, const struct ast *list)
 {
-    for (uint16_t i = 0; list; list = list->next, i++)
-        if (i == FUNCTION_PARAMETERS_MAX || !add_name(c, list, i))
+    for (int i = 0; list; list = list->next, i++)
+        if (i == TAPE_ARGUMENTS_MAX || !add_name(c, list, tape_argument(c->b, i)))
             return refuse(c, list, "another parameter");
     return true;
 }
 
-static bool compile_tape(struct eval *e, const struct ast *parameters,
-                         const struct ast *body, struct function *f)
+static struct tape *finish(struct eval *e, const struct ast *n, struct tape_builder *b,
+                           int arguments, const uint32_t *result, int width)
 {
-    struct compiler c = {.e = e};
-    f->parameters = parameters ? count_list(parameters->list) : 3;
-    f->width = 1;
-    uint16_t to;
-    if (!(parameters ? parameter_names(&c, parameters->list) : standard_names(&c)))
-        return false;
-    c.free = (uint16_t)f->parameters;
-    if (!take(&c, body, 1, &to) || !compile(&c, body, to))
-        return false;
-    struct step *step = arena_new_array(e->arena, struct step, c.count);
-    memcpy(step, c.step, c.count * sizeof *step);
-    f->step = step;
-    f->step_count = c.count;
-    f->result = to;
-    return true;
+    struct tape *t = tape_finish(b, e->arena, arguments, result, width);
+    if (!t)
+        diag_at(e->diags, DIAG_FUNCTION_ITEM, n->where, "an expression this large");
+    return t;
 }
 
-static bool compile_block(struct eval *e, const struct ast *body, struct function *f)
+static struct tape *expression(struct eval *e, const struct ast *parameters,
+                               const struct ast *body)
 {
-    const struct value *v = NULL;
-    f->parameters = 3;
+    struct compiler c = {.e = e, .b = tape_builder_new(e->parse)};
+    uint32_t to;
+    if (!parameters)
+        standard_names(&c);
+    else if (!parameter_names(&c, parameters->list))
+        return NULL;
+    if (!compile(&c, body, &to))
+        return NULL;
+    return finish(e, body, c.b, parameters ? count_list(parameters->list) : 3, &to, 1);
+}
+
+// No surface is there: slopes are 0.
+static void pigment_at(const void *data, const double *in, double *out)
+{
+    const struct vec3 p = vec3(in[0], in[1], in[2]);
+    const struct texture_point at = {.p = p, .p_world = p, .uv = {p.x, p.y}};
+    struct rgbft c = {0};
+    pigment_color(data, &at, &c);
+    out[0] = c.r;
+    out[1] = c.g;
+    out[2] = c.b;
+    out[3] = c.filter;
+    out[4] = c.transmit;
+}
+
+static void pattern_at(const void *data, const double *in, double *out)
+{
+    const struct vec3 p = vec3(in[0], in[1], in[2]);
+    const struct pattern_context none = {.p_world = p, .uv = {p.x, p.y}};
+    out[0] = pattern_value(data, p, &none);
+}
+
+static const struct tape_extern pigment_extern = {
+    .name = "pigment", .arguments = 3, .width = 5, .value = pigment_at};
+static const struct tape_extern pattern_extern = {
+    .name = "pattern", .arguments = 3, .width = 1, .value = pattern_at};
+
+static struct tape *of_extern(struct eval *e, const struct ast *n,
+                              const struct tape_extern *f, const void *data)
+{
+    struct tape_builder *b = tape_builder_new(e->parse);
+    uint32_t in[3], out[TAPE_WIDTH_MAX];
+    if (!data)
+        return NULL;
+    for (int i = 0; i < f->arguments; i++)
+        in[i] = tape_argument(b, i);
+    tape_call_extern(b, f, data, in, out);
+    return finish(e, n, b, f->arguments, out, f->width);
+}
+
+// Point times the matrix, in the order of transform_point.
+static struct tape *of_transform(struct eval *e, const struct ast *n,
+                                 const struct transform *t)
+{
+    struct tape_builder *b = tape_builder_new(e->parse);
+    uint32_t out[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t sum = tape_constant(b, 0);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t m = tape_constant(b, t->linear.m[k][i]);
+            const uint32_t term = tape_binary(b, TAPE_MULTIPLY, tape_argument(b, k), m);
+            sum = t->linear.m[k][i] == 0 ? sum : tape_binary(b, TAPE_ADD, sum, term);
+        }
+        const uint32_t offset = tape_constant(b, vec3_axis(t->offset, i));
+        out[i] = tape_binary(b, TAPE_ADD, sum, offset);
+    }
+    return finish(e, n, b, 3, out, 3);
+}
+
+static struct tape *of_spline(struct eval *e, const struct ast *n, const struct value *v)
+{
+    if (!v)
+        return NULL;
+    const struct spline *s = v->data;
+    return of_extern(e, n, &spline_extern[s->width], s);
+}
+
+static struct tape *of_block(struct eval *e, const struct ast *body)
+{
+    const struct value *v;
     switch (body->word) {
-    case WORD_spline:
-        if (!(v = spline_value(e, body)))
-            return false;
-        f->kind = FUNCTION_SPLINE;
-        f->parameters = 1;
-        f->width = ((const struct spline *)v->data)->width;
-        break;
+    case WORD_spline: return of_spline(e, body, spline_value(e, body));
     case WORD_transform:
-        f->kind = FUNCTION_TRANSFORM;
-        f->width = 3;
         v = builder_block(e->builder, body);
-        break;
+        return v ? of_transform(e, body, v->data) : NULL;
     case WORD_pigment:
-        f->kind = FUNCTION_PIGMENT;
-        f->width = 5;
-        f->data = builder_function_pigment(e->builder, body);
-        return f->data != NULL;
+        return of_extern(e, body, &pigment_extern,
+                         builder_function_pigment(e->builder, body));
     case WORD_pattern:
-        f->kind = FUNCTION_PATTERN;
-        f->width = 1;
-        f->data = builder_function_pattern(e->builder, body);
-        return f->data != NULL;
+        return of_extern(e, body, &pattern_extern,
+                         builder_function_pattern(e->builder, body));
     default:
         diag_at(e->diags, DIAG_FUNCTION_ITEM, body->where,
                 word_text((enum word)body->word));
+        return NULL;
     }
-    if (v)
-        f->data = v->data;
-    return v != NULL;
 }
 
 // internal() has its own parameters whatever list is written.
-static bool is_expression(const struct ast *body) { return body->kind != AST_BLOCK; }
-
-static bool find_internal(struct eval *e, const struct ast *n, struct function *f)
+static struct tape *of_internal(struct eval *e, const struct ast *n)
 {
+    struct tape_builder *b = tape_builder_new(e->parse);
+    uint32_t in[3 + INTERNAL_PARAMETERS_MAX], out;
     double number;
     if (count_list(n->list) != 1) {
         diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where, "internal", count_list(n->list));
-        return false;
+        return NULL;
     }
     if (!eval_float(e, n->list, &number))
-        return false;
-    const struct internal_function *i = internal_function(number);
-    if (!i) {
+        return NULL;
+    const struct internal_function *f = internal_function(number);
+    if (!f) {
         diag_at(e->diags, DIAG_DOMAIN, n->where, "internal", "there is no such function");
-        return false;
+        return NULL;
     }
-    f->kind = FUNCTION_INTERNAL;
-    f->parameters = 3 + i->parameters;
-    f->width = 1;
-    f->data = i;
-    return true;
+    for (int i = 0; i < 3 + f->parameters; i++)
+        in[i] = tape_argument(b, i);
+    out = internal_build(b, f, in, builder_pattern_defaults(e->builder));
+    return finish(e, n, b, 3 + f->parameters, &out, 1);
+}
+
+static struct tape *of_body(struct eval *e, const struct ast *parameters,
+                            const struct ast *body)
+{
+    if (body->kind == AST_CALL && body->word == WORD_internal)
+        return of_internal(e, body);
+    return body->kind == AST_BLOCK ? of_block(e, body) : expression(e, parameters, body);
 }
 
 const struct value *function_value(struct eval *e, const struct ast *block)
@@ -413,17 +557,24 @@ const struct value *function_value(struct eval *e, const struct ast *block)
         diag_at(e->diags, DIAG_FUNCTION_ITEM, block->where, "more or less than one body");
         return NULL;
     }
-    struct function *f = arena_new_struct(e->arena, struct function);
-    f->defaults = builder_pattern_defaults(e->builder);
-    if (parameters && !is_expression(body)) {
+    if (parameters && body->kind == AST_BLOCK) {
         diag_at(e->diags, DIAG_FUNCTION_ITEM, parameters->where, "a parameter list");
         return NULL;
     }
-    bool internal = body->kind == AST_CALL && body->word == WORD_internal;
-    bool ok = internal                  ? find_internal(e, body, f)
-              : body->kind == AST_BLOCK ? compile_block(e, body, f)
-                                        : compile_tape(e, parameters, body, f);
-    return ok ? value_new_data(e->arena, VALUE_FUNCTION, f) : NULL;
+    const struct tape *t = of_body(e, parameters, body);
+    return t ? value_new_data(e->arena, VALUE_FUNCTION, t) : NULL;
+}
+
+const struct tape *function_expression(struct eval *e, const struct ast *block)
+{
+    const struct value *v = function_value(e, block);
+    if (!v)
+        return NULL;
+    const struct tape *t = v->data;
+    if (tape_arguments(t) == 3 && tape_width(t) == 1)
+        return t;
+    diag_at(e->diags, DIAG_FUNCTION_ITEM, block->where, "a parameter list or a vector");
+    return NULL;
 }
 
 static bool apply_spline(struct eval *e, const struct ast *n, double out[5], int *width)
@@ -448,10 +599,10 @@ bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width)
 {
     if (n->value->kind == VALUE_SPLINE)
         return apply_spline(e, n, out, width);
-    double argument[FUNCTION_PARAMETERS_MAX];
-    const struct function *f = n->value->data;
+    double argument[TAPE_ARGUMENTS_MAX];
+    const struct tape *f = n->value->data;
     int count = count_list(n->list), i = 0;
-    if (count != f->parameters) {
+    if (count != tape_arguments(f)) {
         diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where,
                 arena_printf(e->parse, "%.*s", (int)n->len, n->text), count);
         return false;
@@ -460,7 +611,7 @@ bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width)
         if (!eval_float(e, a, &argument[i++]))
             return false;
     memset(out, 0, 5 * sizeof *out);
-    function_run(f, argument, out);
-    *width = f->width;
+    tape_run(f, argument, out);
+    *width = tape_width(f);
     return true;
 }

@@ -42,8 +42,8 @@ static void solve_natural(struct spline *s, double *upper, double *right, int c)
     upper[0] = right[0] = 0;
     for (uint32_t i = 1; i < m; i++) {
         double before = p[i].at - p[i - 1].at, after = p[i + 1].at - p[i].at;
-        double slope = (p[i + 1].p[c] - p[i].p[c]) / after -
-                       (p[i].p[c] - p[i - 1].p[c]) / before;
+        double slope =
+            (p[i + 1].p[c] - p[i].p[c]) / after - (p[i].p[c] - p[i - 1].p[c]) / before;
         double pivot = 2 * (before + after) - before * upper[i - 1];
         upper[i] = after / pivot;
         right[i] = (6 * slope - before * right[i - 1]) / pivot;
@@ -156,9 +156,9 @@ static double component(const struct spline *s, enum spline_kind kind, double t,
 void spline_at(const struct spline *s, enum spline_kind kind, double at, double out[5])
 {
     uint32_t m = s->count - 1, i = 0;
-    const struct spline_point *end = !m || at <= s->point[0].at  ? &s->point[0]
-                                     : at >= s->point[m].at ? &s->point[m]
-                                                            : NULL;
+    const struct spline_point *end = !m || at <= s->point[0].at ? &s->point[0]
+                                     : at >= s->point[m].at     ? &s->point[m]
+                                                                : NULL;
     if (end && (kind != SPLINE_CUBIC || !m)) {
         memcpy(out, end->p, 5 * sizeof *out);
         return;
@@ -174,3 +174,115 @@ void spline_at(const struct spline *s, enum spline_kind kind, double at, double 
     for (int c = 0; c < 5; c++)
         out[c] = component(s, kind, at, i, c);
 }
+
+// ---- in functions -------------------------------------------------------------------
+
+static void spline_value_at(const void *data, const double *in, double *out)
+{
+    const struct spline *s = data;
+    double v[5];
+    spline_at(s, s->kind, in[0], v);
+    memcpy(out, v, (size_t)s->width * sizeof *out);
+}
+
+// A cubic over lo..hi by its values at four equal steps: its Bernstein coefficients and
+// their differences hold it and its derivative.
+static void cubic_bounds(const double f[4], double length, struct interval *v,
+                         struct interval *slope)
+{
+    const double b[4] = {f[0], (-5 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 6,
+                         (2 * f[0] - 9 * f[1] + 18 * f[2] - 5 * f[3]) / 6, f[3]};
+    double size = 0;
+    *v = interval_point(b[0]);
+    *slope = length > 0 ? interval_point(3 * (b[1] - b[0]) / length) : interval_whole();
+    for (int i = 0; i < 4; i++) {
+        *v = interval_hull(*v, interval_point(b[i]));
+        if (i && length > 0)
+            *slope =
+                interval_hull(*slope, interval_point(3 * (b[i] - b[i - 1]) / length));
+        size = fmax(size, fabs(b[i]));
+    }
+    const double slack = 64 * INTERVAL_ROUNDING * size;
+    *v = interval(v->lo - slack, v->hi + slack);
+    if (length > 0)
+        *slope = interval(slope->lo - 6 * slack / length, slope->hi + 6 * slack / length);
+}
+
+static void piece(const struct spline *s, int64_t i, double lo, double hi,
+                  struct interval *out, struct interval *partial)
+{
+    double f[4][5];
+    const int64_t m = (int64_t)s->count - 1;
+    for (int k = 0; k < 4; k++) {
+        const double t = k == 3 ? hi : lo + (hi - lo) * k / 3;
+        if (i < 0 || i >= m)
+            spline_at(s, s->kind, i < 0 ? -INFINITY : INFINITY, f[k]);
+        else
+            for (int c = 0; c < s->width; c++)
+                f[k][c] = component(s, s->kind, t, (uint32_t)i, c);
+    }
+    for (int c = 0; c < s->width; c++) {
+        const double v[4] = {f[0][c], f[1][c], f[2][c], f[3][c]};
+        cubic_bounds(v, hi - lo, &out[c], &partial[c]);
+    }
+}
+
+// Two pieces meet: a gap between them is a jump.
+static void join(const struct spline *s, struct interval *out, struct interval *partial,
+                 const struct interval *v, const struct interval *slope)
+{
+    for (int c = 0; c < s->width; c++) {
+        out[c] = interval_hull(out[c], v[c]);
+        partial[c] = interval_hull(partial[c], slope[c]);
+    }
+}
+
+static bool jumps(const struct spline *s, int64_t i, double t)
+{
+    struct interval a[5], b[5], unused[5];
+    piece(s, i - 1, t, t, a, unused);
+    piece(s, i, t, t, b, unused);
+    for (int c = 0; c < s->width; c++)
+        if (a[c].lo > b[c].hi || b[c].lo > a[c].hi)
+            return true;
+    return false;
+}
+
+static void spline_bounds(const void *data, const struct interval *in,
+                          struct interval *out, struct interval *partial)
+{
+    const struct spline *s = data;
+    struct interval v[5], slope[5], unused[5];
+    bool first = true, jump = false;
+    if (!partial)
+        partial = unused;
+    if (s->count == 1) {
+        piece(s, 0, in->lo, in->hi, out, partial);
+        return;
+    }
+    for (int64_t i = -1; i < (int64_t)s->count; i++) {
+        const double from = i < 0 ? -INFINITY : s->point[i].at;
+        const double to = i + 1 < (int64_t)s->count ? s->point[i + 1].at : INFINITY;
+        if (from > in->hi || to < in->lo)
+            continue;
+        jump |= i >= 0 && from >= in->lo && jumps(s, i, from);
+        piece(s, i, fmax(from, in->lo), fmin(to, in->hi), first ? out : v,
+              first ? partial : slope);
+        if (!first)
+            join(s, out, partial, v, slope);
+        first = false;
+    }
+    for (int c = 0; c < s->width; c++)
+        if (jump)
+            partial[c] = interval_whole();
+}
+
+#define SPLINE_EXTERN(n)                                                                 \
+    {                                                                                    \
+        .name = "spline", .arguments = 1, .width = n, .value = spline_value_at,          \
+        .bounds = spline_bounds                                                          \
+    }
+const struct tape_extern spline_extern[6] = {[2] = SPLINE_EXTERN(2),
+                                             [3] = SPLINE_EXTERN(3),
+                                             [4] = SPLINE_EXTERN(4),
+                                             [5] = SPLINE_EXTERN(5)};

@@ -11,9 +11,13 @@ liblambert_a_SOURCES += \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \
 	%D%/shapes/sor.c %D%/shapes/sphere.c %D%/shapes/sphere.h %D%/shapes/superellipsoid.c \
 	%D%/shapes/text.c %D%/shapes/torus.c %D%/shapes/triangle.c %D%/shapes/triangle.h
+# functions
+liblambert_a_SOURCES += \
+	%D%/tape.def %D%/tape.h %D%/tape_bounds.c %D%/tape_build.c %D%/tape_build.h \
+	%D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \
-	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_tables.h %D%/normal.c \
+	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
 	%D%/pattern.c %D%/pattern_math.h %D%/pigment.c %D%/surface_eval.h %D%/texture.c \
 	%D%/warp.c
 liblambert_a_SOURCES += \

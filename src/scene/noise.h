@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "math/interval.h"
 #include "math/vec.h"
 
 // Lattice noise of the scene language (spec/textures 1, 2). Same bits everywhere.
@@ -12,6 +13,10 @@ enum noise_generator { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERL
 // What noise_value and noise_turbulence make of a generator that is out of range: 1.
 double noise_value(struct vec3 p, int generator);
 struct vec3 noise_vector(struct vec3 p);
+// Bounds of noise_value and of its partial derivatives over a box.
+
+void noise_bounds(const struct interval box[3], int generator, struct interval *v,
+                  struct interval slope[3]);
 double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,
                         int generator);
 struct vec3 noise_dturbulence(struct vec3 p, double lambda, double omega, int octaves);

@@ -1,6 +1,6 @@
 # Benchmarks: run by hand (make perf), never by make check.
 perf_scenes = \
-	%D%/box_minus_2000.scn %D%/csg_1000.scn %D%/drilled_1500.scn %D%/glass_balls.scn %D%/mesh_sphere.scn \
+	%D%/box_minus_2000.scn %D%/csg_1000.scn %D%/drilled_1500.scn %D%/function_calls.scn %D%/function_pigment.scn %D%/glass_balls.scn %D%/mesh_sphere.scn \
 	%D%/nested_csg.scn %D%/one_object.scn %D%/quadric_field.scn %D%/shadows_8.scn \
 	%D%/spheres_100k.scn %D%/tori.scn %D%/union_4000.scn
 EXTRA_DIST += $(perf_scenes) %D%/run.sh

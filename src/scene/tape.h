@@ -1,0 +1,68 @@
+#ifndef SCENE_TAPE_H
+#define SCENE_TAPE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/interval.h"
+#include "math/vec.h"
+
+// A function of the scene as straight-line code over numbered registers. Built by
+// tape_build.h; constant afterwards and shared by all threads.
+//
+// Four ways to run it, of which the first two give the same bits:
+//   tape_run        one point
+//   tape_run_packet eight points
+//   tape_bounds     boxes of arguments: bounds that hold the value at every point, with
+//                   bounds of the partial derivatives if wanted
+//   tape_gradient   one point with the derivatives (forward mode)
+// (Griewank and Walther, Evaluating Derivatives, 2008, chapter 3; Duff, Interval
+// Arithmetic and Recursive Subdivision for Implicit Functions, 1992.)
+
+struct tape;
+
+enum { TAPE_LANES = 8, TAPE_ARGUMENTS_MAX = 56, TAPE_WIDTH_MAX = 5, TAPE_PARTIALS = 3 };
+
+int tape_arguments(const struct tape *t);
+int tape_width(const struct tape *t); // results: 1, or those of a vector function
+// Something in it has no bounds (a pattern, a pigment): bounds may be the whole line
+// however small the box.
+bool tape_is_opaque(const struct tape *t);
+uint32_t tape_length(const struct tape *t); // steps
+
+void tape_run(const struct tape *t, const double *argument, double *out);
+void tape_run_packet(const struct tape *t, const double (*argument)[TAPE_LANES],
+                     double (*out)[TAPE_LANES]);
+// d out[0] / d argument[i] for the first `partials` (up to 3) arguments; returns out[0].
+// Where a slope jumps it is that of one side; inside an opaque part it is a difference.
+double tape_gradient(const struct tape *t, const double *argument, int partials,
+                     double *gradient);
+
+// A value and, of its derivative by each of up to three directions, the bounds.
+struct tape_slope {
+    struct interval v, d[TAPE_PARTIALS];
+};
+// Bounds of out[0] alone. Where the function jumps in the box the bounds of the
+// derivatives below are the whole line.
+struct interval tape_bounds(const struct tape *t, const struct interval *argument);
+// argument[i].d[k] says how argument i changes with direction k < directions.
+struct tape_slope tape_bounds_slope(const struct tape *t,
+                                    const struct tape_slope *argument, int directions);
+double tape_at(const void *tape, struct vec3 p); // of x, y, z; as pattern.function wants
+
+// A function in C that a tape calls. `bounds` fills out and, if partial is not NULL,
+// partial[i * arguments + k] = d out[i] / d in[k]; NULL: nothing is known. `expand`
+// writes it in steps instead, for arguments of which enough are constant (tape_build.h).
+struct tape_builder;
+struct tape_extern {
+    const char *name;
+    int arguments, width;
+    void (*value)(const void *data, const double *in, double *out);
+    void (*bounds)(const void *data, const struct interval *in, struct interval *out,
+                   struct interval *partial);
+    bool (*expand)(struct tape_builder *b, const void *data, const uint32_t *in,
+                   uint32_t *out);
+};
+enum { TAPE_EXTERN_ARGUMENTS = 16 };
+
+#endif
