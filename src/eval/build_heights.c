@@ -36,12 +36,12 @@ static float stored(double f)
     return (float)(v < 0 ? v + 65536 : v);
 }
 
-static double sample(const struct function *f, double x, double y)
+static double sample(const struct tape *f, double x, double y)
 {
     const double argument[3] = {x, y, 0};
     double out[5] = {0};
-    function_run(f, argument, out);
-    if (function_width(f) < 3)
+    tape_run(f, argument, out);
+    if (tape_width(f) < 3)
         return out[0];
     return 0.297 * out[0] + 0.589 * out[1] + 0.114 * out[2];
 }
@@ -62,7 +62,7 @@ static bool from_function(struct args *a, const struct ast *block, struct height
     const struct value *v = function_value(a->b->e, &only);
     if (!v || !make_room(a, block->where, floor(width + 0.5), floor(height + 0.5), out))
         return false;
-    if (function_parameters(v->data) != 3) {
+    if (tape_arguments(v->data) != 3) {
         args_error(a, block->where, "the function must be one of x and y");
         return false;
     }
