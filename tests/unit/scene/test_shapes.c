@@ -64,6 +64,12 @@ static const struct sample samples[] = {
                       "slice <.1, .2, .3, 1>, .1"},
     {"height_field", ""},
     {"height_field", "smooth water_level .5"},
+    {"sphere_sweep", "linear_spline 2, <-1,0,0>, .5, <1,0,0>, .25"},
+    {"sphere_sweep", "linear_spline 3, <-.1,0,0>, 1, <.1,0,0>, 1, <1,.5,0>, 0 tolerance .1"},
+    {"sphere_sweep", "cubic_spline 5, <-1.5,-1,0>, .2, <-.6,-.6,0>, .3, <0,.6,0>, .2, "
+                     "<.7,-.6,0>, .1, <1.5,-1,0>, .2"},
+    {"sphere_sweep", "b_spline 6, <-1.5,-1,0>, .2, <-.6,-.6,0>, .3, <0,.6,0>, .4, "
+                     "<.7,-.6,0>, .1, <1.5,-1,0>, .2, <-1,-1,1>, .6"},
     {"text", NULL}, // needs a font file
 };
 
