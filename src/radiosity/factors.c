@@ -86,6 +86,17 @@ double pair_factor(struct factor_state *s, uint32_t i, uint32_t j)
     return pair_of(s, m->pair ? m->pair : factor_analytic, i, j);
 }
 
+void factor_row(struct factor_state *s, uint32_t i, float *row)
+{
+    const struct method *m = &methods[form_factor_find(s->settings->method)];
+    if (m->row) {
+        m->row(s, i, row);
+        return;
+    }
+    for (uint32_t j = 0; j < s->enclosure->count; j++)
+        row[j] = i == j ? 0 : (float)pair_of(s, m->pair, i, j);
+}
+
 double factors_bytes(uint32_t count) { return (double)count * count * sizeof(float); }
 
 struct assembly {

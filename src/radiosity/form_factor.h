@@ -63,6 +63,9 @@ bool pair_is_dark(const struct element *a, const struct element *b);
 // that know only rows, by the analytic one.
 double pair_factor(struct factor_state *s, uint32_t i, uint32_t j);
 
+// All of them, i to j, into row.
+void factor_row(struct factor_state *s, uint32_t i, float *row);
+
 // The dense matrix: f[i * count + j] is F from i to j.
 struct factors {
     uint32_t count;

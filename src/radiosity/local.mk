@@ -2,4 +2,6 @@ liblambert_a_SOURCES += \
 	%D%/enclosure.h %D%/factor_hemicube.c %D%/factor_pair.c %D%/factor_rays.c \
 	%D%/factors.c %D%/form_factor.h %D%/form_factors.def %D%/hemicube.h \
 	%D%/parallel.c %D%/parallel.h %D%/polygon.c %D%/polygon.h %D%/ray_put.h \
-	%D%/sequence.c %D%/sequence.h
+	%D%/sequence.c %D%/sequence.h %D%/solve_dense.c %D%/solve_hierarchical.c \
+	%D%/solve_shoot.c %D%/solve_stochastic.c %D%/solve_sweep.c %D%/solver.c \
+	%D%/solver.h %D%/solvers.def
