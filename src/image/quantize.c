@@ -60,23 +60,44 @@ struct quantizer {
     uint16_t *guess; // the code at the low end of a bucket of float bit patterns
 };
 
+static double from_bits(uint64_t bits)
+{
+    double v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+static uint64_t to_bits(double v)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits;
+}
+
 // The least double whose code is at least i: bisection over bit patterns, which are
-// ordered like the positive numbers.
+// ordered like the positive numbers. It begins around the inverse of the encoding, where
+// that is as near as it should be.
 static double least_of(const struct image_write_options *o, double max, int i)
 {
+    static const double nearly = 0x1p-36;
     uint64_t lo = 0, hi = 0x3ff8000000000000u; // 1.5
+    const double about =
+        o->unmanaged || transfer_equal(o->working, o->transfer)
+            ? (i - 0.5) / max
+            : transfer_encode(o->working, transfer_decode(o->transfer, (i - 0.5) / max));
+    const double below = about * (1 - nearly), above = about * (1 + nearly);
+    if (below > 0 && quantize(encode(o, below), max) < i)
+        lo = to_bits(below);
+    if (above < 1.5 && quantize(encode(o, above), max) >= i)
+        hi = to_bits(above);
     while (lo < hi) {
         const uint64_t mid = lo + (hi - lo) / 2;
-        double v;
-        memcpy(&v, &mid, sizeof v);
-        if (quantize(encode(o, v), max) >= i)
+        if (quantize(encode(o, from_bits(mid)), max) >= i)
             hi = mid;
         else
             lo = mid + 1;
     }
-    double v;
-    memcpy(&v, &lo, sizeof v);
-    return v;
+    return from_bits(lo);
 }
 
 static uint32_t bucket_of(float v)
