@@ -51,8 +51,8 @@ static double linear(double working, double v)
     if (v <= 0)
         return 0;
     if (working < 0)
-        return v < 0.04045 ? v / 12.92 : det_pow((v + 0.055) / 1.055, 2.4);
-    return working == 0 || working == 1 ? v : det_pow(v, working);
+        return v < 0.04045 ? v / 12.92 : det_pow_single((v + 0.055) / 1.055, 2.4);
+    return working == 0 || working == 1 ? v : det_pow_single(v, working);
 }
 
 static struct judged judge(const struct antialias *a, const float c[4])
@@ -61,7 +61,7 @@ static struct judged judge(const struct antialias *a, const float c[4])
     const double exponent = 1 / a->settings->aa_gamma;
     for (int k = 0; k < 3; k++) {
         const double v = linear(a->working, c[k]);
-        j.c[k] = (float)(exponent == 1 || v <= 0 ? v : det_pow(v, exponent));
+        j.c[k] = (float)(exponent == 1 || v <= 0 ? v : det_pow_single(v, exponent));
     }
     j.c[3] = c[3];
     return j;
@@ -259,11 +259,26 @@ static void method_1(const struct antialias *a, int x0, int y0, int x1, int y1,
 }
 
 // ---- method 2 ------------------------------------------------------------
+// All pixels that are not done ask for the samples they lack; these are traced together,
+// and the pixels are looked at again.
+enum point_state { POINT_UNKNOWN, POINT_ASKED, POINT_KNOWN };
+
+struct point {
+    float color[4];
+    struct judged judged;
+    enum point_state state;
+};
+
 struct quarters {
     const struct antialias *a;
-    int px, py, side; // units per pixel side; the grid has side + 1 points a row
-    float (*value)[4];
-    bool *known;
+    int side;   // units per pixel side; the grid has side + 1 points a row
+    int points; // of the grid
+    int px, py; // of the pixel at hand, and its grid:
+    struct point *point;
+    // What is asked for in this round.
+    struct vec2 *position;
+    uint32_t *at; // index into values of all pixels
+    uint32_t count, capacity, base;
 };
 
 static int grid_index(const struct quarters *q, int i, int j)
@@ -282,92 +297,154 @@ static struct vec2 grid_position(const struct antialias *a, double x, double y)
     return (struct vec2){x + reach * j.u + 0.5, y + reach * j.v + 0.5};
 }
 
-static void grid_trace(struct quarters *q, const int at[5][2])
+static void *grown(void *at, size_t count, size_t size)
 {
-    struct vec2 position[5];
-    float value[5][4];
-    int index[5];
-    uint32_t n = 0;
-    for (int k = 0; k < 5; k++) {
-        const int i = grid_index(q, at[k][0], at[k][1]);
-        if (q->known[i])
-            continue;
-        q->known[i] = true;
-        index[n] = i;
-        position[n++] = grid_position(q->a, q->px - 0.5 + (double)at[k][0] / q->side,
-                                      q->py - 0.5 + (double)at[k][1] / q->side);
-    }
-    if (n)
-        sample_batch(q->a, position, n, value);
-    for (uint32_t k = 0; k < n; k++)
-        memcpy(q->value[index[k]], value[k], sizeof value[k]);
+    at = realloc(at, count * size);
+    if (!at)
+        abort();
+    return at;
 }
 
-static void square(struct quarters *q, int x, int y, int size, float out[4])
+// Whether all five are known; asks for those that are not.
+static bool grid_ask(struct quarters *q, const int at[5][2])
+{
+    bool known = true;
+    for (int k = 0; k < 5; k++) {
+        const int i = grid_index(q, at[k][0], at[k][1]);
+        known &= q->point[i].state == POINT_KNOWN;
+        if (q->point[i].state != POINT_UNKNOWN)
+            continue;
+        q->point[i].state = POINT_ASKED;
+        if (q->count == q->capacity) {
+            q->capacity = q->capacity ? 2 * q->capacity : 1024;
+            q->position = grown(q->position, q->capacity, sizeof *q->position);
+            q->at = grown(q->at, q->capacity, sizeof *q->at);
+        }
+        q->at[q->count] = q->base + (uint32_t)i;
+        q->position[q->count++] =
+            grid_position(q->a, q->px - 0.5 + (double)at[k][0] / q->side,
+                          q->py - 0.5 + (double)at[k][1] / q->side);
+    }
+    return known;
+}
+
+// The mean over a square of the grid; false: samples are lacking.
+static bool square(struct quarters *q, int x, int y, int size, float out[4])
 {
     const int corner[4] = {grid_index(q, x, y), grid_index(q, x, y + size),
                            grid_index(q, x + size, y), grid_index(q, x + size, y + size)};
     bool split = false;
     if (size > 1) {
-        struct judged j[4];
-        for (int k = 0; k < 4; k++)
-            j[k] = judge(q->a, q->value[corner[k]]);
         for (int k = 0; k < 4 && !split; k++)
             for (int l = k + 1; l < 4; l++)
-                split |= differ(q->a, &j[k], &j[l]);
+                split |= differ(q->a, &q->point[corner[k]].judged,
+                                &q->point[corner[l]].judged);
     }
     float part[4][4];
     if (split) {
         const int h = size / 2;
-        grid_trace(q, (const int[5][2]){{x, y + h},
-                                        {x + h, y},
-                                        {x + size, y + h},
-                                        {x + h, y + size},
-                                        {x + h, y + h}});
-        square(q, x, y, h, part[0]);
-        square(q, x, y + h, h, part[1]);
-        square(q, x + h, y, h, part[2]);
-        square(q, x + h, y + h, h, part[3]);
+        if (!grid_ask(q, (const int[5][2]){{x, y + h},
+                                           {x + h, y},
+                                           {x + size, y + h},
+                                           {x + h, y + size},
+                                           {x + h, y + h}}))
+            return false;
+        bool whole = square(q, x, y, h, part[0]);
+        whole &= square(q, x, y + h, h, part[1]);
+        whole &= square(q, x + h, y, h, part[2]);
+        whole &= square(q, x + h, y + h, h, part[3]);
+        if (!whole)
+            return false;
     } else {
         for (int k = 0; k < 4; k++)
-            memcpy(part[k], q->value[corner[k]], sizeof part[k]);
+            memcpy(part[k], q->point[corner[k]].color, sizeof part[k]);
     }
     for (int k = 0; k < 4; k++)
         out[k] = (part[0][k] + part[1][k] + part[2][k] + part[3][k]) / 4;
+    return true;
+}
+
+struct corners {
+    int x0, y0, width, stride; // of the block
+    struct point *point;
+};
+
+static void grid_begin(struct quarters *q, const struct corners *c, int pixel)
+{
+    const int x = pixel % c->width, y = pixel / c->width;
+    for (int k = 0; k < 4; k++) {
+        const int i = grid_index(q, k & 1 ? q->side : 0, k & 2 ? q->side : 0);
+        q->point[i] = c->point[(y + (k >> 1)) * c->stride + x + (k & 1)];
+    }
+}
+
+// Traces `count` samples into the points whose numbers are at[].
+static void points_trace(const struct antialias *a, const struct vec2 *position,
+                         const uint32_t *at, uint32_t count, struct point *point)
+{
+    float(*color)[4] = need(count, sizeof *color);
+    sample_batch(a, position, count, color);
+    for (uint32_t k = 0; k < count; k++) {
+        struct point *p = &point[at ? at[k] : k];
+        memcpy(p->color, color[k], sizeof color[k]);
+        p->judged = judge(a, p->color);
+        p->state = POINT_KNOWN;
+    }
+    free(color);
+}
+
+// Pixels first to first + n - 1 of the block, with room for their grids.
+static void quarters_run(struct quarters *q, const struct corners *c, int first, int n,
+                         struct point *point, float (*out)[4])
+{
+    bool *done = need((size_t)n, sizeof *done);
+    for (int i = 0; i < n * q->points; i++)
+        point[i].state = POINT_UNKNOWN;
+    for (bool begin = true; begin || q->count; begin = false) {
+        q->count = 0;
+        for (int i = 0; i < n; i++) {
+            if (done[i])
+                continue;
+            q->base = (uint32_t)(i * q->points);
+            q->point = point + q->base;
+            q->px = c->x0 + (first + i) % c->width;
+            q->py = c->y0 + (first + i) / c->width;
+            if (begin)
+                grid_begin(q, c, first + i);
+            done[i] = square(q, 0, 0, q->side, out[first + i]);
+        }
+        if (q->count)
+            points_trace(q->a, q->position, q->at, q->count, point);
+    }
+    free(done);
 }
 
 static void method_2(const struct antialias *a, int x0, int y0, int x1, int y1,
                      float (*out)[4])
 {
+    enum { POINTS_MAX = 1 << 18 }; // of the grids at hand, if one pixel has not more
     const int width = x1 - x0, height = y1 - y0, stride = width + 1;
     const size_t corners = (size_t)(stride * (height + 1));
     struct vec2 *position = need(corners, sizeof *position);
-    float(*corner)[4] = need(corners, sizeof *corner);
+    struct corners c = {x0, y0, width, stride, need(corners, sizeof *c.point)};
     for (int i = 0; i < (int)corners; i++)
         position[i] = (struct vec2){x0 + i % stride, y0 + i / stride};
-    sample_batch(a, position, (uint32_t)corners, corner);
+    points_trace(a, position, NULL, (uint32_t)corners, c.point);
     struct quarters q = {.a = a, .side = 1 << (a->settings->aa_depth - 1)};
-    const size_t points = (size_t)((q.side + 1) * (q.side + 1));
-    q.value = need(points, sizeof *q.value);
-    q.known = need(points, sizeof *q.known);
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            q.px = x0 + x;
-            q.py = y0 + y;
-            memset(q.known, 0, points * sizeof *q.known);
-            for (int k = 0; k < 4; k++) {
-                const int i = grid_index(&q, k & 1 ? q.side : 0, k & 2 ? q.side : 0);
-                q.known[i] = true;
-                memcpy(q.value[i], corner[(y + (k >> 1)) * stride + x + (k & 1)],
-                       sizeof q.value[i]);
-            }
-            square(&q, 0, 0, q.side, out[y * width + x]);
-        }
+    q.points = (q.side + 1) * (q.side + 1);
+    int group = POINTS_MAX / q.points;
+    group = group < 1 ? 1 : group > width * height ? width * height : group;
+    const size_t points = (size_t)group * (size_t)q.points;
+    struct point *point = need(points, sizeof *point);
+    for (int i = 0; i < width * height; i += group) {
+        const int left = width * height - i;
+        quarters_run(&q, &c, i, left < group ? left : group, point, out);
     }
     free(position);
-    free(corner);
-    free(q.value);
-    free(q.known);
+    free(c.point);
+    free(point);
+    free(q.position);
+    free(q.at);
 }
 
 void antialias_block(const struct antialias *a, int x0, int y0, int x1, int y1,

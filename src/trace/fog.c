@@ -40,7 +40,7 @@ static float fog_clear(const struct job *job, const struct fog *f, struct vec3 o
         const double h2 = (vec3_dot(vec3_mad(o, s, d), f->up) - f->offset) / f->alt;
         way *= ground_density(h1, h2);
     }
-    const float e = (float)det_exp(-way);
+    const float e = (float)det_exp_single(-way);
     return e > f->color.transmit ? e : f->color.transmit;
 }
 

@@ -64,8 +64,8 @@ static float fade_channel(const struct interior *i, double s, float color)
     static const double exponential_from = 1000; // powers at and above mean exp
     const double way = s / i->fade_distance;
     if (i->fade_power >= exponential_from)
-        return (float)det_exp(-(1 - (double)color) * way);
-    return (float)(color + (1 - (double)color) / (1 + det_pow(way, i->fade_power)));
+        return (float)det_exp_single(-(1 - (double)color) * way);
+    return (float)(color + (1 - (double)color) / (1 + det_pow_single(way, i->fade_power)));
 }
 
 struct rgb interior_fade(const struct interior *i, double s)

@@ -26,7 +26,7 @@ static double smooth(double low, double high, double v)
 
 static double power(double base, double exponent)
 {
-    return exponent == 0 ? 1 : exponent == 1 ? base : det_pow(base, exponent);
+    return exponent == 0 ? 1 : exponent == 1 ? base : det_pow_single(base, exponent);
 }
 
 static double spot(const struct lamp *lamp, const struct lamp_view *v)

@@ -272,7 +272,7 @@ static struct real8 brilliant(struct real8 cosine, double brilliance)
     double v[8];
     r8_store(v, cosine);
     for (int i = 0; i < 8; i++)
-        v[i] = det_pow(v[i], brilliance);
+        v[i] = det_pow_single(v[i], brilliance);
     return r8_load(v);
 }
 

@@ -51,7 +51,7 @@ double highlight_power(double q, double n)
     if (n * (1 - q) > dark)
         return 0;
     if (n != floor(n) || n < 0 || n > by_squares)
-        return det_pow(q, n);
+        return det_pow_single(q, n);
     double power = 1;
     for (uint32_t bits = (uint32_t)n; bits; bits >>= 1) {
         if (bits & 1)
@@ -105,7 +105,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     const float d = back ? f->diffuse_back : f->diffuse;
     if (d > 0) {
         const double cosine = fabs(facing);
-        float i = (float)(f->brilliance == 1 ? cosine : det_pow(cosine, f->brilliance));
+        float i = (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));
         i *= d * l->att;
         if (f->crand > 0)
             i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp->index + 100));

@@ -57,7 +57,7 @@ struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb
         const double base = 1 - cosine;
         double k = f->reflection_falloff == 1
                        ? base
-                       : det_pow(fmax(0, base), f->reflection_falloff);
+                       : det_pow_single(fmax(0, base), f->reflection_falloff);
         if (fabs(k) < zero)
             k = 0;
         else if (fabs(k - 1) < zero)

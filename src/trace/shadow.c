@@ -29,7 +29,7 @@ static void occluder_plain(void *user, const struct surface_view *v,
             pass = rgb_mul(pass, l.pass);
         if (o->caustics != 0) {
             const double c = fabs(vec3_dot(l.n, o->d));
-            pass = rgb_scale((float)(1 + det_pow(c, o->caustics)), pass);
+            pass = rgb_scale((float)(1 + det_pow_single(c, o->caustics)), pass);
         }
     }
     o->pass = rgb_add(o->pass, rgb_scale((float)weight, pass));

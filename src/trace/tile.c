@@ -92,9 +92,32 @@ static bool has_enough(const struct lens *lens, const struct camera *c,
     return true;
 }
 
+// Rays through the lens of several pixels, to be traced together.
+struct lens_rays {
+    struct tracer_ray ray[BATCH_SIZE];
+    float color[BATCH_SIZE][4];
+    struct blurred *pixel[BATCH_SIZE];
+    uint32_t count;
+};
+
+static void lens_trace(struct tracer *t, struct lens_rays *r)
+{
+    tracer_rays(t, r->ray, r->count, r->color);
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct blurred *b = r->pixel[i];
+        for (int k = 0; k < 4; k++) {
+            const double c = (double)r->color[i][k];
+            b->sum[k] += c;
+            b->square[k] += c * c;
+        }
+        b->done++;
+    }
+    r->count = 0;
+}
+
 // Traces the next batch of every pixel that still needs one; returns how many do.
 static int blur_round(struct tracer *t, const struct tile_tables *tables,
-                      const struct tile *tile, struct blurred *pixel)
+                      const struct tile *tile, struct blurred *pixel, struct lens_rays *r)
 {
     const struct job *job = t->job;
     const struct lens *lens = &tables->lens;
@@ -102,28 +125,24 @@ static int blur_round(struct tracer *t, const struct tile_tables *tables,
     int open = 0;
     for (int i = 0; i < count; i++) {
         struct blurred *b = &pixel[i];
-        if (!b->open)
-            continue;
-        struct tracer_ray ray[8];
-        float color[8][4];
-        const int n = lens_batch(lens, b->done);
+        const int n = b->open ? lens_batch(lens, b->done) : 0;
+        if (r->count + (uint32_t)n > BATCH_SIZE)
+            lens_trace(t, r);
         for (int s = 0; s < n; s++) {
+            struct tracer_ray *ray = &r->ray[r->count];
             struct vec2 on_lens;
             lens_sample(lens, &tables->jitter, job->camera, tile->x0 + i % width,
-                        tile->y0 + i / width, b->done + s, &ray[s].position, &on_lens);
-            ray[s].exists = camera_lens_ray(job->camera, ray[s].position.u,
-                                            ray[s].position.v, job->settings.width,
-                                            job->settings.height, on_lens, &ray[s].ray);
+                        tile->y0 + i / width, b->done + s, &ray->position, &on_lens);
+            ray->exists = camera_lens_ray(job->camera, ray->position.u, ray->position.v,
+                                          job->settings.width, job->settings.height,
+                                          on_lens, &ray->ray);
+            r->pixel[r->count++] = b;
         }
-        tracer_rays(t, ray, (uint32_t)n, color);
-        for (int s = 0; s < n; s++) {
-            for (int k = 0; k < 4; k++) {
-                b->sum[k] += (double)color[s][k];
-                b->square[k] += (double)color[s][k] * (double)color[s][k];
-            }
-        }
-        b->done += n;
-        b->open = b->done < lens->count && !has_enough(lens, job->camera, b);
+    }
+    lens_trace(t, r);
+    for (int i = 0; i < count; i++) {
+        struct blurred *b = &pixel[i];
+        b->open = b->open && b->done < lens->count && !has_enough(lens, job->camera, b);
         open += b->open;
     }
     return open;
@@ -134,11 +153,13 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
 {
     const int width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
     struct blurred *pixel = calloc((size_t)count, sizeof *pixel);
-    if (!pixel)
+    struct lens_rays *rays = malloc(sizeof *rays);
+    if (!pixel || !rays)
         abort();
+    rays->count = 0;
     for (int i = 0; i < count; i++)
         pixel[i].open = true;
-    while (blur_round(t, tables, tile, pixel))
+    while (blur_round(t, tables, tile, pixel, rays))
         ;
     for (int i = 0; i < count; i++) {
         float mean[4];
@@ -147,6 +168,7 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
         store(t->job, image_at(out, tile->x0 + i % width, tile->y0 + i / width), mean);
     }
     free(pixel);
+    free(rays);
 }
 
 void tile_render(struct tracer *t, const struct tile_tables *tables,

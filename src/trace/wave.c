@@ -79,7 +79,7 @@ void wave_sums_grow(struct tracer *t, uint32_t count)
 
 static float powered(float c, float exponent)
 {
-    return c > 0 ? (float)det_pow(c, exponent) : 0;
+    return c > 0 ? (float)det_pow_single(c, exponent) : 0;
 }
 
 // Mirrored light with an exponent is not linear in what the mirror sees: these rays

@@ -16,6 +16,26 @@ static double random_unit(uint64_t *state)
     return (double)(*state >> 11) * 0x1p-53;
 }
 
+// Those for single precision: below 2^-35 of the value, over all that shading asks for.
+static void single_precision(void **state)
+{
+    (void)state;
+    uint64_t seed = 77;
+    for (int i = 0; i < 200000; i++) {
+        const double x = i & 1 ? random_unit(&seed) : exp2(60 * random_unit(&seed) - 30);
+        const double y = i & 2 ? 2 * random_unit(&seed) : 1000 * random_unit(&seed);
+        const long double p = powl(x, y), e = expl(-y);
+        if (p > 1e-290L && p < 1e290L)
+            assert_true(fabsl(det_pow_single(x, y) / p - 1) < 0x1p-35L);
+        if (e > 1e-290L)
+            assert_true(fabsl(det_exp_single(-y) / e - 1) < 0x1p-35L);
+    }
+    assert_true(det_pow_single(0, 2) == 0 && det_pow_single(0, 0) == 1);
+    assert_true(det_pow_single(1, 1e9) == 1 && det_pow_single(0.5, 2000) == 0);
+    assert_true(isinf(det_pow_single(2, 2000)) && det_exp_single(0) == 1);
+    assert_true(det_pow_single(-2, 2) == 4 && det_exp_single(-1000) == 0);
+}
+
 static double ulps(double got, long double want)
 {
     if (got == (double)want)
@@ -127,6 +147,7 @@ static void special_values(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(single_precision),
         cmocka_unit_test(against_long_double),
         cmocka_unit_test(pow_against_long_double),
         cmocka_unit_test(atan2_in_all_quadrants),
