@@ -8,6 +8,7 @@
 #include "math/gamma.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
+#include "scene/shapes/slabs.h"
 #include "scene/shapes/triangle.h"
 
 enum { LEAF_MAX = 4, BINS = 16, DEPTH_MAX = 60 };
@@ -156,47 +157,6 @@ void mesh_finish(struct mesh *m, struct arena *a)
 
 // ---- rays -------------------------------------------------------------------------------
 
-// Boxes are widened by the rounding of the triangle test, which works relative to the
-// origin: a ray that touches a corner must not miss its box.
-struct slabs {
-    struct vec3 o, inv;
-    double widen;
-};
-
-static bool slab(double min, double max, double o, double inv, double widen,
-                 double *t_min, double *t_max)
-{
-    min -= widen;
-    max += widen;
-    if (isinf(inv)) // along the faces: all or nothing
-        return o >= min && o <= max;
-    const double a = (min - o) * inv, b = (max - o) * inv;
-    const double near = a < b ? a : b, far = a < b ? b : a;
-    *t_min = near > *t_min ? near : *t_min;
-    *t_max = far < *t_max ? far : *t_max;
-    return *t_min <= *t_max ||
-           *t_min - *t_max <= GAMMA(6) * (fabs(*t_min) + fabs(*t_max));
-}
-
-static bool meets(const struct aabb *b, const struct slabs *r, double t_min, double t_max,
-                  double *t)
-{
-    const bool met =
-        slab(b->min.x, b->max.x, r->o.x, r->inv.x, r->widen, &t_min, &t_max) &&
-        slab(b->min.y, b->max.y, r->o.y, r->inv.y, r->widen, &t_min, &t_max) &&
-        slab(b->min.z, b->max.z, r->o.z, r->inv.z, r->widen, &t_min, &t_max);
-    *t = t_min;
-    return met;
-}
-
-static struct slabs slabs_of(const struct mesh *m, const struct ray *r)
-{
-    const double size =
-        vec3_max_abs(r->o) + vec3_max_abs(m->bounds.min) + vec3_max_abs(m->bounds.max);
-    return (struct slabs){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z),
-                          GAMMA(16) * size};
-}
-
 static void fill(struct boundary *b, const struct triangle_hit *h, uint32_t face)
 {
     b->t = h->t;
@@ -220,7 +180,7 @@ static void alternate(struct boundary_list *out, uint32_t from)
 void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct mesh *m = shape;
-    const struct slabs s = slabs_of(m, ray);
+    const struct slabs s = slabs_of(&m->bounds, ray);
     const struct triangle_ray r = triangle_ray_of(ray);
     const uint32_t from = out->count;
     uint32_t stack[DEPTH_MAX + 4], depth = 0;
@@ -229,7 +189,7 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
         const uint32_t i = stack[--depth];
         const struct mesh_node *n = &m->node[i];
         double t;
-        if (!meets(&n->bounds, &s, -INFINITY, INFINITY, &t))
+        if (!slabs_meet(&n->bounds, &s, -INFINITY, INFINITY, &t))
             continue;
         if (n->count == 0 && n->first) {
             stack[depth++] = n->first;
@@ -254,7 +214,7 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
 bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     const struct mesh *m = shape;
-    const struct slabs s = slabs_of(m, ray);
+    const struct slabs s = slabs_of(&m->bounds, ray);
     const struct triangle_ray r = triangle_ray_of(ray);
     uint32_t stack[DEPTH_MAX + 4], depth = 0;
     double t_max = ray->t_max;
@@ -264,11 +224,11 @@ bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out
         const uint32_t i = stack[--depth];
         const struct mesh_node *n = &m->node[i];
         double t, t0, t1;
-        if (!meets(&n->bounds, &s, ray->t_min, t_max, &t))
+        if (!slabs_meet(&n->bounds, &s, ray->t_min, t_max, &t))
             continue;
         if (n->count == 0 && n->first) {
-            const bool b0 = meets(&m->node[i + 1].bounds, &s, ray->t_min, t_max, &t0);
-            const bool b1 = meets(&m->node[n->first].bounds, &s, ray->t_min, t_max, &t1);
+            const bool b0 = slabs_meet(&m->node[i + 1].bounds, &s, ray->t_min, t_max, &t0);
+            const bool b1 = slabs_meet(&m->node[n->first].bounds, &s, ray->t_min, t_max, &t1);
             const bool second_first = b0 && b1 && t1 < t0;
             if (b0 && second_first)
                 stack[depth++] = i + 1;

@@ -1,0 +1,274 @@
+// bicubic_patch { type t [flatness f] [u_steps u] [v_steps v] [uv_vectors ...] 16 points }
+//
+// The true surface, whatever the flatness and the steps say: they are accepted, and needed by
+// nothing here.
+#include <math.h>
+
+#include "scene/args.h"
+#include "scene/shape.h"
+#include "scene/shapes/extrude.h"
+#include "scene/shapes/patch.h"
+#include "scene/shapes/slabs.h"
+
+struct bicubic {
+    struct patch patch;
+    struct vec2 uv[4];
+    long type;
+    bool empty; // a point or a line
+};
+
+static bool read_options(struct bicubic *s, struct args *args)
+{
+    double unused;
+    s->type = -1;
+    if (args_at_number(args) && !args_at_vector(args)) { // the old form
+        if (!args_int(args, "type", &s->type))
+            return false;
+        args_warn(args, "numbers without keywords are an old form; write type, flatness, "
+                        "u_steps, v_steps");
+        while (args_at_number(args) && !args_at_vector(args))
+            if (!args_float(args, "flatness or steps", &unused))
+                return false;
+    }
+    for (;;) {
+        static const char *const word[] = {"flatness", "u_steps", "v_steps", "accuracy"};
+        bool known = false;
+        for (int i = 0; i < 4 && !known; i++)
+            if (args_word(args, word[i])) {
+                known = true;
+                if (!args_float(args, word[i], &unused))
+                    return false;
+            }
+        if (!known && args_word(args, "type")) {
+            known = true;
+            if (!args_int(args, "type", &s->type))
+                return false;
+        }
+        if (!known)
+            return true;
+    }
+}
+
+static bool read_uvs(struct bicubic *s, struct args *args)
+{
+    static const struct vec2 square[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const bool given = args_word(args, "uv_vectors");
+    for (int i = 0; i < 4; i++) {
+        s->uv[i] = square[i];
+        if (given && !args_vec2(args, "uv vector", &s->uv[i]))
+            return false;
+    }
+    return true;
+}
+
+// Whether all control points lie on one line.
+static bool is_line(const struct patch *p)
+{
+    const struct vec3 o = p->p[0][0];
+    struct vec3 far = {0, 0, 0};
+    for (int i = 1; i < 16; i++) {
+        const struct vec3 q = vec3_sub(p->p[i / 4][i % 4], o);
+        if (vec3_dot(q, q) > vec3_dot(far, far))
+            far = q;
+    }
+    const double size = vec3_length(far);
+    for (int i = 1; i < 16; i++) {
+        const struct vec3 off = vec3_cross(vec3_sub(p->p[i / 4][i % 4], o), far);
+        if (vec3_length(off) > GAMMA(64) * size * (size + vec3_max_abs(o)))
+            return false;
+    }
+    return true;
+}
+
+static bool build(void *shape, struct args *args)
+{
+    struct bicubic *s = shape;
+    if (!read_options(s, args) || !read_uvs(s, args))
+        return false;
+    if (s->type < 0 || s->type > 2) {
+        args_reject(args, "type 0 or type 1 is needed");
+        return false;
+    }
+    if (s->type == 2) {
+        args_warn(args, "type 2 is not known; type 1 is taken");
+        s->type = 1;
+    }
+    for (int i = 0; i < 16; i++)
+        if (!args_vec3(args, "control point", &s->patch.p[i / 4][i % 4]))
+            return false;
+    s->empty = is_line(&s->patch);
+    patch_build(&s->patch, args_arena(args));
+    return true;
+}
+
+static struct aabb bounds(const void *shape)
+{
+    const struct bicubic *s = shape;
+    return s->patch.bounds;
+}
+
+static bool inside(const void *shape, struct vec3 p)
+{
+    (void)shape;
+    (void)p;
+    return false;
+}
+
+static void fill(struct boundary *b, const struct patch_hit *h)
+{
+    b->t = h->t;
+    b->dt = h->dt;
+    b->u = h->u;
+    b->v = h->v;
+    b->part = 0;
+    b->crossing = CROSS_TOUCH;
+    b->drawn = 1;
+}
+
+enum { STACK = 16 };
+
+// Two leaves have found one point of their common edge.
+static bool is_same(const struct boundary *b, const struct patch_hit *h)
+{
+    return fabs(b->u - h->u) <= 0x1p-36 && fabs(b->v - h->v) <= 0x1p-36 &&
+           fabs(b->t - h->t) <= 2 * (b->dt + h->dt);
+}
+
+static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
+{
+    const struct bicubic *s = shape;
+    const struct patch *p = &s->patch;
+    if (s->empty)
+        return;
+    const struct slabs slabs = slabs_of(&p->bounds, ray);
+    const uint32_t from = out->count;
+    uint32_t stack[STACK], depth = 0;
+    stack[depth++] = 0;
+    while (depth) {
+        const uint32_t at = stack[--depth];
+        const struct patch_node *n = &p->node[at];
+        struct patch_hit hit[PATCH_HITS];
+        double t;
+        if (!slabs_meet(&n->box, &slabs, -INFINITY, INFINITY, &t))
+            continue;
+        if (n->other) {
+            stack[depth++] = n->other;
+            stack[depth++] = at + 1;
+            continue;
+        }
+        const int count = patch_meet_leaf(&p->leaf[n->leaf], ray, hit);
+        for (int i = 0; i < count; i++) {
+            uint32_t k = from;
+            while (k < out->count && !is_same(&out->at[k], &hit[i]))
+                k++;
+            if (k == out->count)
+                boundary_list_add(out, HUGE_VAL, 0, CROSS_TOUCH, 0);
+            if (hit[i].t < out->at[k].t) // the nearer one, as `closest` takes it
+                fill(&out->at[k], &hit[i]);
+        }
+    }
+    boundary_list_sort(out, from);
+}
+
+static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
+{
+    const struct bicubic *s = shape;
+    const struct patch *p = &s->patch;
+    if (s->empty)
+        return false;
+    const struct slabs slabs = slabs_of(&p->bounds, ray);
+    uint32_t stack[STACK], depth = 0;
+    double t_max = ray->t_max;
+    bool found = false;
+    stack[depth++] = 0;
+    while (depth) {
+        const uint32_t at = stack[--depth];
+        const struct patch_node *n = &p->node[at];
+        struct patch_hit hit[PATCH_HITS];
+        double t, t0, t1;
+        if (!slabs_meet(&n->box, &slabs, ray->t_min, t_max, &t))
+            continue;
+        if (n->other) {
+            const bool b0 =
+                slabs_meet(&p->node[at + 1].box, &slabs, ray->t_min, t_max, &t0);
+            const bool b1 =
+                slabs_meet(&p->node[n->other].box, &slabs, ray->t_min, t_max, &t1);
+            const bool second_first = b0 && b1 && t1 < t0;
+            if (b0 && second_first)
+                stack[depth++] = at + 1;
+            if (b1)
+                stack[depth++] = n->other;
+            if (b0 && !second_first)
+                stack[depth++] = at + 1;
+            continue;
+        }
+        const int count = patch_meet_leaf(&p->leaf[n->leaf], ray, hit);
+        for (int i = 0; i < count; i++)
+            if (hit[i].t > ray->t_min && hit[i].t < t_max) {
+                fill(out, &hit[i]);
+                t_max = hit[i].t;
+                found = true;
+            }
+    }
+    return found;
+}
+
+// At a collapsed edge, where one derivative vanishes, the limit from the inside.
+static struct vec3 normal_at(const struct patch *p, double u, double v)
+{
+    struct vec3 at, du, dv, n = {0, 0, 0};
+    for (double move = 0; move < 0.5; move = move > 0 ? 16 * move : 0x1p-20) {
+        patch_derivatives(p, u + move * (0.5 - u), v + move * (0.5 - v), &at, &du, &dv);
+        n = vec3_cross(du, dv);
+        const double size = vec3_max_abs(vec3_sub(p->bounds.max, p->bounds.min));
+        if (vec3_length(n) > 0x1p-30 * size * fmax(vec3_length(du), vec3_length(dv)))
+            return vec3_normalize(n);
+    }
+    n = vec3_normalize(n);
+    return vec3_dot(n, n) > 0 ? n : vec3(1, 0, 0);
+}
+
+static void surface(const void *shape, const struct boundary *b, struct vec3 p,
+                    struct surface_point *out)
+{
+    const struct bicubic *s = shape;
+    const double u = b->u, v = b->v;
+    out->p = p;
+    out->ng = out->ns = normal_at(&s->patch, u, v);
+    const double w[4] = {(1 - u) * (1 - v), (1 - u) * v, u * v, u * (1 - v)};
+    out->uv = (struct vec2){0, 0};
+    for (int i = 0; i < 4; i++) {
+        out->uv.u += w[i] * s->uv[i].u;
+        out->uv.v += w[i] * s->uv[i].v;
+    }
+}
+
+static void print(const void *shape, FILE *out)
+{
+    const struct bicubic *s = shape;
+    fprintf(out, "bicubic_patch { type %ld uv_vectors", s->type);
+    for (int i = 0; i < 4; i++) {
+        fputs(i ? ", <" : " <", out);
+        shape_print_number(out, s->uv[i].u);
+        fputs(", ", out);
+        shape_print_number(out, s->uv[i].v);
+        fputs(">", out);
+    }
+    for (int i = 0; i < 16; i++) {
+        fputs(", ", out);
+        shape_print_vec3(out, s->patch.p[i / 4][i % 4]);
+    }
+}
+
+const struct shape_ops bicubic_patch_ops = {
+    .keyword = "bicubic_patch",
+    .size = sizeof(struct bicubic),
+    .flags = SHAPE_BOUNDED | SHAPE_UV,
+    .build = build,
+    .bounds = bounds,
+    .inside = inside,
+    .intersect = intersect,
+    .closest = closest,
+    .surface = surface,
+    .print = print,
+};

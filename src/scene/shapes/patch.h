@@ -1,0 +1,45 @@
+#ifndef SCENE_SHAPES_PATCH_H
+#define SCENE_SHAPES_PATCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/aabb.h"
+
+struct arena;
+
+// A bicubic Bezier patch as a tree of sub-patches (research 4.8). Control points [i][j]: i
+// along u, j along v.
+struct patch_leaf {
+    struct vec3 p[4][4];
+    double u[2], v[2]; // the part of the whole it is
+};
+
+struct patch_node {
+    struct aabb box;
+    uint32_t other; // second child (the first follows); a leaf: 0
+    uint32_t leaf;
+};
+
+struct patch {
+    struct vec3 p[4][4];
+    struct patch_node *node;
+    struct patch_leaf *leaf;
+    uint32_t nodes, leaves;
+    struct aabb bounds;
+};
+
+struct patch_hit {
+    double t, dt, u, v;
+};
+
+void patch_build(struct patch *p, struct arena *arena);
+void patch_derivatives(const struct patch *p, double u, double v, struct vec3 *at,
+                       struct vec3 *du, struct vec3 *dv);
+
+// Where a line meets one leaf. At most `max` are stored; returns their number.
+enum { PATCH_HITS = 18 }; // a line meets a bicubic patch no more often
+int patch_meet_leaf(const struct patch_leaf *leaf, const struct ray *ray,
+                    struct patch_hit hit[PATCH_HITS]);
+
+#endif
