@@ -124,6 +124,14 @@ LAMBERT_API void lambert_cancel(struct lambert_context *ctx);
 LAMBERT_API enum lambert_status lambert_load_file(struct lambert_context *ctx,
                                                   const char *path);
 
+// Reads a scene file and evaluates it, without making anything that can be traced.
+LAMBERT_API enum lambert_status lambert_check_file(struct lambert_context *ctx,
+                                                   const char *path);
+// Writes the file with its lines indented anew and every token, comment and line end
+// kept.
+LAMBERT_API enum lambert_status lambert_format_file(struct lambert_context *ctx,
+                                                    const char *path, FILE *out);
+
 struct lambert_image;
 // Traces what was loaded. *out is new, also after LAMBERT_CANCELLED; else NULL.
 LAMBERT_API enum lambert_status lambert_render(struct lambert_context *ctx,

@@ -11,6 +11,7 @@
 #include "base/stack.h"
 #include "eval/eval.h"
 #include "lang/ast.h"
+#include "lang/format.h"
 #include "lang/stream.h"
 #include "scene/object.h"
 #include "trace/world.h"
@@ -100,10 +101,10 @@ static char *read_all(FILE *f, struct arena *a, const char *prefix, size_t *len)
     return kept;
 }
 
-// The file as source number 0. An include header is put before the first line, so
+// The file as source number 0. An include header (NULL: none) is put before the first line, so
 // that line numbers stay.
 static enum lambert_status open_source(struct lambert_context *ctx, const char *path,
-                                       uint32_t *file)
+                                       const char *header, uint32_t *file)
 {
     struct arena *a = ctx->scene_arena = arena_new(1 << 20);
     source_map_init(&ctx->sources, a);
@@ -111,7 +112,6 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
         (struct diag_sink){.emit = emit,
                            .user = ctx,
                            .errors_max = (unsigned)option_number(ctx, "max-errors")};
-    const char *header = lambert_option_text(ctx, "include-header");
     const char *prefix = header ? arena_printf(a, "#include \"%s\" ", header) : "";
     bool standard = strcmp(path, "-") == 0;
     FILE *f = standard ? stdin : fopen(path, "rb");
@@ -260,7 +260,7 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
 {
     uint32_t file;
     context_forget_scene(ctx);
-    enum lambert_status status = open_source(ctx, path, &file);
+    enum lambert_status status = open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
     if (status != LAMBERT_OK)
         return status;
     double start = context_seconds();
@@ -305,12 +305,32 @@ enum lambert_status lambert_load_file(struct lambert_context *ctx, const char *p
     return LAMBERT_OK;
 }
 
+enum lambert_status lambert_check_file(struct lambert_context *ctx, const char *path)
+{
+    return evaluate(ctx, path, NULL);
+}
+
+enum lambert_status lambert_format_file(struct lambert_context *ctx, const char *path,
+                                        FILE *out)
+{
+    uint32_t file;
+    context_forget_scene(ctx);
+    enum lambert_status status = open_source(ctx, path, NULL, &file);
+    int width = (int)option_number(ctx, "indent");
+    if (status != LAMBERT_OK)
+        return status;
+    if (!format_source(&ctx->sources, file, &ctx->diags, width, out))
+        return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: %u error%s", path,
+                            ctx->diags.errors, ctx->diags.errors == 1 ? "" : "s");
+    return LAMBERT_OK;
+}
+
 enum lambert_status lambert_dump_tokens(struct lambert_context *ctx, const char *path,
                                         FILE *out)
 {
     uint32_t file;
     context_forget_scene(ctx);
-    enum lambert_status status = open_source(ctx, path, &file);
+    enum lambert_status status = open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
     if (status != LAMBERT_OK)
         return status;
     stream_dump_tokens(ctx->scene_arena, &ctx->sources, file, &ctx->diags, out);

@@ -8,10 +8,11 @@ static const struct {
     const char *group, *title;
     bool brief; // in the short help
 } groups[] = {
-    {"scene", "Scene", true},   {"picture", "Picture", true},
-    {"output", "Output", true}, {"quality", "Quality", true},
-    {"run", "Running", true},   {"animation", "Animation", false},
-    {"tools", "Tools", false},  {"compare", "lambert compare", false},
+    {"scene", "Scene", true},      {"picture", "Picture", true},
+    {"output", "Output", true},    {"quality", "Quality", true},
+    {"run", "Running", true},      {"animation", "Animation", false},
+    {"tools", "Tools", false},     {"compare", "lambert compare", false},
+    {"fmt", "lambert fmt", false},
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 
@@ -19,6 +20,8 @@ static const char *const examples[][2] = {
     {"lambert scene.pov", "render to scene.png"},
     {"lambert scene.pov +W800 +H600 +A0.3", "POV-Ray's switches work"},
     {"lambert scene.pov --width 800 -o out.exr", "so do long options"},
+    {"lambert check scene.pov", "read it and say what is wrong"},
+    {"lambert fmt -i scene.pov", "indent it anew"},
     {"lambert compare a.png b.png", "how much two pictures differ"},
     {"lambert compare scene.pov --out DIR", "render with POV-Ray too and compare"},
 };
@@ -92,7 +95,9 @@ int help_print(FILE *out, bool all)
 {
     fputs("usage: lambert SCENE [options]\n"
           "       lambert compare A B\n"
-          "       lambert compare SCENE... [options]\n\nexamples:\n",
+          "       lambert compare SCENE... [options]\n"
+          "       lambert check SCENE... [options]\n"
+          "       lambert fmt [--check | --in-place] SCENE...\n\nexamples:\n",
           out);
     for (int i = 0; i < EXAMPLE_COUNT; i++)
         fprintf(out, "  %-42s %s\n", examples[i][0], examples[i][1]);
@@ -185,7 +190,9 @@ static const char man_head[] =
     ".SH SYNOPSIS\n"
     ".B lambert\n.I SCENE\n[\\fIoptions\\fR]\n.br\n"
     ".B lambert compare\n.I A B\n.br\n"
-    ".B lambert compare\n.I SCENE\\fR...\n[\\fIoptions\\fR]\n"
+    ".B lambert compare\n.I SCENE\\fR...\n[\\fIoptions\\fR]\n.br\n"
+    ".B lambert check\n.I SCENE\\fR...\n[\\fIoptions\\fR]\n.br\n"
+    ".B lambert fmt\n[\\-\\-check | \\-\\-in\\-place]\n.I SCENE\\fR...\n"
     ".SH DESCRIPTION\n"
     "Reads a scene, traces it and writes a picture, by default\n"
     "a PNG file named after the scene in the working directory.\n"
@@ -198,6 +205,17 @@ static const char man_head[] =
     "Later settings win; library paths and declarations add up.\n";
 
 static const char man_tail[] =
+    ".SH CHECK\n"
+    ".B lambert check SCENE...\n"
+    "reads and evaluates each scene, renders nothing, and says all that is wrong;\n"
+    ".B \\-\\-diagnostics\nchooses how.\n"
+    "The exit code is 0 when no scene has an error.\n"
+    ".SH FMT\n"
+    ".B lambert fmt SCENE...\n"
+    "prints each scene with its lines indented by what is open before them. Tokens,\n"
+    "comments and line ends stay; blanks at the ends of lines go.\n"
+    ".B \\-\\-in\\-place\nwrites the files back,\n"
+    ".B \\-\\-check\nnames those that would change and exits with 1.\n"
     ".SH COMPARE\n"
     ".B lambert compare A B\n"
     "says how much two pictures differ: the part of the pixels that are off,\n"
@@ -272,7 +290,7 @@ int completion_print(FILE *out)
             fprintf(out, "--%s ", o->name);
     fputs("' -- \"$cur\")) ;;\n    *) COMPREPLY=($(compgen -f -- \"$cur\"))\n"
           "       test \"$COMP_CWORD\" = 1 && "
-          "COMPREPLY+=($(compgen -W compare -- \"$cur\")) ;;\n"
+          "COMPREPLY+=($(compgen -W 'check compare fmt' -- \"$cur\")) ;;\n"
           "    esac\n}\ncomplete -o filenames -F _lambert lambert\n",
           out);
     return CMD_OK;

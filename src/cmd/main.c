@@ -113,12 +113,33 @@ static bool asked(struct cmd *c, const char *name)
     return lambert_option_is_set(c->ctx, name);
 }
 
+// The first word may say what to do; without one it is rendering.
+static const struct command {
+    const char *name;
+    int (*run)(struct cmd *c);
+    bool renders; // as POV-Ray would: its INI file counts
+} commands[] = {
+    {"render", cmd_render, true},
+    {"compare", cmd_compare, false},
+    {"check", cmd_check, true},
+    {"fmt", cmd_format, false},
+};
+
+static const struct command *find_command(int argc, char **argv)
+{
+    for (size_t i = 1; argc > 1 && i < sizeof commands / sizeof *commands; i++)
+        if (strcmp(argv[1], commands[i].name) == 0)
+            return &commands[i];
+    return &commands[0];
+}
+
 static int run(struct cmd *c, int argc, char **argv)
 {
-    bool compare = argc > 1 && strcmp(argv[1], "compare") == 0;
-    int code = compare ? CMD_OK : read_environment(c);
+    const struct command *command = find_command(argc, argv);
+    int named = command != &commands[0];
+    int code = command->renders ? read_environment(c) : CMD_OK;
     if (!code)
-        code = cmdline_parse(c, argc - compare, argv + compare);
+        code = cmdline_parse(c, argc - named, argv + named);
     if (code)
         return code;
     if (asked(c, "help"))
@@ -136,7 +157,7 @@ static int run(struct cmd *c, int argc, char **argv)
     c->quiet = lambert_option_number(c->ctx, "quiet") != 0;
     c->verbose = lambert_option_number(c->ctx, "verbose") != 0;
     start_watch(c);
-    return compare ? cmd_compare(c) : cmd_render(c);
+    return command->run(c);
 }
 
 int main(int argc, char **argv)

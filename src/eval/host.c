@@ -1,6 +1,7 @@
 // The callbacks of the directive stream: names, assignments, messages, includes
 // (spec/language 3).
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,11 +72,13 @@ bool eval_index(struct eval *e, struct place base, const struct ast *index,
         }
         if (!eval_float(e, index, &v))
             return false;
-        v = number_to_int(v + index_slack);
-        if (v < 0 || v >= a->size[i]) {
-            diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where, (long)v, (unsigned)a->size[i]);
+        v += index_slack;
+        if (v < 0 || number_to_int(v) >= a->size[i]) {
+            diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where,
+                    (long)number_to_int(floor(v)), (unsigned)a->size[i]);
             return false;
         }
+        v = number_to_int(v);
         flat = flat * a->size[i] + (uint32_t)v;
     }
     *out = (struct place){.array = base.array, .index = (uint32_t)flat};

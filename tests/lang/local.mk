@@ -112,6 +112,7 @@ lang_scenes = \
 	%D%/152-error-macro-name.scn \
 	%D%/153-error-sqr.scn \
 	%D%/154-error-seed.scn \
-	%D%/156-message-keyword.scn
+	%D%/156-message-keyword.scn \
+	%D%/157-error-subscript-negative.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh
