@@ -8,7 +8,7 @@ liblambert_a_SOURCES += \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/lens.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/shadow.c %D%/sky.c %D%/sky.h \
-	%D%/simple.c %D%/simple.h %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
+	%D%/simple.c %D%/simple.h %D%/simple_bounce.c %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
 	%D%/wave.c %D%/wave.h
 
 # The packet kernels, once per instruction set.

@@ -43,6 +43,19 @@ double fresnel_index(const struct inside *list, const struct interior *interior)
 struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
                                const struct inside *inside,
                                const struct interior *interior, float *weight);
+// How a crossing changes the interiors and what the two sides are (spec/lighting.md
+// 6.2). NULL stands for the open air.
+struct crossing_sides {
+    const struct interior *from, *to;
+    const struct inside *inside;
+    bool straight;
+};
+struct crossing_sides interior_cross(struct tracer *t, const struct inside *list,
+                                     const struct interior *x);
+// The ratio of the indices of refraction.
+double crossing_eta(const struct crossing_sides *c);
+// A of spec/lighting.md 6.4 for a way of length s that ends at a surface of x.
+struct rgb way_fade(const struct interior *x, const struct inside *inside, double s);
 bool finish_has_mirror(const struct finish *f);
 bool finish_takes_light(const struct finish *f);
 // q^n for a cosine q.

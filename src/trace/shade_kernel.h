@@ -20,6 +20,9 @@ struct shade_kernels {
     uint32_t (*light)(struct tracer *t, const struct simple_class *c,
                       const struct lamp *lamp, const struct simple_group *g,
                       uint32_t groups, uint32_t queued);
+    // Fills what leaves the group by mirrors and, where the class is clear, through it.
+    void (*bounce)(const struct simple_class *c, const struct simple_group *g,
+                   struct simple_bounce *b);
 };
 
 extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,

@@ -129,30 +129,25 @@ static void mirrors(struct shading *s, const struct plain_result *r,
     }
 }
 
-// How a crossing changes the interiors and what the two sides are (spec/lighting.md
-// 6.2). NULL stands for the open air.
-struct crossing_sides {
-    const struct interior *from, *to;
-    const struct inside *inside;
-    bool straight;
-};
-
-static struct crossing_sides cross(const struct shading *s)
+struct crossing_sides interior_cross(struct tracer *t, const struct inside *list,
+                                     const struct interior *x)
 {
-    const struct interior *x = s->at.surface->interior;
-    const struct inside *list = s->path->inside;
-    struct arena *a = s->t->arena;
     if (!list)
-        return (struct crossing_sides){NULL, x, inside_enter(s->t, list, x), false};
+        return (struct crossing_sides){NULL, x, inside_enter(t, list, x), false};
     if (list->interior == x)
         return (struct crossing_sides){x, list->outer ? list->outer->interior : NULL,
                                        list->outer, false};
     if (inside_find(list, x))
-        return (struct crossing_sides){x, x, inside_remove(a, list, x), true};
-    return (struct crossing_sides){list->interior, x, inside_enter(s->t, list, x), false};
+        return (struct crossing_sides){x, x, inside_remove(t->arena, list, x), true};
+    return (struct crossing_sides){list->interior, x, inside_enter(t, list, x), false};
 }
 
-static double ior(const struct interior *i) { return i ? interior_ior(i) : 1; }
+double crossing_eta(const struct crossing_sides *c)
+{
+    const double from = c->from ? interior_ior(c->from) : 1;
+    const double to = c->to ? interior_ior(c->to) : 1;
+    return c->straight ? 1 : from / to;
+}
 
 static double dispersion(const struct interior *i)
 {
@@ -241,7 +236,7 @@ static bool bend(struct shading *s, const struct bending *b, double eta, struct 
 static bool refract(struct shading *s, const struct bending *b)
 {
     const struct crossing_sides *c = &b->sides;
-    const double eta = c->straight ? 1 : ior(c->from) / ior(c->to);
+    const double eta = crossing_eta(c);
     const double spread = c->straight ? 1 : dispersion(c->from) / dispersion(c->to);
     const struct rgb white = {1, 1, 1};
     if (fabs(eta - 1) < zero && fabs(spread - 1) < zero) {
@@ -267,12 +262,11 @@ static bool refract(struct shading *s, const struct bending *b)
     return out;
 }
 
-static struct rgb fade_on_the_way(const struct shading *s)
+struct rgb way_fade(const struct interior *x, const struct inside *inside, double s)
 {
-    const struct interior *x = s->at.surface->interior;
     struct rgb fade = rgb_gray(x->old_refraction);
-    if (fabs(x->fade_distance) > zero && inside_find(s->path->inside, x))
-        fade = rgb_mul(fade, interior_fade(x, s->s));
+    if (fabs(x->fade_distance) > zero && inside_find(inside, x))
+        fade = rgb_mul(fade, interior_fade(x, s));
     return fade;
 }
 
@@ -284,9 +278,9 @@ void shade_transmit(struct shading *s, const struct plain_result *r)
     if (r->trans > job->adc_bailout && job->refraction && r->end > r->begin) {
         const struct vec3 top = s->layer[r->begin].n;
         b.r = r;
-        b.sides = cross(s);
+        b.sides = interior_cross(s->t, s->path->inside, s->at.surface->interior);
         b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
-        b.fade = fade_on_the_way(s);
+        b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
         b.weight = s->path->weight;
         if (r->any && r->weight > 0)
             b.weight *=

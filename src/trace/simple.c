@@ -29,7 +29,7 @@ static bool is_solid(struct rgbft c) { return c.filter == 0 && c.transmit == 0; 
 static bool pigment_is_simple(const struct pigment *p)
 {
     if (p->kind == PIGMENT_SOLID)
-        return is_solid(p->color);
+        return true;
     if (p->kind != PIGMENT_COLORS || p->pattern.pigment)
         return false;
     for (uint32_t i = 0; i < p->colors->count; i++)
@@ -69,7 +69,24 @@ static bool lamps_are_simple(const struct job *job, const struct lamp_list *list
     return true;
 }
 
-static bool surface_is_simple(const struct job *job, const struct surface *s)
+static bool pigment_is_clear(const struct pigment *p)
+{
+    return p->kind == PIGMENT_SOLID && !is_solid(p->color);
+}
+
+// Colours that go different ways, or rules of their own, are left to the general rule.
+static bool has_dispersion(const struct world *w)
+{
+    for (uint32_t i = 0; i < w->surface_count; i++) {
+        const float d = w->surface[i].interior->dispersion;
+        if (d > 0 && d != 1)
+            return true;
+    }
+    return false;
+}
+
+static bool surface_is_simple(const struct job *job, const struct surface *s,
+                              bool dispersion)
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
@@ -78,7 +95,8 @@ static bool surface_is_simple(const struct job *job, const struct surface *s)
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
     return !(l->normal && job->normals) && pigment_is_simple(l->pigment) &&
-           f->irid == 0 && f->crand <= 0 && f->reflection_exponent == 1 &&
+           !(dispersion && pigment_is_clear(l->pigment)) && f->irid == 0 &&
+           f->crand <= 0 && f->reflection_exponent == 1 &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
 
@@ -99,7 +117,8 @@ static bool same_finish(const struct finish *a, const struct finish *b)
             same_rgb(a->reflection_min, b->reflection_min) &&
             same_rgb(a->reflection_max, b->reflection_max) &&
             a->reflection_falloff == b->reflection_falloff &&
-            a->reflection_metallic == b->reflection_metallic && a->fresnel == b->fresnel);
+            a->reflection_metallic == b->reflection_metallic &&
+            a->fresnel == b->fresnel && a->conserve_energy == b->conserve_energy);
 }
 
 enum { RECENT = 16 }; // classes that a surface is compared with
@@ -109,10 +128,11 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
 {
     const struct finish *f = s->texture->layer[0].finish;
     const bool side_test = !(s->flags & OBJECT_DOUBLE_ILLUMINATE);
+    const bool clear = pigment_is_clear(s->texture->layer[0].pigment);
     const uint32_t count = job->simple_class_count;
     for (uint32_t i = count; i-- > 0 && count - i <= RECENT;)
         if (all[i].side_test == side_test && all[i].light_group == s->light_group &&
-            same_finish(all[i].finish, f))
+            all[i].clear == clear && same_finish(all[i].finish, f))
             return i;
     all[count] = (struct simple_class){
         .finish = f,
@@ -121,6 +141,7 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
         .own = rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission),
         .side_test = side_test,
         .takes_light = finish_takes_light(f),
+        .clear = clear,
         .mirror = job->mirrors && finish_has_mirror(f),
     };
     return job->simple_class_count++;
@@ -144,19 +165,27 @@ void simple_compile(struct job *job, struct arena *a)
         arena_new_array(a, struct simple_surface, w->surface_count + 1);
     struct simple_class *all =
         arena_new_array(a, struct simple_class, w->surface_count + 1);
+    const bool dispersion = has_dispersion(w);
     for (uint32_t i = 0; i < w->surface_count; i++) {
         simple[i].class = SIMPLE_NONE;
-        if (!surface_is_simple(job, &w->surface[i]))
+        if (!surface_is_simple(job, &w->surface[i], dispersion))
             continue;
         const struct pigment *p = w->surface[i].texture->layer[0].pigment;
         simple[i] = (struct simple_surface){.class = class_of(job, all, &w->surface[i]),
                                             .kind = pigment_kind(p),
                                             .pigment = p};
-        if (simple[i].kind == SIMPLE_SOLID)
-            simple[i].color[0] = rgbft_rgb(p->color);
-        else
+        simple[i].att = 1;
+        if (simple[i].kind == SIMPLE_SOLID) {
+            const struct rgbft x = p->color;
+            simple[i].color[0] = rgbft_rgb(x);
+            simple[i].pass = rgbft_pass(x);
+            simple[i].att = job->old_opacity
+                                ? 1 - (x.filter * rgb_max(rgbft_rgb(x)) + x.transmit)
+                                : rgbft_opacity(x);
+        } else {
             for (uint32_t k = 0; k < 2 && k < p->colors->count; k++)
                 simple[i].color[k] = rgbft_rgb(p->colors->color[k]);
+        }
     }
     job->simple_class = all;
     job->simple = job->simple_class_count ? simple : NULL;
@@ -233,43 +262,6 @@ struct rgb simple_color(const struct tracer *t, const struct surface *s,
     return rgbft_rgb(c);
 }
 
-// The mirrored rays of a group: mirrors of trace/shade_transmit.c.
-static void mirror(struct tracer *t, const struct simple_class *c,
-                   const struct simple_group *g)
-{
-    const struct world *w = t->job->world;
-    for (unsigned m = g->live; m; m &= m - 1) {
-        const int i = __builtin_ctz(m);
-        struct path p = wave_path(t, g->slot[i]);
-        if (!(p.flags & PATH_CONTINUED))
-            p.level++;
-        p.flags &= (uint8_t)~PATH_CONTINUED;
-        if (!path_counts(t->job, p.level, p.weight))
-            continue;
-        const struct interaction at = {.p = {g->p[0][i], g->p[1][i], g->p[2][i]},
-                                       .ng = {g->ng[0][i], g->ng[1][i], g->ng[2][i]},
-                                       .error = g->error[i]};
-        const struct vec3 n = vec3(g->n[0][i], g->n[1][i], g->n[2][i]);
-        const struct surface *s = &w->surface[w->leaf[t->hit[g->ray[i]].b.leaf].surface];
-        float weight;
-        const struct rgb mirror =
-            finish_reflectivity(c->finish, -vec3_dot(p.d, n),
-                                rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
-                                p.inside, s->interior, &weight);
-        if (mirror.r == 0 && mirror.g == 0 && mirror.b == 0)
-            continue;
-        p.d = mirrored(p.d, n, n);
-        p.o = trace_offset(&at, p.d);
-        p.hash = hash_mix(p.hash, 1);
-        p.flags |= PATH_REFLECTED;
-        p.through_t = 0;
-        p.weight *= weight;
-        p.through = rgb_mul(mirror, p.through);
-        t->slot = g->slot[i];
-        path_emit(t, &p);
-    }
-}
-
 static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t first,
                         uint32_t *queued)
 {
@@ -286,8 +278,8 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)
         if (!c->lamps->lamp[i]->inert)
             *queued = kernels->light(t, c, c->lamps->lamp[i], t->group, groups, *queued);
-    for (uint32_t i = 0; i < groups && c->mirror; i++)
-        mirror(t, c, &t->group[i]);
+    for (uint32_t i = 0; i < groups && (c->mirror || c->clear); i++)
+        simple_bounce(t, c, &t->group[i]);
 }
 
 void simple_shade(struct tracer *t)

@@ -3,9 +3,10 @@
 
 #include "trace/tracer.h"
 
-// Simple surfaces are opaque everywhere, of one layer without a normal, and their light
-// follows from finish, lamps and the colour at the point. Their hits are shaded eight at a
-// time (trace/shade_kernel.h), with the arithmetic, and hence the bits, of trace/shade.c.
+// Simple surfaces have one layer without a normal, and their light follows from finish,
+// lamps and the colour at the point; what lets light through has one colour everywhere.
+// Their hits are shaded eight at a time (trace/shade_kernel.h), with the arithmetic, and
+// hence the bits, of trace/shade.c.
 
 enum { SIMPLE_NONE = UINT32_MAX };
 
@@ -17,6 +18,7 @@ struct simple_class {
     struct rgb own; // light given off, before it is multiplied by the colour
     bool side_test; // light from behind counts apart
     bool takes_light, mirror;
+    bool clear; // lets light through
 };
 
 enum simple_pigment {
@@ -29,6 +31,8 @@ struct simple_surface {
     uint32_t class; // SIMPLE_NONE: not simple
     enum simple_pigment kind;
     struct rgb color[2];
+    float att;       // opacity
+    struct rgb pass; // of the pigment
     const struct pigment *pigment;
 };
 
@@ -36,11 +40,21 @@ struct simple_surface {
 struct simple_group {
     double d[3][8], p[3][8], error[8]; // of the ray; the point, as struct interaction
     double n[3][8], ng[3][8];          // n: towards the ray
-    float color[3][8], through[3][8];
+    float color[3][8], att[8], through[3][8];
     uint16_t slot[8];
     uint32_t ray[8];
     unsigned live;
     bool in_row; // eight slots in a row
+};
+
+// Where the light of a group goes on: mirrored, and through the surface.
+struct simple_bounce {
+    double eta[8], index[8]; // asked for: ratio of ior, index of Fresnel's formula
+    double cosine[8];        // between n and the way to the eye
+    double mirror_d[3][8], mirror_o[3][8];
+    float mirror[3][8], weight[8]; // finish_reflectivity
+    double bent_d[3][8], bent_o[3][8];
+    unsigned total; // lanes of total reflection
 };
 
 void simple_compile(struct job *job, struct arena *a);
@@ -50,6 +64,9 @@ void simple_end(struct tracer *t);
 bool simple_take(struct tracer *t, uint32_t k);
 // Shades the hits that were kept.
 void simple_shade(struct tracer *t);
+// The rays that go on from a group (trace/simple_bounce.c).
+void simple_bounce(struct tracer *t, const struct simple_class *c,
+                   const struct simple_group *g);
 // The colour at lane `lane` by the general rule.
 struct rgb simple_color(const struct tracer *t, const struct surface *s,
                         const struct simple_group *g, int lane);
