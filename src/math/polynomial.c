@@ -108,7 +108,7 @@ UNROLL
 UNROLL
     for (int i = 0; i <= degree; i++) { // to [0, 1], over the binomials
         b[i] *= scale;
-        scale *= width * (i + 1) / (degree - i);
+        scale *= width * ((i + 1.) / (degree - i));
         size += fabs(b[i]);
     }
 UNROLL
@@ -169,15 +169,13 @@ UNROLL
     return false;
 }
 
-// The roots where the Bernstein polygon tells how many there are; -1: it does not.
-UNROLLED int certain_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
-                           double lo, double hi, double *root, bool *first_rising)
+// The roots where the Bernstein polygon b tells how many there are; -1: it does not.
+UNROLLED int polygon_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                           double lo, double hi, const double *b, int changes,
+                           double *root)
 {
-    double b[BERNSTEIN_MAX + 1];
     const double *c = chain[0], *d = chain[1];
-    const int changes = bernstein(c, degree, lo, hi, b);
     const bool rising = b[0] < 0;
-    *first_rising = rising;
     if (changes == 1)
         root[0] = root_between(c, d, degree, lo, hi, 0.5 * (lo + hi), rising, 0);
     if (changes != 2)
@@ -188,6 +186,28 @@ UNROLLED int certain_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degre
     root[0] = root_between(c, d, degree, lo, m.t, m.left, rising, 0);
     root[1] = root_between(c, d, degree, m.t, hi, m.right, !rising, 0);
     return 2;
+}
+
+// The same of the stretch whole or, where its polygon goes to and fro, of its halves.
+UNROLLED int certain_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
+                           double lo, double hi, double *root, bool *first_rising)
+{
+    double b[BERNSTEIN_MAX + 1];
+    int changes = bernstein(chain[0], degree, lo, hi, b);
+    *first_rising = b[0] < 0;
+    if (changes <= 2)
+        return polygon_roots(chain, degree, lo, hi, b, changes, root);
+    int n = 0;
+    for (int half = 0; half < 2; half++) {
+        const double middle = 0.5 * (lo + hi);
+        const double from = half ? middle : lo, to = half ? hi : middle;
+        changes = bernstein(chain[0], degree, from, to, b);
+        const int found = polygon_roots(chain, degree, from, to, b, changes, root + n);
+        if (found < 0)
+            return -1;
+        n += found;
+    }
+    return n;
 }
 
 // The extrema's candidates for a quadratic: both roots by the stable formula.

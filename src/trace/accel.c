@@ -9,10 +9,9 @@
 #include "scene/shapes/sphere.h"
 #include "trace/packet.h"
 
-static void build_leaf_tree(struct arena *a, const struct world *w, struct accel *accel,
-                            uint32_t object)
+static void build_leaf_tree(struct arena *a, const struct world *w,
+                            const struct world_object *o, struct accel_large *large)
 {
-    const struct world_object *o = &w->object[object];
     struct aabb *box = malloc(o->leaf_count * sizeof *box);
     uint32_t *leaf = malloc(o->leaf_count * sizeof *leaf);
     if (!box || !leaf)
@@ -21,7 +20,7 @@ static void build_leaf_tree(struct arena *a, const struct world *w, struct accel
     for (uint32_t i = 0; i < o->leaf_count; i++)
         infinite += !aabb_is_finite(w->leaf[o->first_leaf + i].bounds) &&
                     !aabb_is_empty(w->leaf[o->first_leaf + i].bounds);
-    accel->unbounded[object] = arena_new_array(a, uint32_t, infinite + 1);
+    large->unbounded = arena_new_array(a, uint32_t, infinite + 1);
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
         if (aabb_is_empty(w->leaf[i].bounds))
             continue;
@@ -29,39 +28,92 @@ static void build_leaf_tree(struct arena *a, const struct world *w, struct accel
             box[n] = w->leaf[i].bounds;
             leaf[n++] = i;
         } else {
-            accel->unbounded[object][accel->unbounded_count[object]++] = i;
+            large->unbounded[large->unbounded_count++] = i;
         }
     }
-    accel->leaves[object] = bvh8_build(a, box, leaf, n);
+    large->leaves = bvh8_build(a, box, leaf, n);
     free(box);
     free(leaf);
 }
 
-static void list_required(struct arena *a, const struct world *w, struct accel *accel,
-                          uint32_t object)
+static void list_required(struct arena *a, const struct world *w,
+                          const struct world_object *o, struct accel_large *large)
 {
-    const struct world_object *o = &w->object[object];
-    const struct leaf *leaf = w->leaf + o->first_leaf;
-    uint32_t n = 0;
     for (uint32_t i = 0; i < o->leaf_count; i++)
-        n += leaf[i].required;
-    uint32_t *list = arena_new_array(a, uint32_t, n + 1);
-    accel->required[object] = list;
-    accel->required_count[object] = n;
-    for (uint32_t i = 0; i < o->leaf_count; i++)
-        if (leaf[i].required)
-            *list++ = o->first_leaf + i;
+        large->required_count += w->leaf[o->first_leaf + i].required;
+    uint32_t *list = arena_new_array(a, uint32_t, large->required_count + 1);
+    large->required = list;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+        if (w->leaf[i].required)
+            *list++ = i;
 }
 
-static struct accel_sphere sphere_of(const struct world *w, uint32_t object)
+static void list_balls(struct arena *a, const struct world *w, const struct accel *accel,
+                       struct accel_large *large)
+{
+    for (uint32_t i = 0; i < large->required_count; i++) {
+        const enum packet_shape shape = accel->leaf_shape[large->required[i]];
+        if (shape == PACKET_NONE || shape > PACKET_CONE)
+            return;
+    }
+    const uint32_t count = large->leaves.item_count;
+    large->ball = arena_new_array(a, struct accel_ball, count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct leaf *l = &w->leaf[large->leaves.item[i]];
+        const struct sphere *s = l->shape;
+        if (l->inverted)
+            large->ball[i] = (struct accel_ball){s->centre, s->radius};
+    }
+}
+
+static void build_large(struct arena *a, const struct world *w, struct accel *accel)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < w->object_count; i++)
+        count += w->object[i].leaf_count >= LARGE_OBJECT;
+    if (!count)
+        return;
+    accel->large = arena_new_array(a, struct accel_large, count);
+    accel->large_of = arena_new_array(a, uint32_t, w->object_count);
+    count = 0;
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const struct world_object *o = &w->object[i];
+        if (o->leaf_count < LARGE_OBJECT)
+            continue;
+        struct accel_large *large = &accel->large[count];
+        accel->large_of[i] = count++;
+        build_leaf_tree(a, w, o, large);
+        list_required(a, w, o, large);
+        if (accel->object_shape[i] == PACKET_SPONGE)
+            list_balls(a, w, accel, large);
+    }
+}
+
+// The sphere that is all of an object; NULL: it is something else.
+static const struct sphere *lone_sphere(const struct world *w, uint32_t object)
 {
     const struct world_object *o = &w->object[object];
     const struct leaf *l = &w->leaf[o->first_leaf];
-    if (o->is_csg || l->ops != &sphere_ops || !l->transform.identity || !l->drawn ||
-        o->bound_count)
-        return (struct accel_sphere){.flags = o->flags};
-    const struct sphere *s = l->shape;
-    return (struct accel_sphere){s->centre, s->radius, o->flags};
+    return o->is_csg || l->ops != &sphere_ops || !l->transform.identity || !l->drawn ||
+                   o->bound_count
+               ? NULL
+               : l->shape;
+}
+
+static void list_lone_spheres(struct arena *a, const struct world *w, struct accel *accel)
+{
+    const uint32_t n = accel->top.item_count;
+    for (int k = 0; k < 4; k++) // a block of eight may begin at the last
+        accel->ball[k] = arena_new_array(a, double, n + 8);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct sphere *s = lone_sphere(w, accel->top.item[i]);
+        if (!s)
+            continue;
+        accel->ball[0][i] = s->centre.x;
+        accel->ball[1][i] = s->centre.y;
+        accel->ball[2][i] = s->centre.z;
+        accel->ball[3][i] = s->radius;
+    }
 }
 
 static enum packet_shape shape_of_leaf(const struct leaf *l)
@@ -81,6 +133,8 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_QUADRIC;
     if (l->ops == &disc_ops)
         return PACKET_DISC;
+    if (l->ops == &torus_ops)
+        return PACKET_TORUS;
     if (l->ops == &triangle_ops || l->ops == &smooth_triangle_ops)
         return PACKET_TRIANGLE;
     return PACKET_NONE;
@@ -138,33 +192,18 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
     }
 }
 
-struct accel *accel_build(struct arena *a, const struct world *w)
+static void build_top(struct arena *a, const struct world *w, struct accel *accel)
 {
-    struct accel *accel = arena_new_struct(a, struct accel);
     struct aabb *box = malloc((w->object_count + 1) * sizeof *box);
     uint32_t *object = malloc((w->object_count + 1) * sizeof *object);
     if (!box || !object)
         abort();
-    accel->infinite = arena_new_array(a, uint32_t, w->object_count + 1);
-    accel->leaves = arena_new_array(a, struct bvh8, w->object_count + 1);
-    accel->unbounded = arena_new_array(a, uint32_t *, w->object_count + 1);
-    accel->base_inside = arena_new_array(a, uint32_t, w->node_count + 1);
-    for (uint32_t i = 0; i < w->node_count; i++)
-        accel->base_inside[i] = w->node[i].base_inside;
-    accel->required = arena_new_array(a, uint32_t *, w->object_count + 1);
-    accel->required_count = arena_new_array(a, uint32_t, w->object_count + 1);
-    accel->unbounded_count = arena_new_array(a, uint32_t, w->object_count + 1);
-    uint32_t n = 0;
+    uint32_t n = 0, infinite = 0;
+    for (uint32_t i = 0; i < w->object_count; i++)
+        infinite += !aabb_is_finite(w->object[i].bounds);
+    accel->infinite = arena_new_array(a, uint32_t, infinite + 1);
     for (uint32_t i = 0; i < w->object_count; i++) {
         const struct world_object *o = &w->object[i];
-        if (o->node_count > accel->nodes_max)
-            accel->nodes_max = o->node_count;
-        if (o->leaf_count > accel->leaves_max)
-            accel->leaves_max = o->leaf_count;
-        if (o->is_csg)
-            list_required(a, w, accel, i);
-        if (o->leaf_count >= LARGE_OBJECT)
-            build_leaf_tree(a, w, accel, i);
         if (aabb_is_empty(o->bounds))
             continue;
         if (aabb_is_finite(o->bounds)) {
@@ -175,20 +214,27 @@ struct accel *accel_build(struct arena *a, const struct world *w)
         }
     }
     accel->top = bvh8_build(a, box, object, n);
-    accel->sphere = arena_new_array(a, struct accel_sphere, n + 1);
-    for (int k = 0; k < 4; k++) // a block of eight may begin at the last
-        accel->ball[k] = arena_new_array(a, double, n + 8);
-    for (uint32_t i = 0; i < n; i++) {
-        const struct accel_sphere s = sphere_of(w, accel->top.item[i]);
-        accel->sphere[i] = s;
-        accel->ball[0][i] = s.centre.x;
-        accel->ball[1][i] = s.centre.y;
-        accel->ball[2][i] = s.centre.z;
-        accel->ball[3][i] = s.radius;
-    }
-    classify(a, w, accel);
-    accel->kernels = packet_kernels_choose();
     free(box);
     free(object);
+}
+
+struct accel *accel_build(struct arena *a, const struct world *w)
+{
+    struct accel *accel = arena_new_struct(a, struct accel);
+    accel->base_inside = arena_new_array(a, uint32_t, w->node_count + 1);
+    for (uint32_t i = 0; i < w->node_count; i++)
+        accel->base_inside[i] = w->node[i].base_inside;
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const struct world_object *o = &w->object[i];
+        if (o->node_count > accel->nodes_max)
+            accel->nodes_max = o->node_count;
+        if (o->leaf_count > accel->leaves_max)
+            accel->leaves_max = o->leaf_count;
+    }
+    classify(a, w, accel);
+    build_large(a, w, accel);
+    build_top(a, w, accel);
+    list_lone_spheres(a, w, accel);
+    accel->kernels = packet_kernels_choose();
     return accel;
 }

@@ -4,14 +4,6 @@
 #include "trace/bvh8.h"
 #include "trace/world.h"
 
-// An object of the tree that is a bare sphere, copied so that most tests touch nothing
-// else. Same arithmetic, hence same bits, as the shape's own.
-struct accel_sphere {
-    struct vec3 centre;
-    double radius;  // 0: some other object
-    unsigned flags; // of the object
-};
-
 // The shapes of which packets know the crossings, and how they take an object.
 enum packet_shape {
     PACKET_NONE,
@@ -24,31 +16,53 @@ enum packet_shape {
     PACKET_OPEN_CYLINDER, // these are not solid to the eye, or to anything: no product
     PACKET_OPEN_CONE,
     PACKET_DISC,
+    PACKET_TORUS,
     PACKET_TRIANGLE,
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };
 
+// A sphere among the leaves of a large object, copied so that most tests touch nothing else.
+struct accel_ball {
+    struct vec3 centre;
+    double radius; // 0: some other leaf
+};
+
+// An object of LARGE_OBJECT leaves or more has a tree of its own.
+struct accel_large {
+    struct bvh8 leaves;
+    uint32_t *unbounded; // leaves without finite bounds
+    uint32_t unbounded_count;
+    uint32_t *required; // the required leaves
+    uint32_t required_count;
+    struct accel_ball *ball; // of a PACKET_SPONGE whose solids packets know, for each item
+                             // of `leaves`; else NULL
+};
+
 // One world's boxes: over the finite objects, and over the leaves of each large object.
 struct accel {
     struct bvh8 top;
-    struct accel_sphere *sphere; // for each item of `top`
-    double *ball[4];             // the same spheres' x, y, z and radius
-    uint8_t *leaf_shape;         // enum packet_shape, per leaf
-    uint8_t *object_shape;       // enum packet_shape, per object
+    double *ball[4];       // x, y, z and radius of the items of `top` that are bare spheres,
+                           // so that most tests touch nothing else; radius 0: another object
+    uint8_t *leaf_shape;   // enum packet_shape, per leaf
+    uint8_t *object_shape; // enum packet_shape, per object
     const struct packet_kernels *kernels;
-    uint32_t *infinite;          // objects without finite bounds, in order
+    uint32_t *infinite; // objects without finite bounds, in order
     uint32_t infinite_count;
-    struct bvh8 *leaves;  // per object; item_count == 0: few leaves, tested in a row
-    uint32_t **unbounded; // per object with a tree: its leaves without finite bounds
-    uint32_t *unbounded_count;
-    uint32_t **required; // per object: its required leaves
-    uint32_t *required_count;
+    struct accel_large *large;
+    uint32_t *large_of;             // per object; NULL: there are none
     uint32_t *base_inside;          // csg_node.base_inside of every node, packed
     uint32_t nodes_max, leaves_max; // of one object: what scratch must hold
 };
 
 enum { LARGE_OBJECT = 12 }; // leaves from which an object gets a tree of its own
+
+static inline const struct accel_large *accel_large(const struct accel *a,
+                                                    const struct world_object *o,
+                                                    uint32_t object)
+{
+    return o->leaf_count < LARGE_OBJECT ? NULL : &a->large[a->large_of[object]];
+}
 
 struct accel *accel_build(struct arena *a, const struct world *w);
 

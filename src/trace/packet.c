@@ -68,6 +68,8 @@ struct search *packet_lane_begin(struct packet *p, int lane)
 void packet_lane_end(struct packet *p, int lane)
 {
     const struct search *f = &p->search[lane];
+    if (p->object[lane] != f->object || p->t[lane] != f->t)
+        p->whole &= ~(1u << lane);
     p->t[lane] = f->t;
     p->object[lane] = f->object;
 }
@@ -105,7 +107,7 @@ static void load(struct packet *p, const struct ray_batch *r, uint32_t first)
 {
     const uint32_t count = r->count - first < 8 ? r->count - first : 8;
     p->alive = (1u << count) - 1;
-    p->searching = p->hidden_any = 0;
+    p->searching = p->whole = p->hidden_any = 0;
     for (int a = 0; a < 3; a++) {
         memcpy(p->o[a], r->o[a] + first, sizeof p->o[a]);
         memcpy(p->d[a], r->d[a] + first, sizeof p->d[a]);

@@ -40,7 +40,9 @@ struct packet {
     double t_begin[8], scale[8];
     uint32_t object[8]; // UINT32_MAX: none
     uint32_t leaf[8];   // of an unknown boundary
-    unsigned alive, searching;
+    double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where
+    uint8_t crossing[8];               // `whole`
+    unsigned alive, searching, whole;
     unsigned hidden_any, hidden_by[8];
     const struct world *w;
     struct trace_scratch *s;

@@ -1,7 +1,7 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
 // flags choose the width in trace/lanes.h. All give the same bits.
 #include "trace/packet.h"
-#include "trace/packet_objects.h"
+#include "trace/packet_sponge.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
@@ -66,7 +66,7 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
         const uint32_t i = first + (uint32_t)__builtin_ctz(met);
         const uint32_t object = a->top.item[i];
         if (!search_is_nearer(f, all[i - first], object) ||
-            (a->sphere[i].flags & f->q->hidden_by) ||
+            (f->w->object[object].flags & f->q->hidden_by) ||
             (f->mode == SWEEP_OPAQUE && !f->w->object[object].opaque))
             continue;
         f->t = all[i - first];
@@ -83,13 +83,13 @@ static bool walk_leaf(struct search *f, const struct ray8 *ray, uint32_t first,
     const struct accel *a = f->w->accel;
     uint32_t balls = 0;
     for (uint32_t i = first; i < first + count; i++)
-        balls += a->sphere[i].radius > 0;
+        balls += a->ball[3][i] > 0;
     f->s->stats.leaf_tests += balls;
     bool found = balls && walk_spheres(f, ray, first, count);
     if (balls == count)
         return found;
     for (uint32_t i = first; i < first + count; i++)
-        if (!(a->sphere[i].radius > 0))
+        if (!(a->ball[3][i] > 0))
             found |= search_try_object(f, a->top.item[i]);
     return found;
 }
@@ -136,24 +136,45 @@ static void walk(struct search *f, struct bvh8_ray *r, int32_t child)
 
 // ---- the tree ---------------------------------------------------------------------------
 
+static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct accel *a = p->w->accel;
+    const struct world_object *o = &p->w->object[object];
+    const enum packet_shape shape = a->object_shape[object];
+    if (shape == PACKET_NONE)
+        return packet_try_object(p, bits, object);
+    bits = seeing(p, o->flags, bits);
+    if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
+        return 0;
+    if (shape == PACKET_PRODUCT)
+        return product(e, bits, object);
+    if (shape == PACKET_SPONGE)
+        return accel_large(a, o, object)->ball ? sponge(e, bits, object)
+                                               : packet_try_object(p, bits, object);
+    p->s->stats.leaf_tests++;
+    return lone(e, bits, object);
+}
+
 // Item i of the tree: a bare sphere stands in the tree's own list, so that most tests
 // touch nothing else.
 static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
 {
     struct packet *p = e->p;
     const struct accel *a = p->w->accel;
-    const struct accel_sphere *b = &a->sphere[i];
-    if (!(b->radius > 0))
+    const struct sphere ball = {.centre = vec3(a->ball[0][i], a->ball[1][i], a->ball[2][i]),
+                                .radius = a->ball[3][i]};
+    if (!(ball.radius > 0))
         return try_eight(e, bits, a->top.item[i]);
     p->s->stats.leaf_tests++;
-    const struct sphere ball = {.centre = b->centre, .radius = b->radius};
     const struct span8 x = span8_sphere(&ball, &e->ray);
     bits &= m8_bits(x.met);
     if (!bits)
         return 0;
     const uint32_t object = a->top.item[i];
-    bits = seeing(p, b->flags, bits);
-    if (p->mode == SWEEP_OPAQUE && !p->w->object[object].opaque)
+    const struct world_object *o = &p->w->object[object];
+    bits = seeing(p, o->flags, bits);
+    if (p->mode == SWEEP_OPAQUE && !o->opaque)
         return 0;
     const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
     return take(e, bits, t, object, 0);

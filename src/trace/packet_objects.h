@@ -5,6 +5,7 @@
 #include "trace/packet.h"
 #include "trace/packet_cross.h"
 #include "trace/packet_product.h"
+#include "trace/packet_torus.h"
 
 struct eight {
     struct packet *p;
@@ -42,6 +43,7 @@ LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint3
             won |= m & -m;
     if (!won)
         return 0;
+    p->whole &= ~won;
     r8_store(p->t, r8_select(m8_of(won), t, best));
     for (unsigned m = won; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
@@ -110,8 +112,37 @@ static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
     case PACKET_OPEN_CONE: return cross8_cone(l->shape, ray);
     case PACKET_DISC: return cross8_disc(l->shape, ray);
     case PACKET_QUADRIC: return cross8_quadric(l->shape, ray);
+    case PACKET_TORUS: return cross8_torus(l->shape, ray);
     case PACKET_TRIANGLE: return cross8_triangle(e, l->shape, ray);
     default: return cross8_none();
+    }
+}
+
+LANES_INLINE enum crossing crossing_of(const struct cross8 *x, bool first, int lane,
+                                       bool inverted)
+{
+    if (x->sheet)
+        return CROSS_TOUCH;
+    const bool enters = (m8_bits(x->enters) >> lane & 1) == first;
+    return enters != inverted ? CROSS_ENTER : CROSS_EXIT;
+}
+
+// Keeps the boundaries of `won` in full: those of `first` in x->t[0], else in x->t[1].
+LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 first,
+                       unsigned won, bool inverted)
+{
+    const struct mask8 m = m8_of(won);
+    r8_store(p->dt, r8_select(m, r8_select(first, x->dt[0], x->dt[1]), r8_load(p->dt)));
+    r8_store(p->part,
+             r8_select(m, r8_select(first, x->part[0], x->part[1]), r8_load(p->part)));
+    r8_store(p->u, r8_select(m, x->u, r8_load(p->u)));
+    r8_store(p->v, r8_select(m, x->v, r8_load(p->v)));
+    p->whole |= won;
+    const unsigned firsts = m8_bits(first);
+    for (; won; won &= won - 1) {
+        const int lane = __builtin_ctz(won);
+        p->crossing[lane] =
+            (uint8_t)crossing_of(x, (firsts >> lane & 1) != 0, lane, inverted);
     }
 }
 
@@ -123,6 +154,8 @@ static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint
     const unsigned met = bits & m8_bits(m8_and(x.met, m8_or(first, x.drawn[1])));
     const unsigned won =
         met ? take(e, met, r8_select(first, x.t[0], x.t[1]), object, leaf) : 0;
+    if (won && e->p->mode == SWEEP_CLOSEST)
+        keep(e->p, &x, first, won, e->p->w->leaf[leaf].inverted);
     return odd ? won | packet_try_object(e->p, odd, object) : won;
 }
 
@@ -168,6 +201,40 @@ LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
     return m8_bits(r8_le(near, far));
 }
 
+// The lines' spans in a convex leaf, with their errors; odd: lanes for the sweep.
+LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
+                                    enum packet_shape shape, struct mask8 *odd)
+{
+    struct ray8 own;
+    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    *odd = m8_of(0);
+    switch (shape) {
+    case PACKET_SPHERE: return span8_sphere(l->shape, ray);
+    case PACKET_BOX: return span8_box(l->shape, ray);
+    case PACKET_CYLINDER: return span8_cylinder(l->shape, ray);
+    case PACKET_CONE: return span8_cone(l->shape, ray, odd);
+    case PACKET_QUADRIC: return span8_quadric(l->shape, ray, odd);
+    default: return span8_plane(l->shape, ray);
+    }
+}
+
+// Takes a CSG object's crossings: 2 i for the entry of its leaf i, 2 i + 1 for its exit.
+static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
+                            struct real8 at, uint32_t object)
+{
+    const uint32_t first_leaf = e->p->w->object[object].first_leaf;
+    const unsigned won = found ? take(e, found, t, object, first_leaf) : 0;
+    if (!won)
+        return 0;
+    double which[8];
+    r8_store(which, at);
+    for (unsigned m = won; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        e->p->leaf[lane] = first_leaf + (uint32_t)which[lane] / 2;
+    }
+    return won;
+}
+
 static unsigned product(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
@@ -190,18 +257,8 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     for (uint32_t i = 0; i < o->leaf_count; i++) {
         const struct leaf *l = &w->leaf[o->first_leaf + i];
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
-        struct ray8 own;
-        const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
-        struct span8 s;
-        struct mask8 odd = m8_of(0);
-        switch (shape) {
-        case PACKET_SPHERE: s = span8_sphere(l->shape, ray); break;
-        case PACKET_BOX: s = span8_box(l->shape, ray); break;
-        case PACKET_CYLINDER: s = span8_cylinder(l->shape, ray); break;
-        case PACKET_CONE: s = span8_cone(l->shape, ray, &odd); break;
-        case PACKET_QUADRIC: s = span8_quadric(l->shape, ray, &odd); break;
-        default: s = span8_plane(l->shape, ray); break;
-        }
+        struct mask8 odd;
+        const struct span8 s = leaf_span(e, l, shape, &odd);
         x.unsure = m8_or(x.unsure, odd);
         complement[i] = l->inverted;
         bits &= product_add(&x, l->inverted, shape != PACKET_PLANE, &s);
@@ -211,82 +268,45 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     struct real8 t, at;
     unsigned unsure;
     const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
-    unsigned won = found ? take(e, found, t, object, o->first_leaf) : 0;
-    if (won) {
-        double which[8];
-        r8_store(which, at);
-        for (unsigned m = won; m; m &= m - 1) {
-            const int lane = __builtin_ctz(m);
-            p->leaf[lane] = o->first_leaf + (uint32_t)which[lane] / 2;
-        }
-    }
+    const unsigned won = take_leaves(e, found, t, at, object);
     p->s->stats.csg_tests++;
     return unsure ? won | packet_try_object(p, unsure, object) : won;
 }
 
-static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
-{
-    struct packet *p = e->p;
-    const struct accel *a = p->w->accel;
-    const struct world_object *o = &p->w->object[object];
-    if (a->object_shape[object] == PACKET_NONE || a->object_shape[object] == PACKET_SPONGE)
-        return packet_try_object(p, bits, object);
-    bits = seeing(p, o->flags, bits);
-    if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
-        return 0;
-    if (a->object_shape[object] == PACKET_PRODUCT)
-        return product(e, bits, object);
-    p->s->stats.leaf_tests++;
-    return lone(e, bits, object);
-}
-
 // ---- hits -----------------------------------------------------------------------------------
 
-LANES_INLINE enum crossing crossing_of(const struct cross8 *x, int which, int lane,
-                                       bool inverted)
-{
-    if (x->sheet)
-        return CROSS_TOUCH;
-    const bool enters = (m8_bits(x->enters) >> lane & 1) == (which == 0);
-    return enters != inverted ? CROSS_ENTER : CROSS_EXIT;
-}
-
-// The boundaries of the lanes that hit the same leaf. Returns the lanes done: all but those
-// whose hit is of another making.
-static unsigned leaf_hits(struct eight *e, unsigned lanes, uint32_t leaf, struct hit *out)
+// The boundaries of the lanes that hit the same leaf become whole; but not of those whose
+// hit is of another making.
+static void complete(struct eight *e, unsigned lanes, uint32_t leaf)
 {
     const struct cross8 x = leaf_cross(e, leaf);
     const struct real8 t = r8_load(e->p->t);
-    const unsigned met = lanes & m8_bits(x.met);
-    const unsigned first = met & m8_bits(m8_and(x.drawn[0], r8_eq(t, x.t[0])));
-    const unsigned second = met & m8_bits(m8_and(x.drawn[1], r8_eq(t, x.t[1]))) & ~first;
-    const bool inverted = e->p->w->leaf[leaf].inverted;
-    double dt[2][8], part[2][8], u[8], v[8];
-    for (int i = 0; i < 2; i++) {
-        r8_store(dt[i], x.dt[i]);
-        r8_store(part[i], x.part[i]);
-    }
-    r8_store(u, x.u);
-    r8_store(v, x.v);
-    for (unsigned m = first | second; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m), k = !(first >> lane & 1);
-        out[lane].b = (struct boundary){.t = e->p->t[lane],
-                                        .dt = dt[k][lane],
-                                        .u = u[lane],
-                                        .v = v[lane],
-                                        .part = (uint32_t)part[k][lane],
-                                        .leaf = leaf,
-                                        .crossing = crossing_of(&x, k, lane, inverted),
-                                        .drawn = 1};
-    }
-    return first | second;
+    const struct mask8 first = m8_and(x.drawn[0], r8_eq(t, x.t[0]));
+    const struct mask8 second = m8_and(x.drawn[1], r8_eq(t, x.t[1]));
+    const unsigned met = lanes & m8_bits(m8_and(x.met, m8_or(first, second)));
+    keep(e->p, &x, first, met, e->p->w->leaf[leaf].inverted);
 }
 
-// The boundaries of the lanes' hits. Packets keep t and the leaf only; what most rays of a
-// packet hit is one leaf, whose boundaries are made for all at once.
+// The simplest shapes' kernels find t and the leaf only. What most rays of a packet hit is
+// one leaf, whose boundaries are made for all at once.
+static void complete_all(struct eight *e, unsigned lanes)
+{
+    struct packet *p = e->p;
+    while (lanes) {
+        const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
+        unsigned same = 0;
+        for (unsigned m = lanes; m; m &= m - 1)
+            if (p->leaf[__builtin_ctz(m)] == leaf)
+                same |= m & -m;
+        complete(e, same, leaf);
+        lanes &= ~same;
+    }
+}
+
 static void hits(struct eight *e, unsigned lanes, struct hit *out)
 {
     struct packet *p = e->p;
+    unsigned open = 0;
     for (unsigned m = lanes; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
         const uint32_t object = p->object[lane];
@@ -296,20 +316,26 @@ static void hits(struct eight *e, unsigned lanes, struct hit *out)
         } else if (packet_lane_known(p, lane)) {
             out[lane].b = p->search[lane].b;
             lanes &= ~(1u << lane);
-        } else if (!p->w->object[object].is_csg) {
-            p->leaf[lane] = p->w->object[object].first_leaf;
+        } else {
+            if (!p->w->object[object].is_csg)
+                p->leaf[lane] = p->w->object[object].first_leaf;
+            open |= m & -m & ~p->whole;
         }
     }
-    while (lanes) {
-        const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
-        unsigned same = 0;
-        for (unsigned m = lanes; m; m &= m - 1)
-            if (p->leaf[__builtin_ctz(m)] == leaf)
-                same |= m & -m;
-        const unsigned left = same & ~leaf_hits(e, same, leaf, out);
-        for (unsigned m = left; m; m &= m - 1)
-            out[__builtin_ctz(m)] = packet_lane_hit(p, __builtin_ctz(m));
-        lanes &= ~same;
+    complete_all(e, open);
+    for (unsigned m = lanes; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        if (p->whole >> lane & 1)
+            out[lane].b = (struct boundary){.t = p->t[lane],
+                                            .dt = p->dt[lane],
+                                            .u = p->u[lane],
+                                            .v = p->v[lane],
+                                            .part = (uint32_t)p->part[lane],
+                                            .leaf = p->leaf[lane],
+                                            .crossing = p->crossing[lane],
+                                            .drawn = 1};
+        else
+            out[lane] = packet_lane_hit(p, lane);
     }
 }
 

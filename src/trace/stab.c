@@ -20,14 +20,15 @@ struct stab {
 // The solid's own leaves: their common span. False: it is empty.
 static bool solid_span(struct stab *v, uint32_t object, enum stab_result *result)
 {
-    const struct accel *a = v->w->accel;
+    const struct accel_large *a =
+        accel_large(v->w->accel, &v->w->object[object], object);
     struct boundary_list *list = &v->s->crossings;
     v->here.t = -INFINITY;
     v->end = INFINITY;
     *result = STAB_NOTHING;
-    for (uint32_t i = 0; i < a->required_count[object]; i++) {
+    for (uint32_t i = 0; i < a->required_count; i++) {
         list->count = 0;
-        leaf_crossings(v->w, a->required[object][i], v->ray, list);
+        leaf_crossings(v->w, a->required[i], v->ray, list);
         v->s->stats.leaf_tests++;
         if (list->count == 0)
             return false;
@@ -101,7 +102,7 @@ enum stab_result stab_object(const struct world *w, struct trace_scratch *s,
                              uint32_t object, const struct ray *ray, double limit,
                              struct boundary *out)
 {
-    struct stab v = {.w = w, .s = s, .ray = ray, .tree = &w->accel->leaves[object]};
+    struct stab v = {.w = w, .s = s, .ray = ray, .tree = &accel_large(w->accel, &w->object[object], object)->leaves};
     enum stab_result result;
     if (!solid_span(&v, object, &result))
         return result;

@@ -64,10 +64,10 @@ static uint32_t collect(const struct world *w, struct trace_scratch *s, uint32_t
         }
         return n;
     }
-    uint32_t n = collect_from_tree(&a->leaves[object], ray, s);
-    memcpy(s->leaves + n, a->unbounded[object],
-           a->unbounded_count[object] * sizeof *s->leaves);
-    return n + a->unbounded_count[object];
+    const struct accel_large *large = accel_large(a, o, object);
+    uint32_t n = collect_from_tree(&large->leaves, ray, s);
+    memcpy(s->leaves + n, large->unbounded, large->unbounded_count * sizeof *s->leaves);
+    return n + large->unbounded_count;
 }
 
 // ---- states -------------------------------------------------------------------------
@@ -207,29 +207,42 @@ static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
                                               &l->transform, ray->o)) != l->inverted);
 }
 
-// Takes the required leaves and narrows *near, the stretch on which the object may have
+// Takes a required leaf and narrows *near, the stretch on which the object may have
 // surfaces and other leaves count; false when it is empty. The margins only have to
 // exceed the errors of t: a leaf too many does no harm.
-static bool start_required(struct sweep *v, uint32_t object, const struct ray *ray,
+static bool start_required(struct sweep *v, uint32_t leaf, const struct ray *ray,
                            double limit, struct ray *near)
 {
-    const struct accel *a = v->w->accel;
     const struct boundary_list *list = &v->s->crossings;
-    for (uint32_t i = 0; i < a->required_count[object]; i++) {
-        const uint32_t from = list->count;
-        start_leaf(v, a->required[object][i], ray);
-        if (list->count == from)
-            return false;
-        const struct boundary *in = &list->at[from], *out = &list->at[list->count - 1];
-        const double begin = in->t - in->dt, end = out->t + out->dt;
-        if (in->crossing != CROSS_ENTER || out->crossing != CROSS_EXIT)
-            continue; // the shape left crossings out that it was told not to need
-        if (begin > limit || begin >= ray->t_max || end <= ray->t_min)
-            return false;
-        const double margin =
-            0x1p-10 * (end - begin) + 0x1p-30 * (fabs(begin) + fabs(end));
-        near->t_min = fmax(near->t_min, begin - margin);
-        near->t_max = fmin(near->t_max, end + margin);
+    const uint32_t from = list->count;
+    start_leaf(v, leaf, ray);
+    if (list->count == from)
+        return false;
+    const struct boundary *in = &list->at[from], *out = &list->at[list->count - 1];
+    const double begin = in->t - in->dt, end = out->t + out->dt;
+    if (in->crossing != CROSS_ENTER || out->crossing != CROSS_EXIT)
+        return true; // the shape left crossings out that it was told not to need
+    if (begin > limit || begin >= ray->t_max || end <= ray->t_min)
+        return false;
+    const double margin = 0x1p-10 * (end - begin) + 0x1p-30 * (fabs(begin) + fabs(end));
+    near->t_min = fmax(near->t_min, begin - margin);
+    near->t_max = fmin(near->t_max, end + margin);
+    return true;
+}
+
+static bool start_all_required(struct sweep *v, uint32_t object, const struct ray *ray,
+                               double limit, struct ray *near)
+{
+    const struct world_object *o = &v->w->object[object];
+    const struct accel_large *large = accel_large(v->w->accel, o, object);
+    if (large) {
+        for (uint32_t i = 0; i < large->required_count; i++)
+            if (!start_required(v, large->required[i], ray, limit, near))
+                return false;
+    } else {
+        for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+            if (v->w->leaf[i].required && !start_required(v, i, ray, limit, near))
+                return false;
     }
     return near->t_min <= near->t_max;
 }
@@ -244,7 +257,7 @@ static bool start(struct sweep *v, uint32_t object, const struct ray *ray, doubl
     s->crossings.count = 0;
     s->batch++;
     struct ray near = *ray;
-    if (!start_required(v, object, ray, limit, &near))
+    if (!start_all_required(v, object, ray, limit, &near))
         return false;
     const uint32_t n = collect(v->w, s, object, &near);
     for (uint32_t i = 0; i < n; i++)

@@ -4,6 +4,8 @@
 // direction and lengths in units of R + r, the quartic has no cubic term:
 // (t^2 + K)^2 = 4 R^2 (A t^2 + 2 B t + C), K = o.o + R^2 - r^2. Its roots are isolated
 // on the chord of the bounding ball (research 4.7).
+#include "scene/shapes/torus.h"
+
 #include <math.h>
 
 #include "math/elementary.h"
@@ -11,10 +13,6 @@
 #include "math/polynomial.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-struct torus {
-    double major, minor;
-};
 
 static const double pi = 3.14159265358979323846;
 

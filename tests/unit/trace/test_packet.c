@@ -13,6 +13,7 @@
 #include "scene/shapes/plane.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
+#include "scene/shapes/torus.h"
 #include "scene/shapes/triangle.h"
 #include "trace/packet.h"
 
@@ -108,7 +109,11 @@ static struct object *random_shape(struct maker *m)
 {
     const struct vec3 c = somewhere(m, 1);
     const double r = .25 + between(m, .25, 1);
-    const int kind = (int)(8 * chance(m));
+    const int kind = (int)(9 * chance(m));
+    if (kind == 8) {
+        const struct torus t = {r, .1 + .75 * chance(m) * r};
+        return of(m, &torus_ops, &t);
+    }
     if (kind == 5) {
         struct cone k = random_cone(m, c, r);
         k.open = chance(m) < .3;
@@ -322,11 +327,23 @@ static void lone_shapes(void **state)
     check_random(2, 60, 0, 4, true);
 }
 
+// Thin, fat, and spindles.
+static struct object *random_torus(struct maker *m, double r, int i)
+{
+    const struct torus t = {i % 3 == 1 ? .5 * r : r, i % 3 == 2 ? .001 : .75 * r};
+    struct object *o = of(m, &torus_ops, &t);
+    struct transform turn = transform_rotate(somewhere(m, 90));
+    object_transform(m->a, o, &turn);
+    turn = transform_translate(somewhere(m, 3));
+    object_transform(m->a, o, &turn);
+    return o;
+}
+
 // Each kernel by itself: a world of one kind of shape.
 static void every_kernel(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 8; kind++) {
+    for (int kind = 0; kind < 9; kind++) {
         struct maker m = {.a = arena_new(1 << 16), .random = 40 + (uint64_t)kind};
         for (int i = 0; i < 24; i++) {
             m.grid = i % 3 == 0;
@@ -348,6 +365,7 @@ static void every_kernel(void **state)
                                : kind == 3 ? of(&m, &quadric_ops, &q)
                                : kind == 4 ? of(&m, &disc_ops, &d)
                                : kind == 5 ? random_triangle(&m, c)
+                               : kind == 8 ? random_torus(&m, r, i)
                                : kind == 6 ? i % 2 ? of(&m, &box_ops, &b)
                                                    : of(&m, &plane_ops, &p)
                                            : of(&m, &sphere_ops, &s);
@@ -366,7 +384,7 @@ static void one_product(void **state)
 {
     (void)state;
     for (uint64_t seed = 10; seed < 16; seed++)
-        check_random(seed, 3, 1, 1, seed % 2);
+        check_random(seed, 4, 1, 1, seed % 2);
 }
 
 // Intersections and differences whose faces coincide, almost coincide or are apart; thin
