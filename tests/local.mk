@@ -17,6 +17,7 @@ include %D%/unit/eval/local.mk
 include %D%/unit/trace/local.mk
 include %D%/unit/radiosity/local.mk
 include %D%/cli/local.mk
+include %D%/includes/local.mk
 include %D%/lang/local.mk
 include %D%/words/local.mk
 include %D%/golden/local.mk

@@ -134,7 +134,8 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
     return LAMBERT_OK;
 }
 
-// What the user said, then the includes that were installed with lambert or POV-Ray.
+// What the user said, then the includes of an installed POV-Ray, then our own of the same
+// names.
 static void set_library_path(struct lambert_context *ctx, struct eval_options *o)
 {
     const char *const *given;
@@ -142,11 +143,11 @@ static void set_library_path(struct lambert_context *ctx, struct eval_options *o
     const char **path = arena_new_array(ctx->scene_arena, const char *, n + 2);
     for (size_t i = 0; i < n; i++)
         path[i] = given[i];
-#ifdef LAMBERT_INCLUDE_DIR
-    path[n++] = LAMBERT_INCLUDE_DIR;
-#endif
 #ifdef POVRAY_INCLUDE_DIR
     path[n++] = POVRAY_INCLUDE_DIR;
+#endif
+#ifdef LAMBERT_INCLUDE_DIR
+    path[n++] = LAMBERT_INCLUDE_DIR;
 #endif
     o->library_path = path;
     o->library_path_count = (uint32_t)n;
