@@ -186,7 +186,15 @@ struct args *args_call(struct args *a, const char *word)
 
 const struct texture *args_texture(struct args *a)
 {
+    const struct value *v = args_take_value(a, VALUE_TEXTURE);
+    if (v)
+        return v->data;
     return args_at_block(a) == WORD_texture ? build_texture(a, args_next(a)) : NULL;
+}
+
+bool args_at_texture(struct args *a)
+{
+    return args_at_value(a, VALUE_TEXTURE) || args_at_block(a) == WORD_texture;
 }
 
 bool args_end(struct args *a)
@@ -251,26 +259,4 @@ bool args_find_file(struct args *a, const char *role, const char *name,
     diag_at(args_diags(a), DIAG_NO_FILE, a->owner->where, a->name, role, name);
     args_fail(a);
     return false;
-}
-
-bool args_transforms(struct args *a, struct transform *out)
-{
-    static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
-                                      WORD_matrix, WORD_transform};
-    struct transform t;
-    bool reported = false;
-    *out = transform_identity;
-    while (a->at) {
-        enum word w = args_at_block(a);
-        if (build_trans(a, &t))
-            *out = transform_then(out, &t);
-        else if (w != WORD_texture && w != WORD_pigment && w != WORD_normal &&
-                 w != WORD_finish)
-            args_unknown(a, known, ARRAY_COUNT(known));
-        else if (!reported && (reported = true))
-            args_not_built(a);
-        else
-            args_next(a);
-    }
-    return !a->failed;
 }

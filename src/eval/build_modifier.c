@@ -221,6 +221,28 @@ static bool switch_modifier(struct args *a, struct object *o)
     return false;
 }
 
+bool args_part(struct args *a, struct transform *out, const struct texture **texture)
+{
+    static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
+                                      WORD_matrix, WORD_transform, WORD_texture,
+                                      WORD_pigment, WORD_normal, WORD_finish};
+    struct object part = {.transform = transform_identity};
+    struct transform t;
+    while (a->at) {
+        enum word w = args_at_block(a);
+        if (build_trans(a, &t))
+            object_transform(a->b->arena, &part, &t);
+        else if (w == WORD_texture || w == WORD_pigment || w == WORD_normal ||
+                 w == WORD_finish)
+            block_modifier(a, &part);
+        else
+            args_unknown(a, known, ARRAY_COUNT(known));
+    }
+    *out = part.transform;
+    *texture = settled(a->b, &part.texture);
+    return !a->failed;
+}
+
 static void inverse(struct args *a, struct object *o)
 {
     if (o->kind == OBJECT_SHAPE && !(o->ops->flags & SHAPE_SOLID))

@@ -38,8 +38,10 @@ struct args *args_block(struct args *a, const char *word);
 // If the next item is a call, `word (a, b)` or `word (a, b): c`, consumes it and returns
 // its arguments (with c as the last) as an args of their own, else NULL.
 struct args *args_call(struct args *a, const char *word);
-// If the next item is texture { TEXID }, consumes it and returns the texture.
+// If the next item is texture { TEXID } or a declared texture, consumes it and returns the
+// texture.
 const struct texture *args_texture(struct args *a);
+bool args_at_texture(struct args *a);
 bool args_end(struct args *a); // nothing is left (or only object modifiers)
 
 // Reports `message` at the block; the shape is then dropped. / A warning only.
@@ -51,9 +53,9 @@ bool args_find_file(struct args *a, const char *role, const char *name,
                     const char *extension, const char **path);
 // The heights of `[type] "file" [gamma g]` or `function w, h { }`, in the scene's arena.
 bool args_heights(struct args *a, struct heights *out);
-// The transforms after the arguments of a part that is no object of its own (a blob
-// component), composed; textures there are not built yet and are reported.
-bool args_transforms(struct args *a, struct transform *out);
+// What follows the arguments of a part that is no object of its own (a blob component):
+// transforms, composed, and its texture in the object's space, NULL if it has none.
+bool args_part(struct args *a, struct transform *out, const struct texture **texture);
 
 struct arena *args_arena(struct args *a); // the scene's
 struct diag_sink *args_diags(struct args *a);

@@ -12,6 +12,7 @@
 
 struct args;
 struct arena;
+struct texture;
 
 enum shape_flags {
     SHAPE_SOLID = 1,   // has an inside; otherwise a sheet (CROSS_TOUCH only)
@@ -30,6 +31,8 @@ struct surface_point {
     struct vec2 uv; // as uv_mapping sees it; filled only when want_uv is set
     bool want_uv;   // by the caller: mapping a sphere costs more than meeting it
 };
+
+typedef void shape_texture_visit(void *user, const struct texture *texture, double weight);
 
 // What a kind of shape can do. Each src/scene/shapes/NAME.c defines one table,
 // NAME_ops; shapes.def lists it. Shapes are in their own coordinates: the
@@ -73,6 +76,13 @@ struct shape_ops {
     // Geometry at a crossing that intersect reported; p is the point in shape space.
     void (*surface)(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out);
+    // Textures of parts, for shapes whose parts may have their own (faces of a mesh,
+    // components of a blob): the i-th of all, NULL behind the last. NULL: no parts.
+    const struct texture *(*texture)(const void *shape, uint32_t i);
+    // Calls visit for every texture that counts at a crossing, with its weight; NULL
+    // stands for the object's own. The weights add up to 1.
+    void (*textures_at)(const void *shape, const struct boundary *b, struct vec3 p,
+                        shape_texture_visit *visit, void *user);
     // The keyword, the open brace and the arguments as scene text, no newline and no
     // closing brace: object_print adds modifiers and closes.
     void (*print)(const void *shape, FILE *out);

@@ -344,6 +344,8 @@ void trace_interaction(const struct world *w, const struct ray *ray,
     const struct vec3 p = ray_at(ray, hit->b.t);
     struct surface_point s = {.p = p, .want_uv = w->surface[l->surface].wants_uv};
     *out = (struct interaction){.leaf = l, .surface = &w->surface[l->surface]};
+    if (out->surface->parts)
+        out->b = hit->b;
     if (l->transform.identity) {
         l->ops->surface(l->shape, &hit->b, p, &s);
         out->p = s.p;

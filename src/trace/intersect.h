@@ -71,6 +71,7 @@ struct interaction {
     struct vec2 uv;
     const struct leaf *leaf;
     const struct surface *surface;
+    struct boundary b; // of surfaces whose parts have textures
 };
 void trace_interaction(const struct world *w, const struct ray *ray,
                        const struct hit *hit, struct interaction *out);

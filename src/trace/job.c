@@ -105,7 +105,7 @@ static void clear_init(struct job *job, struct arena *a)
 static struct even_pass even_pass(const struct job *job, const struct surface *s)
 {
     const struct texture *x = s->texture;
-    if (s->interior_texture || s->interior->caustics != 0 || x->kind != TEXTURE_PLAIN ||
+    if (s->parts || s->interior_texture || s->interior->caustics != 0 || x->kind != TEXTURE_PLAIN ||
         x->layer_count != 1 || x->layer[0].pigment->kind != PIGMENT_SOLID ||
         !job->pigments)
         return (struct even_pass){false, {0, 0, 0}};

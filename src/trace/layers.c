@@ -61,27 +61,48 @@ static void walk(const struct walk *w, const struct texture *x,
             walk(w, entry[i], &inner, &link, weight * share[i]);
 }
 
+static void walk_from(const struct walk *w, const struct texture *x,
+                      const struct transform *transform, double weight)
+{
+    const struct interaction *at = w->v->at;
+    // Textures of a uv mapped object are not moved with it.
+    const bool uv = at->surface->flags & OBJECT_UV_MAPPING;
+    const struct texture_chain root = {NULL, uv ? NULL : transform, NULL};
+    struct texture_point point = {.p = at->p,
+                                  .uv = at->uv,
+                                  .normal = w->v->n,
+                                  .ray_d = w->v->d,
+                                  .p_world = at->p,
+                                  .normal_seen = w->v->n};
+    if (uv) {
+        point.p = vec3(at->uv.u, at->uv.v, 0);
+    } else if (!transform->identity) {
+        point.p = transform_inverse_point(transform, at->p);
+        point.normal = transform_inverse_normal(transform, w->v->n);
+    }
+    walk(w, x, &point, &root, weight);
+}
+
+// Textures of parts stand in the shape's own space.
+static void walk_part(void *user, const struct texture *x, double weight)
+{
+    const struct walk *w = user;
+    if (x)
+        walk_from(w, x, &w->v->at->leaf->transform, weight);
+    else
+        walk_from(w, w->v->texture, w->v->transform, weight);
+}
+
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
                   void *user)
 {
-    const struct walk w = {t, v, plain, user};
-    const struct interaction *at = v->at;
-    // Textures of a uv mapped object are not moved with it.
-    const bool uv = at->surface->flags & OBJECT_UV_MAPPING;
-    const struct texture_chain root = {NULL, uv ? NULL : v->transform, NULL};
-    struct texture_point point = {.p = at->p,
-                                  .uv = at->uv,
-                                  .normal = v->n,
-                                  .ray_d = v->d,
-                                  .p_world = at->p,
-                                  .normal_seen = v->n};
-    if (uv) {
-        point.p = vec3(at->uv.u, at->uv.v, 0);
-    } else if (!v->transform->identity) {
-        point.p = transform_inverse_point(v->transform, at->p);
-        point.normal = transform_inverse_normal(v->transform, v->n);
-    }
-    walk(&w, v->texture, &point, &root, 1);
+    struct walk w = {t, v, plain, user};
+    const struct leaf *l = v->at->leaf;
+    if (v->at->surface->parts && v->texture == v->at->surface->texture)
+        l->ops->textures_at(l->shape, &v->at->b,
+                            transform_inverse_point(&l->transform, v->at->p), walk_part, &w);
+    else
+        walk_from(&w, v->texture, v->transform, 1);
 }
 
 void layer_eval(const struct tracer *t, const struct surface_view *v,

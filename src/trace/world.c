@@ -176,7 +176,7 @@ static bool same_transform(const struct transform *a, const struct transform *b)
 
 static bool same_surface(const struct surface *a, const struct surface *b)
 {
-    return a->texture == b->texture && a->interior_texture == b->interior_texture &&
+    return !a->parts && !b->parts && a->texture == b->texture && a->interior_texture == b->interior_texture &&
            a->interior == b->interior && a->flags == b->flags &&
            a->light_group == b->light_group &&
            same_transform(&a->texture_transform, &b->texture_transform) &&
@@ -184,7 +184,8 @@ static bool same_surface(const struct surface *a, const struct surface *b)
 }
 
 // Neighbours in the tree mostly share their surface; they are stored once.
-static uint32_t add_surface(struct build *b, const struct context *c)
+static uint32_t add_surface(struct build *b, const struct object *o,
+                            const struct context *c)
 {
     const struct attached_texture *t =
         c->texture.texture ? &c->texture : &b->scene->default_texture;
@@ -196,12 +197,18 @@ static uint32_t add_surface(struct build *b, const struct context *c)
                         .flags = c->flags,
                         .light_group = c->light_group};
     const uint32_t count = b->surface.count;
+    s.parts = o->ops->texture && o->ops->texture(o->shape, 0);
     if (count && same_surface((struct surface *)b->surface.at + count - 1, &s))
         return count - 1;
     s.opaque = texture_is_opaque(s.texture) &&
                (!s.interior_texture || texture_is_opaque(s.interior_texture));
     s.wants_uv = (s.flags & OBJECT_UV_MAPPING) || texture_wants_uv(s.texture) ||
                  (s.interior_texture && texture_wants_uv(s.interior_texture));
+    const struct texture *x;
+    for (uint32_t i = 0; s.parts && (x = o->ops->texture(o->shape, i)); i++) {
+        s.opaque &= texture_is_opaque(x);
+        s.wants_uv |= texture_wants_uv(x);
+    }
     b->has_transparent |= !s.opaque;
     *(struct surface *)vector_add(&b->surface, 1) = s;
     return count;
@@ -210,7 +217,7 @@ static uint32_t add_surface(struct build *b, const struct context *c)
 static uint32_t add_leaf(struct build *b, const struct object *o, const struct context *c)
 {
     const uint32_t index = b->leaf.count;
-    const uint32_t surface = add_surface(b, c);
+    const uint32_t surface = add_surface(b, o, c);
     struct leaf *l = vector_add(&b->leaf, 1);
     l->ops = o->ops;
     l->shape = o->shape;

@@ -21,6 +21,7 @@ struct surface {
     unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
     bool opaque;                     // never lets light through
     bool wants_uv;                   // shading may look at uv coordinates
+    bool parts;                      // parts of the shape have textures of their own
     uint32_t light_group;            // index+1 into world light groups; 0: none
 };
 

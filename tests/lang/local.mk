@@ -113,6 +113,7 @@ lang_scenes = \
 	%D%/153-error-sqr.scn \
 	%D%/154-error-seed.scn \
 	%D%/156-message-keyword.scn \
-	%D%/157-error-subscript-negative.scn
+	%D%/157-error-subscript-negative.scn \
+	%D%/160-shapes-trace.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

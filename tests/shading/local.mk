@@ -203,4 +203,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/278-texture-average.pov \
 	%D%/279-old-refraction.pov \
 	%D%/280-render-blocks-aa.pov \
-	%D%/290-mixed.pov
+	%D%/290-mixed.pov \
+	%D%/300-part-textures.pov

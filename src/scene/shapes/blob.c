@@ -22,6 +22,7 @@ struct component {
     struct vec3 c, axis; // centre or base; unit axis towards the apex
     double length, r, s;
     struct transform transform; // blob from component space
+    const struct texture *texture; // NULL: the blob's
 };
 
 struct blob {
@@ -195,6 +196,21 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     arena_free(more);
 }
 
+// 1 - d^2/r^2 of one component at a point, or 0 where it does not reach; *v goes from its
+// nearest part to the point, in its own space.
+static double reach(const struct component *c, struct vec3 p, struct vec3 *v)
+{
+    *v = vec3_sub(transform_inverse_point(&c->transform, p), c->c);
+    const double along = vec3_dot(*v, c->axis);
+    if ((c->kind == PART_STRAIGHT && !(along >= 0 && along <= c->length)) ||
+        (c->kind == PART_BASE && along > 0) || (c->kind == PART_APEX && along < 0))
+        return 0;
+    if (c->kind == PART_STRAIGHT)
+        *v = vec3_mad(*v, -along, c->axis);
+    const double k = 1 - vec3_dot(*v, *v) / (c->r * c->r);
+    return k > 0 ? k : 0;
+}
+
 // The field and its gradient at a point.
 static double field(const struct blob *b, struct vec3 p, struct vec3 *gradient)
 {
@@ -202,22 +218,47 @@ static double field(const struct blob *b, struct vec3 p, struct vec3 *gradient)
     *gradient = vec3(0, 0, 0);
     for (uint32_t i = 0; i < b->count; i++) {
         const struct component *c = &b->at[i];
-        const struct vec3 q = transform_inverse_point(&c->transform, p);
-        struct vec3 v = vec3_sub(q, c->c);
-        const double along = vec3_dot(v, c->axis);
-        if ((c->kind == PART_STRAIGHT && !(along >= 0 && along <= c->length)) ||
-            (c->kind == PART_BASE && along > 0) || (c->kind == PART_APEX && along < 0))
-            continue;
-        if (c->kind == PART_STRAIGHT)
-            v = vec3_mad(v, -along, c->axis);
-        const double r2 = c->r * c->r, k = 1 - vec3_dot(v, v) / r2;
+        struct vec3 v;
+        const double k = reach(c, p, &v);
         if (!(k > 0))
             continue;
         sum += c->s * k * k;
-        const struct vec3 g = vec3_scale(-4 * c->s * k / r2, v);
+        const struct vec3 g = vec3_scale(-4 * c->s * k / (c->r * c->r), v);
         *gradient = vec3_add(*gradient, transform_normal(&c->transform, g));
     }
     return sum;
+}
+
+static const struct texture *part_texture(const void *shape, uint32_t i)
+{
+    const struct blob *b = shape;
+    for (uint32_t k = 0; k < b->count; k++)
+        if (b->at[k].texture && i-- == 0)
+            return b->at[k].texture;
+    return NULL;
+}
+
+// Every component counts with its share of the field, without regard to sign.
+static void textures_at(const void *shape, const struct boundary *at, struct vec3 p,
+                        shape_texture_visit *visit, void *user)
+{
+    (void)at;
+    const struct blob *b = shape;
+    struct vec3 v;
+    double sum = 0;
+    for (uint32_t i = 0; i < b->count; i++) {
+        const double k = reach(&b->at[i], p, &v);
+        sum += fabs(b->at[i].s) * k * k;
+    }
+    if (!(sum > 0)) {
+        visit(user, NULL, 1);
+        return;
+    }
+    for (uint32_t i = 0; i < b->count; i++) {
+        const double k = reach(&b->at[i], p, &v);
+        if (k > 0 && b->at[i].s != 0)
+            visit(user, b->at[i].texture, fabs(b->at[i].s) * k * k / sum);
+    }
 }
 
 static struct aabb bounds(const void *shape)
@@ -284,7 +325,7 @@ static bool read_ball(struct blob *b, struct args *block, struct arena *a)
     if (!args_vec3(block, "centre", &c.c) || !args_float(block, "radius", &c.r))
         return false;
     args_word(block, "strength");
-    if (!args_float(block, "strength", &c.s) || !args_transforms(block, &c.transform))
+    if (!args_float(block, "strength", &c.s) || !args_part(block, &c.transform, &c.texture))
         return false;
     *add(b, a) = c;
     return true;
@@ -298,7 +339,7 @@ static bool read_cylinder(struct blob *b, struct args *block, struct arena *a)
         !args_float(block, "radius", &c.r))
         return false;
     args_word(block, "strength");
-    if (!args_float(block, "strength", &c.s) || !args_transforms(block, &c.transform))
+    if (!args_float(block, "strength", &c.s) || !args_part(block, &c.transform, &c.texture))
         return false;
     const struct vec3 along = vec3_sub(end, c.c);
     c.length = vec3_length(along);
@@ -399,5 +440,7 @@ const struct shape_ops blob_ops = {
     .inside = inside,
     .intersect = intersect,
     .surface = surface,
+    .texture = part_texture,
+    .textures_at = textures_at,
     .print = print,
 };

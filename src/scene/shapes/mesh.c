@@ -306,6 +306,30 @@ void mesh_surface(const void *shape, const struct boundary *b, struct vec3 p,
     }
 }
 
+const struct texture *mesh_texture(const void *shape, uint32_t i)
+{
+    const struct mesh *m = shape;
+    return m->face_texture && i < m->texture_count ? m->texture[i] : NULL;
+}
+
+void mesh_textures_at(const void *shape, const struct boundary *b, struct vec3 p,
+                      shape_texture_visit *visit, void *user)
+{
+    (void)p;
+    const struct mesh *m = shape;
+    const uint32_t *t = m->face_texture[b->part];
+    if (t[0] == UINT32_MAX) {
+        visit(user, NULL, 1);
+    } else if (t[0] == t[1] && t[0] == t[2]) {
+        visit(user, m->texture[t[0]], 1);
+    } else {
+        const double w[3] = {1 - b->u - b->v, b->u, b->v};
+        for (int i = 0; i < 3; i++)
+            if (w[i] > 0)
+                visit(user, m->texture[t[i]], w[i]);
+    }
+}
+
 void mesh_print(const void *shape, FILE *out)
 {
     const struct mesh *m = shape;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "math/aabb.h"
+#include "scene/shape.h"
 
 struct arena;
 struct args;
@@ -19,6 +20,9 @@ struct mesh {
     uint32_t (*face)[3];
     uint32_t (*face_normal)[3]; // NULL, or face_normal[f][0] == UINT32_MAX: flat
     uint32_t (*face_uv)[3];     // NULL: none
+    uint32_t (*face_texture)[3]; // NULL, or of each corner; UINT32_MAX: the object's
+    const struct texture **texture;
+    uint32_t texture_count;
     uint32_t vertex_count, normal_count, uv_count, face_count;
     bool solid;                 // inside_vector was given
     struct vec3 inside_vector;
@@ -37,11 +41,6 @@ struct mesh_node {
 void mesh_finish(struct mesh *m, struct arena *a);
 
 // The uses of a mesh as a shape: what mesh_ops and mesh2_ops have in common.
-struct shape_ops;
-struct boundary;
-struct boundary_list;
-struct surface_point;
-struct ray;
 struct aabb mesh_bounds(const void *shape);
 bool mesh_is_solid(const void *shape);
 bool mesh_inside(const void *shape, struct vec3 p);
@@ -49,6 +48,9 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
 bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out);
 void mesh_surface(const void *shape, const struct boundary *b, struct vec3 p,
                   struct surface_point *out);
+const struct texture *mesh_texture(const void *shape, uint32_t i);
+void mesh_textures_at(const void *shape, const struct boundary *b, struct vec3 p,
+                      shape_texture_visit *visit, void *user);
 void mesh_print(const void *shape, FILE *out);
 
 #endif

@@ -43,11 +43,50 @@ static bool read_inside_vector(struct mesh *m, struct args *args)
 
 struct soup {
     struct mesh *m;
+    uint32_t textures_capacity, face_textures_capacity;
     struct arena *arena;
     uint32_t vertex_capacity, normal_capacity, uv_capacity, face_capacity, normals_capacity,
         uvs_capacity;
-    bool any_normal, any_uv;
+    bool any_normal, any_uv, any_texture;
 };
+
+// The number of a texture of the mesh, which gets it unless it has it.
+static uint32_t texture_number(struct mesh *m, struct arena *a, const struct texture *x,
+                               uint32_t *capacity)
+{
+    for (uint32_t i = m->texture_count; i-- > 0;)
+        if (m->texture[i] == x)
+            return i;
+    m->texture = grown(a, m->texture, m->texture_count, capacity, sizeof *m->texture);
+    m->texture[m->texture_count] = x;
+    return m->texture_count++;
+}
+
+// texture { T } or texture_list { T T T } of one triangle.
+static bool read_textures(struct soup *s, struct args *block, uint32_t out[3])
+{
+    const struct texture *x;
+    struct args *list = args_block(block, "texture_list");
+    out[0] = out[1] = out[2] = UINT32_MAX;
+    if (list) {
+        for (int i = 0; i < 3; i++) {
+            if (!(x = args_texture(list))) {
+                args_reject(list, "three declared textures are expected");
+                return false;
+            }
+            out[i] = texture_number(s->m, s->arena, x, &s->textures_capacity);
+        }
+    } else if ((x = args_texture(block))) {
+        out[0] = out[1] = out[2] =
+            texture_number(s->m, s->arena, x, &s->textures_capacity);
+    }
+    s->any_texture |= out[0] != UINT32_MAX;
+    if (args_end(block) && !args_at_texture(block))
+        return true;
+    args_reject(block, "after the corners of a triangle only uv_vectors, texture { } and "
+                       "texture_list { } may follow");
+    return false;
+}
 
 static bool read_triangle(struct soup *s, struct args *block, bool smooth)
 {
@@ -85,8 +124,9 @@ static bool read_triangle(struct soup *s, struct args *block, bool smooth)
             m->normal[m->normal_count++] = vec3_normalize(n[i]);
         }
     }
-    return args_end(block) || (args_reject(block, "textures of single triangles are not "
-                                                  "built yet in lambert"), false);
+    m->face_texture = grown(s->arena, m->face_texture, f, &s->face_textures_capacity,
+                            sizeof *m->face_texture);
+    return read_textures(s, block, m->face_texture[f]);
 }
 
 static bool build_mesh(void *shape, struct args *args)
@@ -110,6 +150,8 @@ static bool build_mesh(void *shape, struct args *args)
     }
     if (!s.any_uv)
         m->face_uv = NULL;
+    if (!s.any_texture)
+        m->face_texture = NULL;
     return finish(m, args);
 }
 
@@ -158,10 +200,55 @@ static bool read_uvs(struct args *block, struct arena *a, struct mesh *m)
     return true;
 }
 
-static bool read_indices(struct args *block, struct arena *a, uint32_t limit, bool textures,
-                         uint32_t (**out)[3], uint32_t *count)
+// Up to three numbers behind the corners of a face.
+static bool read_face_textures(struct mesh *m, struct args *block, struct arena *a,
+                               uint32_t face, uint32_t *capacity)
+{
+    uint32_t index[3], n = 0;
+    for (; n < 3 && args_at_number(block) && !args_at_vector(block); n++) {
+        long at;
+        if (!args_int(block, "texture index", &at))
+            return false;
+        if (at < 0 || at >= (long)m->texture_count) {
+            args_reject(block, "a texture index is out of range");
+            return false;
+        }
+        index[n] = (uint32_t)at;
+    }
+    if (n == 2) {
+        args_reject(block, "a face has one texture index or three");
+        return false;
+    }
+    if (m->texture_count == 0)
+        return true;
+    m->face_texture = grown(a, m->face_texture, face, capacity, sizeof *m->face_texture);
+    for (uint32_t i = 0; i < 3; i++)
+        m->face_texture[face][i] = n == 0 ? UINT32_MAX : index[n == 1 ? 0 : i];
+    return true;
+}
+
+static bool read_texture_list(struct mesh *m, struct args *block, struct arena *a)
 {
     uint32_t n, capacity = 0;
+    if (!read_count(block, &n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        const struct texture *x = args_texture(block);
+        if (!x) {
+            args_reject(block, "there are fewer textures than said");
+            return false;
+        }
+        m->texture = grown(a, m->texture, i, &capacity, sizeof *m->texture);
+        m->texture[i] = x;
+        m->texture_count = i + 1;
+    }
+    return true;
+}
+
+static bool read_indices(struct args *block, struct arena *a, uint32_t limit,
+                         struct mesh *textures, uint32_t (**out)[3], uint32_t *count)
+{
+    uint32_t n, capacity = 0, texture_capacity = 0;
     if (!read_count(block, &n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
@@ -177,10 +264,8 @@ static bool read_indices(struct args *block, struct arena *a, uint32_t limit, bo
             }
             (*out)[i][k] = (uint32_t)at[k];
         }
-        double texture;
-        for (int k = 0; k < 3 && textures && args_at_number(block) && !args_at_vector(block); k++)
-            if (!args_float(block, "texture index", &texture))
-                return false;
+        if (textures && !read_face_textures(textures, block, a, i, &texture_capacity))
+            return false;
     }
     *count = n;
     return true;
@@ -228,15 +313,15 @@ static bool build_mesh2(void *shape, struct args *args)
             ok = read_vectors(block, a, &m->normal, &m->normal_count);
         else if ((block = args_block(args, "uv_vectors")))
             ok = read_uvs(block, a, m);
-        else if ((block = args_block(args, "texture_list"))) {
-            args_reject(block, "textures of single triangles are not built yet in lambert");
-            ok = false;
-        } else if ((block = args_block(args, "face_indices")))
-            ok = read_indices(block, a, m->vertex_count, true, &m->face, &m->face_count);
+        else if ((block = args_block(args, "texture_list")))
+            ok = read_texture_list(m, block, a);
+        else if ((block = args_block(args, "face_indices")))
+            ok = read_indices(block, a, m->vertex_count, m,
+                              &m->face, &m->face_count);
         else if ((block = args_block(args, "uv_indices")))
-            ok = read_indices(block, a, m->uv_count, false, &m->face_uv, &uvs);
+            ok = read_indices(block, a, m->uv_count, NULL, &m->face_uv, &uvs);
         else if ((block = args_block(args, "normal_indices")))
-            ok = read_indices(block, a, m->normal_count, false, &m->face_normal, &normals);
+            ok = read_indices(block, a, m->normal_count, NULL, &m->face_normal, &normals);
         else if (args_word(args, "inside_vector"))
             ok = read_inside_vector(m, args);
         else
@@ -262,6 +347,8 @@ static bool build_mesh2(void *shape, struct args *args)
         .intersect = mesh_intersect,                                                     \
         .closest = mesh_closest,                                                         \
         .surface = mesh_surface,                                                         \
+        .texture = mesh_texture,                                                         \
+        .textures_at = mesh_textures_at,                                                         \
         .print = mesh_print,                                                             \
     }
 

@@ -192,9 +192,10 @@ bool args_heights(struct args *a, struct heights *out)
     return true;
 }
 
-bool args_transforms(struct args *a, struct transform *out)
+bool args_part(struct args *a, struct transform *out, const struct texture **texture)
 {
     (void)a;
+    *texture = NULL;
     *out = transform_identity;
     return true;
 }
@@ -203,6 +204,12 @@ const struct texture *args_texture(struct args *a)
 {
     (void)a;
     return NULL;
+}
+
+bool args_at_texture(struct args *a)
+{
+    (void)a;
+    return false;
 }
 
 struct arena *args_arena(struct args *a) { return a->arena; }
