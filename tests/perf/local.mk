@@ -3,7 +3,48 @@ perf_scenes = \
 	%D%/box_minus_2000.scn %D%/csg_1000.scn %D%/drilled_1500.scn %D%/function_calls.scn %D%/function_pigment.scn %D%/glass_balls.scn %D%/mesh_sphere.scn \
 	%D%/nested_csg.scn %D%/one_object.scn %D%/quadric_field.scn %D%/shadows_8.scn \
 	%D%/spheres_100k.scn %D%/tori.scn %D%/union_4000.scn
-EXTRA_DIST += $(perf_scenes) %D%/run.sh
+perf_shapes = \
+	%D%/shapes/bicubic_patch.scn \
+	%D%/shapes/blob.scn \
+	%D%/shapes/blob_cylinders.scn \
+	%D%/shapes/box.scn \
+	%D%/shapes/cone.scn \
+	%D%/shapes/cubic.scn \
+	%D%/shapes/cylinder.scn \
+	%D%/shapes/disc.scn \
+	%D%/shapes/height_field.scn \
+	%D%/shapes/height_field_smooth.scn \
+	%D%/shapes/julia_fractal.scn \
+	%D%/shapes/julia_hypercomplex.scn \
+	%D%/shapes/julia_sin.scn \
+	%D%/shapes/lathe_bezier.scn \
+	%D%/shapes/lathe_cubic.scn \
+	%D%/shapes/lathe_linear.scn \
+	%D%/shapes/lathe_quadratic.scn \
+	%D%/shapes/mesh.scn \
+	%D%/shapes/mesh2.scn \
+	%D%/shapes/ovus.scn \
+	%D%/shapes/poly.scn \
+	%D%/shapes/poly_order_12.scn \
+	%D%/shapes/poly_order_35.scn \
+	%D%/shapes/polygon.scn \
+	%D%/shapes/prism_bezier.scn \
+	%D%/shapes/prism_conic.scn \
+	%D%/shapes/prism_cubic.scn \
+	%D%/shapes/prism_linear.scn \
+	%D%/shapes/quadric.scn \
+	%D%/shapes/quartic.scn \
+	%D%/shapes/smooth_triangle.scn \
+	%D%/shapes/sor.scn \
+	%D%/shapes/sphere.scn \
+	%D%/shapes/sphere_sweep_b.scn \
+	%D%/shapes/sphere_sweep_cubic.scn \
+	%D%/shapes/sphere_sweep_linear.scn \
+	%D%/shapes/superellipsoid.scn \
+	%D%/shapes/text.scn \
+	%D%/shapes/torus.scn \
+	%D%/shapes/triangle.scn
+EXTRA_DIST += $(perf_scenes) $(perf_shapes) %D%/run.sh %D%/shapes.sh
 perf: lambert
 	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/run.sh
 .PHONY: perf
