@@ -6,9 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-static const double inv_ln2 = 0x1.71547652b82fep+0;
-// ln 2 in two parts, the first with 32 bits so that k * ln2_high is exact.
-static const double ln2_high = 0x1.62e42fee00000p-1, ln2_low = 0x1.a39ef35793c76p-33;
+#include "math/single.h"
 
 static double from_bits(uint64_t bits)
 {
@@ -24,21 +22,18 @@ static uint64_t to_bits(double v)
     return bits;
 }
 
-// The Taylor series to r^11 on |r| <= ln2/2: 0.3466^12/12! < 2^-46. Even and odd terms are
-// summed apart, which halves the chain of dependent operations.
 double det_exp_single(double x)
 {
-    static const double most = 700; // the result and its factor 2^k are normal numbers
-    if (!(fabs(x) < most))
+    if (!(fabs(x) < SINGLE_EXP_MOST))
         return det_exp(x);
-    const double k = floor(x * inv_ln2 + 0.5);
-    const double r = (x - k * ln2_high) - k * ln2_low, s = r * r;
-    const double even =
-        1 + s * (1. / 2 +
-                 s * (1. / 24 + s * (1. / 720 + s * (1. / 40320 + s * (1. / 3628800)))));
-    const double odd =
-        1 + s * (1. / 6 + s * (1. / 120 + s * (1. / 5040 +
-                                               s * (1. / 362880 + s * (1. / 39916800)))));
+    const double k = floor(x * SINGLE_INV_LN2 + 0.5);
+    const double r = (x - k * SINGLE_LN2_HIGH) - k * SINGLE_LN2_LOW, s = r * r;
+    double even = single_exp_even[5], odd = single_exp_odd[5];
+#pragma GCC unroll 5
+    for (int i = 4; i >= 0; i--) {
+        even = single_exp_even[i] + s * even;
+        odd = single_exp_odd[i] + s * odd;
+    }
     return (even + r * odd) * from_bits((uint64_t)((int64_t)k + 1023) << 52);
 }
 
@@ -57,6 +52,7 @@ double det_pow_single(double x, double y)
     const double even = 1 + w * (1. / 5 + w * (1. / 9 + w * (1. / 13 + w * (1. / 17))));
     const double odd = 1. / 3 + w * (1. / 7 + w * (1. / 11 + w * (1. / 15)));
     const double log_m = 2 * s * (even + q * odd);
-    const double log_x = (double)k * ln2_high + ((double)k * ln2_low + log_m);
+    const double log_x =
+        (double)k * SINGLE_LN2_HIGH + ((double)k * SINGLE_LN2_LOW + log_m);
     return det_exp_single(y * log_x);
 }

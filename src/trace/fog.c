@@ -144,8 +144,7 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
 void air_apply(struct tracer *t, struct path *path, double s)
 {
     const struct scene *scene = t->job->scene;
-    if (!t->job->atmosphere || !(scene->fog_count || scene->rainbow_count) ||
-        !inside_hollow(path->inside))
+    if (!t->job->has_air || !inside_hollow(path->inside))
         return;
     if (scene->fog_count)
         fogs_apply(t, path, s);

@@ -59,13 +59,25 @@ const struct inside *inside_at(struct arena *a, const struct world *w, struct ve
 
 double interior_ior(const struct interior *i) { return i->ior > 0 ? i->ior : 1; }
 
-static float fade_channel(const struct interior *i, double s, float color)
+bool interior_fades_exponentially(const struct interior *i)
 {
     static const double exponential_from = 1000; // powers at and above mean exp
+    return i->fade_power >= exponential_from;
+}
+
+double interior_fade_exponent(const struct interior *i, double s, float color)
+{
     const double way = s / i->fade_distance;
-    if (i->fade_power >= exponential_from)
-        return (float)det_exp_single(-(1 - (double)color) * way);
-    return (float)(color + (1 - (double)color) / (1 + det_pow_single(way, i->fade_power)));
+    return -(1 - (double)color) * way;
+}
+
+static float fade_channel(const struct interior *i, double s, float color)
+{
+    if (interior_fades_exponentially(i))
+        return (float)det_exp_single(interior_fade_exponent(i, s, color));
+    const double way = s / i->fade_distance;
+    return (float)(color +
+                   (1 - (double)color) / (1 + det_pow_single(way, i->fade_power)));
 }
 
 struct rgb interior_fade(const struct interior *i, double s)

@@ -17,6 +17,9 @@ const struct inside *inside_at(struct arena *a, const struct world *w, struct ve
 
 double interior_ior(const struct interior *i);
 // How light fades over a way of length s through an interior (spec/lighting.md 6.4).
+// Where fading is exponential, each channel is exp of its exponent.
+bool interior_fades_exponentially(const struct interior *i);
+double interior_fade_exponent(const struct interior *i, double s, float color);
 struct rgb interior_fade(const struct interior *i, double s);
 
 #endif

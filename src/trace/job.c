@@ -69,7 +69,8 @@ static void spectrum_init(struct job *job)
 static void sky_init(struct job *job)
 {
     const struct scene *s = job->scene;
-    job->even_sky = !s->sky && !(job->atmosphere && (s->fog_count || s->rainbow_count));
+    job->has_air = job->atmosphere && (s->fog_count || s->rainbow_count);
+    job->even_sky = !s->sky && !job->has_air;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
 }

@@ -557,9 +557,43 @@ static void bounce(const struct simple_class *c, const struct simple_group *g,
     const struct vec8 bent = v8_normalize(v8_mad(
         (struct vec8){r8_mul(eta, d.x), r8_mul(eta, d.y), r8_mul(eta, d.z)}, by, n));
     b->total = m8_bits(r8_lt(k, r8_set(0)));
+    for (int i = 0; i < 3 && b->fading; i++)
+        f8_store(b->fade[i], f8_of(r8_exp_single(r8_load(b->exponent[i]))));
     v8_store(b->bent_d, bent);
     v8_store(b->bent_o, offset8(g, bent));
 }
 
-const struct shade_kernels PASTE(shade_kernels_, ISA) = {TEXT(ISA), camera, place,
-                                                         own,       light,  bounce};
+// ---- boxes --------------------------------------------------------------------------------
+
+LANES_INLINE void slab8_meet(double min, double max, struct real8 o, struct real8 inv,
+                             struct real8 *t0, struct real8 *t1)
+{
+    const struct mask8 back = r8_lt(inv, r8_set(0));
+    const struct real8 a = r8_mul(r8_sub(r8_set(min), o), inv);
+    const struct real8 b = r8_mul(r8_sub(r8_set(max), o), inv);
+    *t0 = r8_max(r8_select(back, b, a), *t0); // NaN: the origin in a face
+    *t1 = r8_min(r8_mul(r8_select(back, a, b), r8_set(1 + 2 * GAMMA(3))), *t1);
+}
+
+static unsigned meets(const struct aabb *box, uint32_t count,
+                      const struct ray_batch *rays, uint32_t first)
+{
+    const struct real8 one = r8_set(1);
+    const struct real8 ox = r8_load(rays->o[0] + first), oy = r8_load(rays->o[1] + first),
+                       oz = r8_load(rays->o[2] + first);
+    const struct real8 ix = r8_div(one, r8_load(rays->d[0] + first)),
+                       iy = r8_div(one, r8_load(rays->d[1] + first)),
+                       iz = r8_div(one, r8_load(rays->d[2] + first));
+    unsigned met = 0;
+    for (uint32_t i = 0; i < count && met != 255; i++) {
+        struct real8 t0 = r8_load(rays->t_min + first), t1 = r8_load(rays->t_max + first);
+        slab8_meet(box[i].min.x, box[i].max.x, ox, ix, &t0, &t1);
+        slab8_meet(box[i].min.y, box[i].max.y, oy, iy, &t0, &t1);
+        slab8_meet(box[i].min.z, box[i].max.z, oz, iz, &t0, &t1);
+        met |= m8_bits(r8_le(t0, t1));
+    }
+    return met;
+}
+
+const struct shade_kernels PASTE(shade_kernels_, ISA) = {TEXT(ISA), camera, place, own,
+                                                         light,     bounce, meets};

@@ -23,6 +23,9 @@ struct shade_kernels {
     // Fills what leaves the group by mirrors and, where the class is clear, through it.
     void (*bounce)(const struct simple_class *c, const struct simple_group *g,
                    struct simple_bounce *b);
+    // Which of eight rays of a batch meet one of the boxes, as box_meets.
+    unsigned (*meets)(const struct aabb *box, uint32_t count,
+                      const struct ray_batch *rays, uint32_t first);
 };
 
 extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,

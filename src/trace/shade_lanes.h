@@ -3,7 +3,12 @@
 
 // What shading needs beyond trace/lanes.h: colours are floats, computed in lanes too.
 
+#include <stdint.h>
+#include <string.h>
+
 #include "math/color.h"
+#include "math/elementary.h"
+#include "math/single.h"
 #include "math/transform.h"
 #include "trace/lanes.h"
 
@@ -47,6 +52,35 @@ LANES_INLINE struct real8 r8_floor(struct real8 x)
         v[i] = floor(v[i]);
     return r8_load(v);
 #endif
+}
+
+// det_exp_single in lanes.
+LANES_INLINE struct real8 r8_exp_single(struct real8 x)
+{
+    double k[8], power[8], all[8];
+    const struct real8 kd =
+        r8_floor(r8_add(r8_mul(x, r8_set(SINGLE_INV_LN2)), r8_set(0.5)));
+    if (m8_bits(r8_lt(r8_abs(x), r8_set(SINGLE_EXP_MOST))) != 255) {
+        r8_store(all, x);
+        for (int i = 0; i < 8; i++)
+            all[i] = det_exp_single(all[i]);
+        return r8_load(all);
+    }
+    const struct real8 r = r8_sub(r8_sub(x, r8_mul(kd, r8_set(SINGLE_LN2_HIGH))),
+                                  r8_mul(kd, r8_set(SINGLE_LN2_LOW)));
+    const struct real8 s = r8_mul(r, r);
+    struct real8 even = r8_set(single_exp_even[5]), odd = r8_set(single_exp_odd[5]);
+#pragma GCC unroll 5
+    for (int i = 4; i >= 0; i--) {
+        even = r8_add(r8_set(single_exp_even[i]), r8_mul(s, even));
+        odd = r8_add(r8_set(single_exp_odd[i]), r8_mul(s, odd));
+    }
+    r8_store(k, kd);
+    for (int i = 0; i < 8; i++) {
+        const uint64_t bits = (uint64_t)((int64_t)k[i] + 1023) << 52;
+        memcpy(&power[i], &bits, sizeof bits);
+    }
+    return r8_mul(r8_add(even, r8_mul(r, odd)), r8_load(power));
 }
 
 struct rgb8 {

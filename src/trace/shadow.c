@@ -3,7 +3,7 @@
 #include "math/elementary.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
-#include "trace/scratch.h"
+#include "trace/shade_kernel.h"
 #include "trace/sky.h"
 
 static const double zero = 1e-10; // spec/lighting.md 0
@@ -114,16 +114,6 @@ static struct ray batch_ray(const struct ray_batch *b, uint32_t k)
                         b->t_max[k]};
 }
 
-static bool meets_clear(const struct job *job, const struct ray *ray)
-{
-    const struct box_ray r = box_ray_of(ray);
-    double t;
-    for (uint32_t i = 0; i < job->clear_count; i++)
-        if (box_meets(&job->clear[i], &r, &t))
-            return true;
-    return false;
-}
-
 static void walk_put(struct ray_batch *to, uint32_t i, const struct ray_batch *from,
                      const struct shadow_walk *s)
 {
@@ -139,13 +129,21 @@ static void walk_put(struct ray_batch *to, uint32_t i, const struct ray_batch *f
 // go from one to the next together.
 static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
 {
+    const struct job *job = t->job;
     struct shadow_walk *s = t->walk;
     uint32_t n = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        b->pass[k] = all;
-        const struct ray ray = batch_ray(b->rays, k);
-        if (!b->occluded[k] && meets_clear(t->job, &ray))
+    for (uint32_t first = 0; first < count; first += 8) {
+        unsigned lit = 0;
+        for (uint32_t i = 0; i < 8 && first + i < count; i++) {
+            b->pass[first + i] = all;
+            lit |= (unsigned)!b->occluded[first + i] << i;
+        }
+        if (lit)
+            lit &= job->kernels->meets(job->clear, job->clear_count, b->rays, first);
+        for (; lit; lit &= lit - 1) {
+            const uint32_t k = first + (uint32_t)__builtin_ctz(lit);
             s[n++] = (struct shadow_walk){wave_inside(t, b->slot[k]), all, 0, k};
+        }
     }
     while (n) {
         for (uint32_t i = 0; i < n; i++)

@@ -150,7 +150,6 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
 void simple_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
-    const struct scene *scene = w->scene;
     // For tests: everything by the general rule.
     const char *wish = getenv("LAMBERT_SHADING");
     const bool general = wish && strcmp(wish, "general") == 0;
@@ -158,8 +157,8 @@ void simple_compile(struct job *job, struct arena *a)
     job->kernels = kernels_named(w->accel->kernels->name);
     job->quick_camera =
         !general && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
-    const bool air = job->atmosphere && (scene->fog_count || scene->rainbow_count);
-    if (general || air || !job->lights || !job->pigments || !(1 > job->adc_bailout))
+    if (general || job->has_air || !job->lights || !job->pigments ||
+        !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
         arena_new_array(a, struct simple_surface, w->surface_count + 1);

@@ -54,7 +54,10 @@ struct simple_bounce {
     double mirror_d[3][8], mirror_o[3][8];
     float mirror[3][8], weight[8]; // finish_reflectivity
     double bent_d[3][8], bent_o[3][8];
-    unsigned total; // lanes of total reflection
+    unsigned total;  // lanes of total reflection
+    unsigned fading; // asked for: lanes whose fade is exp(exponent)
+    double exponent[3][8];
+    float fade[3][8];
 };
 
 void simple_compile(struct job *job, struct arena *a);

@@ -76,6 +76,29 @@ static bool emit_passing(struct lane *l, const struct crossing_sides *sides,
     return true;
 }
 
+static struct rgb lane_fade(const struct lane *l, const struct surface *s, double way)
+{
+    const struct simple_bounce *b = l->b;
+    const int i = l->i;
+    if (!(b->fading >> i & 1))
+        return way_fade(s->interior, l->from.inside, way);
+    return rgb_mul(rgb_gray(s->interior->old_refraction),
+                   rgb(b->fade[0][i], b->fade[1][i], b->fade[2][i]));
+}
+
+// Asks for the fading of the way through the interior, where exp tells it.
+static void ask_fade(struct simple_bounce *b, int i, const struct interior *x,
+                     const struct inside *inside, double way)
+{
+    if (!(fabs(x->fade_distance) > zero) || !interior_fades_exponentially(x) ||
+        !inside_find(inside, x))
+        return;
+    b->fading |= 1u << i;
+    b->exponent[0][i] = interior_fade_exponent(x, way, x->fade_color.r);
+    b->exponent[1][i] = interior_fade_exponent(x, way, x->fade_color.g);
+    b->exponent[2][i] = interior_fade_exponent(x, way, x->fade_color.b);
+}
+
 static bool pass(struct lane *l, const struct surface *s, struct rgb pass, double way,
                  const struct crossing_sides *sides)
 {
@@ -88,7 +111,7 @@ static bool pass(struct lane *l, const struct surface *s, struct rgb pass, doubl
     const float trans = fminf(1, fabsf(rgb_grey(pass)));
     if (!(trans > job->adc_bailout) || !job->refraction)
         return true;
-    const struct rgb fade = way_fade(s->interior, l->from.inside, way);
+    const struct rgb fade = lane_fade(l, s, way);
     return emit_passing(l, sides, fade, pass, trans);
 }
 
@@ -112,8 +135,10 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
     struct crossing_sides sides[8];
     const struct surface *surface[8];
     unsigned live = 0;
+    b.fading = 0;
     for (int i = 0; i < 8; i++) {
         b.eta[i] = b.index[i] = 1;
+        b.exponent[0][i] = b.exponent[1][i] = b.exponent[2][i] = 0;
         if (!(g->live >> i & 1))
             continue;
         surface[i] = &w->surface[w->leaf[t->hit[g->ray[i]].b.leaf].surface];
@@ -123,6 +148,7 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
         if (c->clear) {
             sides[i] = interior_cross(t, inside, surface[i]->interior);
             b.eta[i] = crossing_eta(&sides[i]);
+            ask_fade(&b, i, surface[i]->interior, inside, t->hit[g->ray[i]].b.t);
         }
         live |= 1u << i;
     }

@@ -5,6 +5,7 @@
 
 #include "math/elementary.h"
 #include "trace/simple.h"
+#include "trace/sky.h"
 
 // A generation with more rays than this is traced in pieces, so that memory stays
 // bounded however strongly rays branch. Pieces are whole samples, or, of one sample
@@ -200,18 +201,22 @@ static void missed(struct tracer *t, uint32_t k)
     const struct job *job = t->job;
     struct wavefront *w = &t->wave;
     t->slot = w->slot[k];
-    if (!job->even_sky) {
+    if (job->has_air) {
         const struct path p = wave_path(t, t->slot);
         shade_miss(t, &p);
         return;
     }
     const bool opaque = t->rays->hidden_by[k] == OBJECT_NO_REFLECTION;
-    const struct rgb c = job->sky[opaque];
+    struct rgb c = job->sky[opaque];
+    float clear = job->sky_clear[opaque];
+    if (!job->even_sky)
+        c = sky_color(job, vec3(t->rays->d[0][k], t->rays->d[1][k], t->rays->d[2][k]),
+                      opaque, &clear);
     const float through_t = w->path ? w->path[w->order[t->slot]].through_t : 1;
     tracer_add(t, rgb_mul(rgb(w->through[0][t->slot], w->through[1][t->slot],
                               w->through[2][t->slot]),
                           c));
-    w->t[t->slot] += through_t * job->sky_clear[opaque];
+    w->t[t->slot] += through_t * clear;
 }
 
 static void sums_add(struct tracer *t)
