@@ -24,6 +24,7 @@ include %D%/golden/local.mk
 include %D%/compare/local.mk
 include %D%/stability/local.mk
 include %D%/shading/local.mk
+include %D%/tables/local.mk
 include %D%/fuzz/local.mk
 include %D%/harness/local.mk
 include %D%/perf/local.mk

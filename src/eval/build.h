@@ -31,6 +31,8 @@ struct material {
     const struct interior *interior;
 };
 
+struct image_file; // build_image.c
+
 struct builder {
     struct eval *e;
     struct arena *arena;
@@ -42,6 +44,7 @@ struct builder {
     struct pattern_defaults *pattern_defaults; // filled when parsing ends
     struct pointer_list objects, fogs, rainbows, medias;
     bool gamma_set, noise_set;
+    struct image_file *images; // read so far
     uint8_t warned[WORD_COUNT]; // read but not rendered: told once
 };
 
@@ -194,9 +197,16 @@ struct body {
 bool build_pattern(struct args *a, struct body *body);
 // If the next item is a modifier of `pmods`, reads it.
 bool build_pattern_modifier(struct args *a, struct body *body);
+// When a body is read: reports what its parameters together get wrong.
+void pattern_finish(struct args *a, struct pattern *p);
 bool build_warp(struct args *a, struct pattern *p); // next item is warp {}
 // Fills a pattern from `function { expression }`.
 bool build_function_pattern(struct eval *e, const struct ast *block, struct pattern *p);
+// image_map, bump_map and image_pattern: the block at hand into the body's pattern.
+void build_image_pattern(struct args *a, struct body *body, enum word use);
+// An image with its modifiers: the items of `in` up to a texture. NULL after an error.
+const struct image_map *build_image_map(struct args *in, enum word use, float *bump_size);
+void build_material_map(struct args *a, struct texture *x);
 // The arguments of density_file.
 void build_density_file(struct args *a, struct pattern *p);
 bool word_is_pattern(const struct builder *b, enum word w);

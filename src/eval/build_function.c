@@ -39,6 +39,7 @@ const struct pattern *builder_function_pattern(struct builder *b,
     while (in.at)
         if (!build_pattern_modifier(&in, &body))
             args_unknown(&in, words, known);
+    pattern_finish(&in, p);
     return in.failed ? NULL : p;
 }
 

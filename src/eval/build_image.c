@@ -1,30 +1,502 @@
 #include "eval/build.h"
 
+#include <string.h>
+
 #include "eval/expr.h"
-#include "scene/density_grid.h"
+#include "eval/function.h"
+#include "image/texels.h"
+#include "scene/image_map.h"
 
-// Files that patterns read.
+// Images in the scene: where they come from (spec/language 4.9, spec/textures 9.1, 9.5).
 
-void build_density_file(struct args *a, struct pattern *p)
+struct image_file {
+    const char *path;
+    const struct texels *texels;
+    bool joined; // as `pot`
+    struct image_file *next;
+};
+
+// What stands before the modifiers of an image.
+struct source {
+    const struct texels *texels;
+    bool has_gamma, premultiplied;
+    struct transfer gamma; // as written
+};
+
+static enum image_type type_of_word(enum word w, bool *pot)
+{
+    static const struct {
+        enum word word;
+        enum image_type type;
+    } types[] = {{WORD_gif, IMAGE_GIF}, {WORD_tga, IMAGE_TGA},   {WORD_iff, IMAGE_IFF},
+                 {WORD_pot, IMAGE_GIF}, {WORD_ppm, IMAGE_PPM},   {WORD_pgm, IMAGE_PPM},
+                 {WORD_png, IMAGE_PNG}, {WORD_jpeg, IMAGE_JPEG}, {WORD_tiff, IMAGE_TIFF},
+                 {WORD_bmp, IMAGE_BMP}, {WORD_exr, IMAGE_EXR},   {WORD_hdr, IMAGE_HDR},
+                 {WORD_sys, IMAGE_BMP}};
+    *pot = w == WORD_pot;
+    for (size_t i = 0; w && i < ARRAY_COUNT(types); i++)
+        if (types[i].word == w)
+            return types[i].type;
+    return IMAGE_UNKNOWN;
+}
+
+// The texels move into the scene's arena, which counts them as the scene's memory.
+static const struct texels *keep(struct args *a, struct span where, struct texels *t)
 {
     struct arena *arena = a->b->arena;
-    const char *name, *path, *data = NULL;
-    size_t size = 0;
-    if (!args_take(a, WORD_df3)) {
-        args_error(a, args_span(a), "df3 is expected");
+    const size_t palette = 4 * (size_t)t->palette_count, size = texels_size(t) - palette;
+    struct texels *kept = NULL;
+    if (eval_has_memory(a->b->e, where, size)) {
+        kept = arena_new_struct(arena, struct texels);
+        *kept = *t;
+        kept->data = memcpy(arena_alloc(arena, size), t->data, size);
+        if (palette)
+            kept->palette = memcpy(arena_alloc(arena, palette), t->palette, palette);
+    } else {
+        args_fail(a);
+    }
+    texels_free(t);
+    return kept;
+}
+
+// A file is read once a scene.
+static const struct texels *read_file(struct args *a, struct span where, const char *path,
+                                      enum image_type type, bool pot)
+{
+    struct arena *arena = a->b->arena;
+    for (const struct image_file *f = a->b->images; f; f = f->next)
+        if (strcmp(f->path, path) == 0 && f->joined == pot)
+            return f->texels;
+    char error[256];
+    struct texels t;
+    if (!texels_read(&t, path, type, error, sizeof error)) {
+        args_error(a, where,
+                   arena_printf(arena, "the image '%s' cannot be read: %s", path, error));
+        return NULL;
+    }
+    if (pot && !texels_join_halves(&t)) {
+        args_error(a, where,
+                   arena_printf(arena, "'%s' is no image of the type pot", path));
+        texels_free(&t);
+        return NULL;
+    }
+    struct image_file *f = arena_new_struct(arena, struct image_file);
+    *f = (struct image_file){path, keep(a, where, &t), pot, a->b->images};
+    if (f->texels)
+        a->b->images = f;
+    return f->texels;
+}
+
+static bool named_file(struct args *a, struct source *s)
+{
+    bool pot;
+    const enum word w = args_at_word(a);
+    const enum image_type type = type_of_word(w, &pot);
+    const char *name, *path;
+    if (type != IMAGE_UNKNOWN)
+        args_next(a);
+    const struct span where = args_span(a);
+    const char *extension = type == IMAGE_UNKNOWN ? "png" : pot ? "gif" : word_text(w);
+    if (!args_string(a, "image file", &name) ||
+        !args_find_file(a, "image file", name, extension, &path))
+        return false;
+    s->texels = read_file(a, where, path, type, pot);
+    return s->texels;
+}
+
+// ---- function W, H { } -------------------------------------------------------
+static bool image_size(struct args *a, const struct ast *n, int *out)
+{
+    double v;
+    if (!eval_float(a->b->e, n, &v)) {
+        args_fail(a);
+        return false;
+    }
+    v = v + 0.5;
+    if (!(v >= 1 && v < 65536)) {
+        args_error(a, n->where, "the sizes of an image are 1 to 65535");
+        return false;
+    }
+    *out = (int)v;
+    return true;
+}
+
+// As 16 bits hold it: values outside 0..1 wrap.
+static uint16_t stored(double v)
+{
+    v *= 65535;
+    return v > -1e9 && v < 1e9 ? (uint16_t)(int32_t)v : 0;
+}
+
+static void fill(const struct tape *f, const struct texels *t, uint16_t *out)
+{
+    for (int y = 0; y < t->height; y++) {
+        for (int x = 0; x < t->width; x++) {
+            // One texel alone is taken at 0.
+            double at[3] = {t->width > 1 ? (double)x / (t->width - 1) : 0,
+                            t->height > 1 ? (double)y / (t->height - 1) : 0, 0};
+            double c[5] = {0};
+            tape_run(f, at, c);
+            for (int k = 0; k < t->channels; k++)
+                *out++ = stored(k == 3 ? 1 - c[4] : c[k]);
+        }
+    }
+}
+
+static bool function_image(struct args *a, struct source *s)
+{
+    struct arena *arena = a->b->arena;
+    const struct ast *block = args_next(a), *sizes = block->list;
+    const struct span where = block->where;
+    struct texels *t = arena_new_struct(arena, struct texels);
+    if (!sizes || !sizes->next || !sizes->next->next) {
+        args_error(a, where, "an image by a function needs sizes: function W, H { }");
+        return false;
+    }
+    if (!image_size(a, sizes, &t->width) || !image_size(a, sizes->next, &t->height))
+        return false;
+    struct ast body = *block;
+    body.list = ast_copy(a->b->e->parse, sizes->next->next);
+    const struct value *v = function_value(a->b->e, &body);
+    if (!v) {
+        args_fail(a);
+        return false;
+    }
+    const struct tape *f = v->data;
+    const int width = tape_width(f);
+    if (tape_arguments(f) != 3 || (width != 1 && width != 5)) {
+        args_error(a, where,
+                   "a function of x, y, z with a number or a colour is expected");
+        return false;
+    }
+    t->type = IMAGE_UNKNOWN;
+    t->channels = width == 1 ? 1 : 4;
+    t->format = TEXEL_U16;
+    t->max = 65535;
+    if (!eval_has_memory(a->b->e, where, texels_size(t))) {
+        args_fail(a);
+        return false;
+    }
+    t->data = arena_alloc(arena, texels_size(t));
+    fill(f, t, t->data);
+    s->texels = t;
+    return true;
+}
+
+// ---- gamma -------------------------------------------------------------------
+// Gammas this near to 1 are none (spec/lighting 3.1).
+#define GAMMA_NONE_BAND 0.01
+
+static struct transfer power(double g)
+{
+    if (fabs(1 - 1 / g) <= GAMMA_NONE_BAND)
+        return (struct transfer){TRANSFER_NONE, 1};
+    return (struct transfer){TRANSFER_POWER, g};
+}
+
+static void read_gamma(struct args *a, struct source *s)
+{
+    const struct span where = args_span(a);
+    double g;
+    s->has_gamma = true;
+    s->gamma = (struct transfer){TRANSFER_SRGB, 0};
+    if (args_take(a, WORD_srgb) || !args_float(a, "gamma", &g))
+        return;
+    if (g <= 0) {
+        args_error(a, where, "gamma must be above 0");
         return;
     }
-    const struct span where = args_span(a);
-    if (!args_string(a, "file name", &name) ||
-        !args_find_file(a, "density file", name, "df3", &path))
+    if (g < 1)
+        args_warning(a, where, "a gamma below 1 is unusual: it decodes the file");
+    s->gamma = power(g);
+}
+
+static void working_space(const struct settings *s, struct image_map *m)
+{
+    if (s->gamma_mode == GAMMA_SRGB)
+        m->working = (struct transfer){TRANSFER_SRGB, 0};
+    else if (s->gamma_mode == GAMMA_POWER && s->assumed_gamma > 0)
+        m->working = power(s->assumed_gamma);
+}
+
+static void default_decoding(const struct texels *t, struct image_map *m)
+{
+    static const struct transfer srgb = {TRANSFER_SRGB, 0};
+    switch (t->type) {
+    case IMAGE_PNG:
+        m->decode = !t->has_encoding                     ? srgb
+                    : t->encoding.kind == TRANSFER_POWER ? power(t->encoding.gamma)
+                                                         : t->encoding;
+        break;
+    case IMAGE_GIF:
+    case IMAGE_JPEG:
+    case IMAGE_TGA:
+    case IMAGE_BMP: m->decode = srgb; break;
+    default: break; // the numbers are light
+    }
+}
+
+// Colours become light, then what the scene computes with (spec/textures 9.5).
+static void color_decoding(struct args *a, const struct source *s, struct image_map *m)
+{
+    const struct settings *set = &a->b->e->scene->settings;
+    const struct texels *t = s->texels;
+    const bool is_new = a->b->e->version_seen && a->b->e->version >= 370;
+    const bool light = t->type == IMAGE_EXR || t->type == IMAGE_HDR;
+    if (t->type == IMAGE_UNKNOWN) // made by a function
         return;
-    struct density_grid *g = arena_new_struct(arena, struct density_grid);
-    if (!file_read(arena, path, &data, &size))
-        args_error(a, where, arena_printf(arena, "'%s' cannot be read", path));
-    else if (!density_grid_init(g, (const uint8_t *)data, size))
-        args_error(a, where,
-                   arena_printf(arena, "'%s' is damaged: its length does not fit its sizes",
-                                path));
+    if (!is_new && !a->b->gamma_set) { // no gamma handling but what is asked for
+        if (s->has_gamma)
+            m->decode = s->gamma;
+        return;
+    }
+    if (s->has_gamma)
+        m->decode = s->gamma;
+    else if (is_new || t->has_encoding || light)
+        default_decoding(t, m);
     else
-        p->density = g;
+        return; // taken for the working space's own numbers
+    working_space(set, m);
+    if (transfer_equal(m->decode, m->working))
+        m->decode = m->working = (struct transfer){TRANSFER_NONE, 1};
+}
+
+static bool read_source(struct args *a, struct source *s)
+{
+    struct vec3 old;
+    *s = (struct source){0};
+    if (args_at_number(a)) {
+        args_warning(a, args_span(a), "the orientation of an image is not used");
+        args_vec3(a, "orientation", &old);
+    }
+    if (args_at_block(a) == WORD_function)
+        return function_image(a, s);
+    if (!named_file(a, s))
+        return false;
+    s->premultiplied = s->texels->premultiplied;
+    while (a->at) {
+        double v;
+        if (args_take(a, WORD_gamma))
+            read_gamma(a, s);
+        else if (args_take(a, WORD_premultiplied))
+            s->premultiplied = args_float(a, "premultiplied", &v) && v != 0;
+        else
+            break;
+    }
+    return true;
+}
+
+const struct texels *args_image(struct args *a, struct transfer *decode)
+{
+    struct source s;
+    if (!read_source(a, &s))
+        return NULL;
+    *decode = s.has_gamma ? s.gamma : (struct transfer){TRANSFER_NONE, 1};
+    return s.texels;
+}
+
+// ---- modifiers ---------------------------------------------------------------
+static const enum word modifier_words[] = {
+    WORD_once,      WORD_map_type,  WORD_interpolate, WORD_use_color,
+    WORD_use_index, WORD_use_alpha, WORD_filter,      WORD_transmit,
+    WORD_repeat,    WORD_offset,    WORD_bump_size,   WORD_gamma};
+
+static void read_choice(struct args *a, const char *role, const int *allowed, size_t n,
+                        int *out)
+{
+    const struct span where = args_span(a);
+    long v;
+    if (!args_int(a, role, &v))
+        return;
+    for (size_t i = 0; i < n; i++)
+        if (v == allowed[i]) {
+            *out = (int)v;
+            return;
+        }
+    args_error(a, where, arena_printf(a->b->arena, "%s cannot be %ld here", role, v));
+}
+
+static void map_type(struct args *a, enum word use, struct image_map *m)
+{
+    static const int allowed[] = {0, 1, 2, 5};
+    long v;
+    if (use == WORD_image_map)
+        read_choice(a, "map_type", allowed, ARRAY_COUNT(allowed), &m->projection);
+    else if (args_int(a, "map_type", &v))
+        m->projection = v == 1 || v == 2 || v == 5 ? (int)v : 0;
+}
+
+static void interpolate(struct args *a, enum word use, struct image_map *m)
+{
+    static const int strict[] = {2, 3, 4}, all[] = {0, 2, 3, 4};
+    if (use == WORD_image_map)
+        read_choice(a, "interpolate", strict, ARRAY_COUNT(strict), &m->interpolation);
+    else
+        read_choice(a, "interpolate", all, ARRAY_COUNT(all), &m->interpolation);
+}
+
+// filter and transmit, of all texels or of one entry of the palette.
+static void let_through(struct args *a, enum word w, struct image_map *m,
+                        struct rgbft *palette)
+{
+    const int count = m->texels->palette_count;
+    const struct span where = args_span(a);
+    const bool all = args_take(a, WORD_all);
+    long n = 0;
+    double v;
+    if (!all && !args_int(a, "palette entry", &n))
+        return;
+    if (!args_float(a, word_text(w), &v))
+        return;
+    if (!all && (!palette || n < 0 || n >= count)) {
+        args_error(a, where,
+                   !palette
+                       ? "the image has no palette"
+                       : arena_printf(a->b->arena, "the palette has %d entries", count));
+        return;
+    }
+    if (all && !palette)
+        *(w == WORD_filter ? &m->filter_all : &m->transmit_all) = (float)v;
+    for (int i = all ? 0 : (int)n; palette && i < (all ? count : (int)n + 1); i++)
+        *(w == WORD_filter ? &palette[i].filter : &palette[i].transmit) = (float)v;
+}
+
+static void read_repeat(struct args *a, struct image_map *m)
+{
+    const struct span where = args_span(a);
+    struct vec2 v;
+    if (!args_vec2(a, "repeat", &v))
+        return;
+    if (v.u > 0 && v.v > 0)
+        m->repeat = v;
+    else
+        args_error(a, where, "repeat must be above 0");
+}
+
+static bool modifier(struct args *a, enum word use, struct image_map *m,
+                     struct rgbft *palette)
+{
+    const enum word w = args_at_word(a);
+    switch (w) {
+    case WORD_once: args_next(a); return m->once = true;
+    case WORD_map_type:
+        args_next(a);
+        map_type(a, use, m);
+        return true;
+    case WORD_interpolate:
+        args_next(a);
+        interpolate(a, use, m);
+        return true;
+    case WORD_use_color:
+    case WORD_use_colour:
+        args_next(a);
+        m->use_index = m->use_alpha = false;
+        return true;
+    case WORD_use_index: args_next(a); return m->use_index = true;
+    case WORD_repeat:
+        args_next(a);
+        read_repeat(a, m);
+        return true;
+    case WORD_offset:
+        args_next(a);
+        args_vec2(a, "offset", &m->offset);
+        return true;
+    case WORD_use_alpha:
+        if (use != WORD_image_pattern)
+            return false;
+        args_next(a);
+        return m->use_alpha = true;
+    case WORD_filter:
+    case WORD_transmit:
+        if (use != WORD_image_map)
+            return false;
+        args_next(a);
+        let_through(a, w, m, palette);
+        return true;
+    default: return false;
+    }
+}
+
+static bool palette_opaque(const struct image_map *m)
+{
+    for (int i = 0; m->palette && i < m->texels->palette_count; i++)
+        if (m->palette[i].filter != 0 || m->palette[i].transmit != 0)
+            return false;
+    return m->filter_all == 0 && m->transmit_all == 0;
+}
+
+const struct image_map *build_image_map(struct args *in, enum word use, float *bump_size)
+{
+    struct source s;
+    if (!read_source(in, &s)) {
+        in->at = NULL; // the rest speaks of the image
+        return NULL;
+    }
+    struct image_map *m = arena_new_struct(in->b->arena, struct image_map);
+    *m = (struct image_map){
+        .texels = s.texels, .repeat = {1, 1}, .premultiplied = s.premultiplied};
+    if (use == WORD_image_map)
+        color_decoding(in, &s, m);
+    else if (s.has_gamma && use != WORD_material_map)
+        m->decode = s.gamma;
+    image_map_prepare(in->b->arena, m);
+    // Entries of the palette may be changed: it was made for this map alone.
+    struct rgbft *palette = (struct rgbft *)(uintptr_t)m->palette;
+    double v;
+    while (in->at && args_at_block(in) != WORD_texture) {
+        if (use == WORD_bump_map && args_take(in, WORD_bump_size)) {
+            if (args_float(in, "bump_size", &v))
+                *bump_size = (float)v;
+        } else if (!modifier(in, use, m, palette)) {
+            args_unknown(in, modifier_words, ARRAY_COUNT(modifier_words));
+        }
+    }
+    m->opaque = m->opaque && !m->once && palette_opaque(m);
+    return in->failed ? NULL : m;
+}
+
+// ---- places ------------------------------------------------------------------
+void build_image_pattern(struct args *a, struct body *body, enum word use)
+{
+    struct args in = args_of(a->b, args_next(a), a);
+    float bump_size = body->normal ? body->normal->amount : 0;
+    const struct image_map *m = build_image_map(&in, use, &bump_size);
+    body->bitmap = use != WORD_image_pattern;
+    body->pattern->image = m;
+    if (use == WORD_image_map && body->pigment) {
+        body->pigment->kind = PIGMENT_IMAGE;
+        body->pigment->image = m;
+    } else if (use == WORD_bump_map && body->normal) {
+        body->normal->kind = NORMAL_BUMP_MAP;
+        body->normal->image = m;
+        body->normal->amount = body->normal->bump_size = bump_size;
+    }
+}
+
+// material_map { image, textures }: the image's indices choose among them.
+void build_material_map(struct args *a, struct texture *x)
+{
+    struct args in = args_of(a->b, args_next(a), a);
+    struct arena *arena = a->b->arena;
+    float unused;
+    *x = (struct texture){.kind = TEXTURE_MATERIAL};
+    x->image = build_image_map(&in, WORD_material_map, &unused);
+    struct pointer_list list = {0};
+    while (args_at_block(&in) == WORD_texture) {
+        const struct texture *entry = build_texture(&in, args_next(&in));
+        if (entry)
+            pointer_list_add(arena, &list, entry);
+    }
+    if (in.at)
+        args_unknown(&in, NULL, 0);
+    if (!list.count && !in.failed)
+        args_error(&in, args_span(&in), "textures are expected in a material_map");
+    struct texture_map *m = arena_new_struct(arena, struct texture_map);
+    const struct texture **entry =
+        arena_new_array(arena, const struct texture *, list.count + 1);
+    for (uint32_t i = 0; i < list.count; i++)
+        entry[i] = list.at[i];
+    *m = (struct texture_map){list.count, arena_new_array(arena, float, list.count + 1),
+                              entry};
+    x->map = m;
 }

@@ -47,6 +47,7 @@ const struct normal *build_normal_body(struct args *a, const struct normal *star
                  !build_pattern_modifier(a, &body))
             args_unknown(a, words, known);
     }
+    pattern_finish(a, &n.pattern);
     if (!a->failed && n.kind == NORMAL_AVERAGE && !n.map)
         args_error(a, args_span(a), "average needs a map");
     if (a->failed)

@@ -271,7 +271,8 @@ bool build_pattern(struct args *a, struct body *body)
     enum word block = args_at_block(a), w = block ? block : args_at_word(a);
     if (!word_is_pattern(a->b, w))
         return false;
-    const struct pattern_ops *ops = a->b->pattern[w];
+    const bool bitmap = w == WORD_image_map || w == WORD_bump_map || w == WORD_image_pattern;
+    const struct pattern_ops *ops = a->b->pattern[bitmap ? WORD_image_pattern : w];
     if (w == WORD_average) {
         args_next(a);
         body->average = true;
@@ -291,6 +292,8 @@ bool build_pattern(struct args *a, struct body *body)
     set_kind(a, body, ops);
     if (w == WORD_object) {
         object_pattern(a, body, ops->list);
+    } else if (bitmap && block) {
+        build_image_pattern(a, body, w);
     } else if (w == WORD_pigment_pattern) {
         pigment_pattern(a, body->pattern);
     } else if (w == WORD_function) {
@@ -414,6 +417,7 @@ static bool map_allowed(struct args *a, struct body *body, enum body_kind kind,
 {
     const char *why = body->kind != kind ? "this map has no place here"
                       : body->list       ? "a map cannot follow a list of entries"
+                      : body->bitmap && kind != BODY_NORMAL ? "an image takes no map"
                       : body->plain      ? "a plain colour takes no map"
                       : body->average && !with_average
                           ? "this map cannot be used with average"
@@ -514,4 +518,11 @@ bool build_pattern_modifier(struct args *a, struct body *body)
         return build_warp(a, p);
     return fields_read(a, common_fields, ARRAY_COUNT(common_fields), p) ||
            own_parameter(a, p) || map(a, body);
+}
+
+void pattern_finish(struct args *a, struct pattern *p)
+{
+    const char *wrong = p->ops && p->ops->finish ? p->ops->finish(p) : NULL;
+    if (wrong)
+        args_error(a, a->owner ? a->owner->where : args_span(a), wrong);
 }

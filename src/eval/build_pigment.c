@@ -48,6 +48,7 @@ const struct pigment *build_pigment_body(struct args *a, const struct pigment *s
         build_pattern(a, &body);
     }
     modifiers(a, &body);
+    pattern_finish(a, &p.pattern);
     if (p.kind == PIGMENT_AVERAGE && !p.map)
         args_error(a, args_span(a), "average needs a map");
     if (p.kind == PIGMENT_COLORS && !p.colors)

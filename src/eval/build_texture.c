@@ -165,6 +165,7 @@ static void patterned(struct args *a, struct texture *x)
     while (a->at)
         if (!build_pattern_modifier(a, &body))
             args_unknown(a, words, known);
+    pattern_finish(a, &x->pattern);
     if (!a->failed && !x->map)
         args_error(a, args_span(a), "a patterned texture needs a texture_map");
 }
@@ -184,7 +185,8 @@ const struct texture *build_texture_body(struct args *a)
         tiles(a, &x);
         move_only(a, &x);
     } else if (!id && w == WORD_material_map) {
-        args_not_built(a);
+        build_material_map(a, &x);
+        move_only(a, &x);
     } else if (!id && w == WORD_uv_mapping) {
         x = (struct texture){.kind = TEXTURE_UV};
         uv_mapping(a, &x);

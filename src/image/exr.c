@@ -116,9 +116,25 @@ static exr_result_t write_header(exr_context_t f, int *part, const struct image 
     return r ? r : exr_write_header(f);
 }
 
+struct compressor {
+    exr_result_t (*run)(exr_encode_pipeline_t *e);
+};
+
+// A chunk as long as its plain data is plain data to every reader. The library (3.1.5)
+// packs it all the same when packing saves nothing, and readers see wrong numbers.
+static exr_result_t compress(exr_encode_pipeline_t *e)
+{
+    const struct compressor *c = e->encoding_user_data;
+    exr_result_t r = c->run(e);
+    if (!r && e->compressed_bytes == e->packed_bytes)
+        memcpy(e->compressed_buffer, e->packed_buffer, e->packed_bytes);
+    return r;
+}
+
 static exr_result_t write_chunks(exr_context_t f, int part, const struct image *im)
 {
     exr_encode_pipeline_t e = EXR_ENCODE_PIPELINE_INITIALIZER;
+    struct compressor compressor = {NULL};
     int lines = 1;
     exr_result_t r = exr_get_scanlines_per_chunk(f, part, &lines);
     for (int y = 0; y < im->height && !r; y += lines) {
@@ -130,8 +146,13 @@ static exr_result_t write_chunks(exr_context_t f, int part, const struct image *
         if (r)
             break;
         bind_encoder(e.channels, e.channel_count, im, y);
-        if (!y)
+        if (!y) {
             r = exr_encoding_choose_default_routines(f, part, &e);
+            compressor.run = e.compress_fn;
+            if (e.compress_fn)
+                e.compress_fn = compress;
+            e.encoding_user_data = &compressor;
+        }
         if (!r)
             r = exr_encoding_run(f, part, &e);
     }

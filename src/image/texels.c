@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 #include "image/codec.h"
 
@@ -103,7 +104,10 @@ bool texels_read(struct texels *t, const char *path, enum image_type assume, cha
     *t = (struct texels){.type = IMAGE_UNKNOWN};
     if (assume == IMAGE_UNKNOWN)
         assume = texels_type_of(path);
-    bool ok = file_bytes(path, &b, e) &&
+    struct stat st; // devices and pipes may never end
+    bool regular = stat(path, &st) != 0 || S_ISREG(st.st_mode) ||
+                   codec_fail(e, "it is no regular file");
+    bool ok = regular && file_bytes(path, &b, e) &&
               texels_decode(t, b.data, b.size, assume, error, error_size);
     free(b.data);
     return ok;
@@ -128,21 +132,12 @@ enum image_type texels_type_of(const char *path)
     return IMAGE_UNKNOWN;
 }
 
-// Grey of 8 bits in PNG files loses a little in the language's own store, which the
-// scenes' pictures show (spec/textures 9.6): some levels drop by one.
-static float png_grey(float v)
-{
-    float g = 0.297f * v + 0.589f * v + 0.114f * v;
-    return truncf(g * 255) / 255;
-}
-
 float texels_sample(const struct texels *t, int x, int y, int k, struct transfer decode)
 {
     float v = (float)texels_raw(t, x, y, k) / t->max;
     if (decode.kind != TRANSFER_NONE && k < (t->channels < 3 ? 1 : 3))
         v = (float)transfer_decode(decode, (double)v);
-    bool coarse = t->type == IMAGE_PNG && t->channels == 1 && t->format == TEXEL_U8;
-    return coarse ? png_grey(v) : v;
+    return texels_grey_is_coarse(t) ? texels_coarse_grey(v) : v;
 }
 
 double texels_height(const struct texels *t, int x, int y, struct transfer decode)
@@ -157,4 +152,23 @@ double texels_height(const struct texels *t, int x, int y, struct transfer decod
         return fmod(trunc((256 * r + g) * 255), 65536); // what 16 bits keep
     const double b = (double)texels_sample(t, x, y, 2, decode);
     return trunc(65535 * (0.297 * r + 0.589 * g + 0.114 * b));
+}
+
+bool texels_join_halves(struct texels *t)
+{
+    const int width = t->width / 2;
+    if (!t->indexed || width < 1)
+        return false;
+    struct texels joined = {.type = t->type, .has_encoding = false};
+    struct codec_error none = {(char[1]){0}, 1};
+    if (!texels_allocate(&joined, (uint64_t)width, (uint64_t)t->height, 1, TEXEL_U16, 0,
+                         0, none))
+        return false;
+    for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < width; x++)
+            texels_row16(&joined, y)[x] =
+                (uint16_t)(texels_index(t, x, y) << 8 | texels_index(t, x + width, y));
+    texels_free(t);
+    *t = joined;
+    return true;
 }

@@ -59,6 +59,21 @@ static inline int texels_index(const struct texels *t, int x, int y)
 }
 // The sample as a float of 0..1 (floats as they are), decoded; palette indices have none.
 float texels_sample(const struct texels *t, int x, int y, int k, struct transfer decode);
+// Grey of 8 bits in PNG files loses a little in the language's own store, which the
+// scenes' pictures show (spec/textures 9.6): some levels drop by one. v is decoded.
+static inline bool texels_grey_is_coarse(const struct texels *t)
+{
+    return t->type == IMAGE_PNG && t->channels == 1 && t->format == TEXEL_U8 &&
+           !t->indexed;
+}
+static inline float texels_coarse_grey(float v)
+{
+    float g = 0.297f * v + 0.589f * v + 0.114f * v;
+    return (float)(int)(g * 255) / 255;
+}
+// Heights of GIF files in the way of Fractint: the left half holds the high bytes, the
+// right half the low ones (the type `pot`). False: the image is not of that kind.
+bool texels_join_halves(struct texels *t);
 // The height that a height_field takes from a texel, 0..65535 for integer files
 // (spec/shapes 4.21). `decode` is what the scene's `gamma` asks for (TRANSFER_NONE: the
 // file's own numbers).

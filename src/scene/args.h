@@ -5,10 +5,12 @@
 #include <stddef.h>
 
 #include "base/diag.h"
+#include "image/image.h"
 #include "math/vec.h"
 
 struct arena;
 struct heights;
+struct texels;
 struct texture;
 struct transform;
 
@@ -56,6 +58,10 @@ bool args_heights(struct args *a, struct heights *out);
 // What follows the arguments of a part that is no object of its own (a blob component):
 // transforms, composed, and its texture in the object's space, NULL if it has none.
 bool args_part(struct args *a, struct transform *out, const struct texture **texture);
+// An image with what stands before its modifiers: `[png] "file" [gamma g]` or
+// `function W, H { }`. decode: what `gamma` asks for. NULL after an error. The texels are
+// the scene's and shared (image/texels.h; texels_height for heights).
+const struct texels *args_image(struct args *a, struct transfer *decode);
 
 struct arena *args_arena(struct args *a); // the scene's
 struct diag_sink *args_diags(struct args *a);

@@ -36,7 +36,10 @@ liblambert_a_SOURCES += \
 	%D%/patterns/wrinkles.c %D%/patterns/mandel.c %D%/patterns/julia.c \
 	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h \
 	%D%/patterns/crackle.c %D%/patterns/facets.c \
-	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c
+	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c \
+	%D%/image_map.c %D%/image_map.h %D%/patterns/image_pattern.c \
+	%D%/patterns/pavement.c %D%/patterns/pavement.def %D%/patterns/tiling.c \
+	%D%/patterns/tiling.h %D%/patterns/tiling_mixed.c %D%/patterns/tiling_penrose.c
 # The noise tables are computed, not written down.
 noinst_PROGRAMS += gen_noise_tables
 gen_noise_tables_SOURCES = %D%/gen_noise_tables.c %D%/noise_tables.h

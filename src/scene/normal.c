@@ -1,6 +1,7 @@
 // Bumps: a surface normal turned by a pattern (spec/textures 11).
 
 #include "base/arena.h"
+#include "scene/image_map.h"
 #include "scene/surface_eval.h"
 
 // `accuracy` this large changes nothing; the strength of the bump goes with it.
@@ -88,6 +89,9 @@ static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 pl
                             : by_differences(n, v, q, at);
         break;
     case NORMAL_BUMP_MAP:
+        if (n->image)
+            v = image_map_bump(n->image, n->amount, v, q);
+        break;
     case NORMAL_UV: break;
     }
     return pattern_normal_out(p, v);

@@ -65,6 +65,8 @@ struct pattern_ops {
     void (*init)(struct pattern *p); // defaults of its parameters; NULL: all zero
     double (*value)(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c);
+    // Told when all parameters are read: settles them, or says what is wrong. NULL: none.
+    const char *(*finish)(struct pattern *p);
     // As a normal: n changed by this pattern's own rule (spec/textures 11.3). NULL:
     // by differences of the value (11.2).
     struct vec3 (*perturb)(const struct pattern *p, float amount, struct vec3 n,

@@ -1,6 +1,7 @@
 // Pigments: a colour for a point (spec/textures 8, 10).
 
 #include "base/arena.h"
+#include "scene/image_map.h"
 #include "scene/surface_eval.h"
 
 static bool color_at(const struct pigment *p, struct vec3 place,
@@ -79,7 +80,8 @@ static bool color_at(const struct pigment *p, struct vec3 place,
                               out);
     case PIGMENT_AVERAGE:
         return average_pigments(p->map, pattern_warp(&p->pattern, place), at, out);
-    case PIGMENT_IMAGE: break;
+    case PIGMENT_IMAGE:
+        return image_map_color(p->image, pattern_warp(&p->pattern, place), out);
     case PIGMENT_UV: return color_at(p->map->entry[0], uv_point(at), at, out);
     }
     *out = (struct rgbft){0};

@@ -3,6 +3,7 @@
 #include "scene/texture.h"
 
 #include "base/arena.h"
+#include "scene/image_map.h"
 #include "scene/surface_eval.h"
 
 // A colour that lets less than this through is opaque (spec/lighting 7.1).
@@ -56,6 +57,10 @@ int texture_select(const struct texture *x, const struct texture_point *at,
         weight[0] = 1;
         return 1;
     case TEXTURE_MATERIAL:
+        entry[0] = x->map->entry[image_map_entry(
+            x->image, pattern_warp(&x->pattern, texture_place(at)), x->map->count)];
+        weight[0] = 1;
+        return 1;
     case TEXTURE_PLAIN: break;
     }
     return 0;
@@ -102,7 +107,7 @@ static bool pigment_is_opaque(const struct pigment *p)
             if (!pigment_is_opaque(p->map->entry[i]))
                 return false;
         return true;
-    case PIGMENT_IMAGE: return false;
+    case PIGMENT_IMAGE: return p->image->opaque;
     }
     return false;
 }

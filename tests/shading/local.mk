@@ -204,4 +204,15 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/279-old-refraction.pov \
 	%D%/280-render-blocks-aa.pov \
 	%D%/290-mixed.pov \
-	%D%/300-part-textures.pov
+	%D%/300-part-textures.pov \
+	%D%/300-image-map-planar.pov \
+	%D%/301-image-map-spherical.pov \
+	%D%/302-image-map-cylindrical.pov \
+	%D%/303-image-map-torus.pov \
+	%D%/304-image-kinds.pov \
+	%D%/305-image-gamma-36.pov \
+	%D%/306-image-gamma-srgb.pov \
+	%D%/307-image-gamma-22.pov \
+	%D%/308-image-gamma-missing.pov \
+	%D%/309-image-types.pov \
+	%D%/310-image-internal.pov

@@ -18,7 +18,7 @@ for scene in "$dir"/*.pov; do
     rm -f "$tmp/out.exr"
     # Sizes and options are words of their own.
     # shellcheck disable=SC2086
-    "$top_builddir/lambert" "$scene" ${size:-+W4 +H4} $options -o "$tmp/out.exr" \
+    "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" ${size:-+W4 +H4} $options -o "$tmp/out.exr" \
         >"$tmp/log" 2>&1
     if "$top_builddir/check_pixels" "$scene" "$tmp/out.exr"; then
         echo "ok $number - $name"
@@ -33,11 +33,11 @@ different=
 scenes=0
 for scene in "$dir"/*.pov "$top_srcdir"/scenes/gallery/*.scn "$top_srcdir"/tests/perf/csg_1000.scn; do
     [ -z "$(sed -n "s/^$(basename "$scene" .pov): //p" "$dir/not-built.txt")" ] || continue
-    LAMBERT_SHADING=general "$top_builddir/lambert" "$scene" +W61 +H47 -q \
+    LAMBERT_SHADING=general "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" +W61 +H47 -q \
         -o "$tmp/first.exr" >"$tmp/log" 2>&1 || continue
     scenes=$((scenes + 1))
     for isa in base avx2 avx512; do
-        LAMBERT_ISA=$isa "$top_builddir/lambert" "$scene" +W61 +H47 -q -o "$tmp/other.exr" \
+        LAMBERT_ISA=$isa "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" +W61 +H47 -q -o "$tmp/other.exr" \
             >"$tmp/log" 2>&1
         cmp -s "$tmp/first.exr" "$tmp/other.exr" || different="$different $isa:$scene"
     done
@@ -57,7 +57,7 @@ same()
     fi
 }
 scene=$dir/290-mixed.pov
-render() { "$top_builddir/lambert" "$scene" +W80 +H60 "$@" >"$tmp/log" 2>&1; }
+render() { "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" +W80 +H60 "$@" >"$tmp/log" 2>&1; }
 render +WT1 -o "$tmp/first.exr"
 render +WT4 -o "$tmp/other.exr"
 same "four threads give the picture of one"

@@ -143,6 +143,27 @@ static void curves_are_inverse(void **state)
     assert_near(transfer_encode(srgb, 0.5), 0.735356983052449, 1e-14);
 }
 
+// Packing some pictures saves nothing, by chance: 6 pixels of 32 bits.
+static void exr_of_few_pixels(void **state)
+{
+    (void)state;
+    uint32_t s = 1;
+    for (int i = 0; i < 400; i++) {
+        struct image im, back;
+        assert_true(image_init(&im, 6, 1, 3));
+        for (int k = 0; k < 18; k++) {
+            s = s * 1664525 + 1013904223;
+            im.pixel[k] = k % 3 == 1 && k > 3 ? im.pixel[1] : (float)(s >> 8) / (1 << 24);
+        }
+        write_file(&im, "t_few.exr", options(IMAGE_EXR, 32));
+        read_file(&back, "t_few.exr", none);
+        assert_memory_equal(im.pixel, back.pixel, 18 * sizeof(float));
+        image_free(&im);
+        image_free(&back);
+    }
+    unlink("t_few.exr");
+}
+
 static void exr_round_trip(void **state)
 {
     (void)state;
@@ -294,6 +315,7 @@ int main(void)
         cmocka_unit_test(alpha_rules),
         cmocka_unit_test(curves_are_inverse),
         cmocka_unit_test(exr_round_trip),
+        cmocka_unit_test(exr_of_few_pixels),
         cmocka_unit_test(integer_round_trips),
         cmocka_unit_test(same_picture_same_bytes),
         cmocka_unit_test(old_file_survives_failure),

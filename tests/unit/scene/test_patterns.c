@@ -333,7 +333,8 @@ static bool arguments(struct reader *r, const char *w)
     } else if (!strcmp(w, "density_file")) {
         return density_file(r);
     } else if (!strcmp(w, "object") || !strcmp(w, "pigment_pattern") ||
-               !strcmp(w, "slope")) {
+               !strcmp(w, "slope") || !strcmp(w, "image_pattern") ||
+               !strcmp(w, "tiling") || !strcmp(w, "pavement")) {
         return false;
     }
     return true;
@@ -387,8 +388,8 @@ static bool excused(const char *word)
     static const char *const list[] = {"black_hole repeat", // the parser adjusts it
                                        "function", // user code: the evaluator's tests
                                        "image_pattern", // image files
-                                       "pavement",
-                                       "tiling", // not built yet
+                                       "pavement",      // tests/tables
+                                       "tiling",
                                        "object",
                                        "pigment_pattern",
                                        "slope", // need objects, pigments, surfaces
@@ -495,8 +496,9 @@ static void pattern_rows(void **state)
     arena_free(arena);
     print_message("# %u rows checked, %u left to others\n", checked, left);
     // Seen only through pigments and surfaces.
-    static const char *const none[] = {"aoi", "facets", "object", "pigment_pattern",
-                                       "slope"};
+    static const char *const none[] = {"aoi",    "facets",   "image_pattern",
+                                       "object", "pavement", "pigment_pattern",
+                                       "slope",  "tiling"};
     for (size_t i = 0; i < pattern_count; i++) {
         bool known = seen[i] > 0;
         for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
