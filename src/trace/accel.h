@@ -1,7 +1,7 @@
 #ifndef TRACE_ACCEL_H
 #define TRACE_ACCEL_H
 
-#include "trace/bvh8.h"
+#include "math/bvh8.h"
 #include "trace/world.h"
 
 // The shapes of which packets know the crossings, and how they take an object.

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "math/aabb.h"
+#include "math/bvh8.h"
 #include "scene/shape.h"
 
 struct arena;
@@ -27,15 +27,14 @@ struct mesh {
     bool solid;                 // inside_vector was given
     struct vec3 inside_vector;
     struct aabb bounds;
-    struct mesh_node *node;
-    uint32_t *order; // faces by tree leaf
+    struct bvh8 tree; // over the faces
 };
 
-struct mesh_node {
-    struct aabb bounds;
-    uint32_t first; // inner: the second child (the first follows at once); leaf: in order
-    uint32_t count; // 0: inner
-};
+static inline void mesh_corners(const struct mesh *m, uint32_t face, struct vec3 p[3])
+{
+    for (int i = 0; i < 3; i++)
+        p[i] = m->vertex[m->face[face][i]];
+}
 
 // Builds the tree; faces without area are left out of it.
 void mesh_finish(struct mesh *m, struct arena *a);

@@ -1,5 +1,5 @@
-#ifndef TRACE_BVH8_H
-#define TRACE_BVH8_H
+#ifndef MATH_BVH8_H
+#define MATH_BVH8_H
 
 #include <stdbool.h>
 #include <stdint.h>

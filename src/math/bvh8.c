@@ -1,4 +1,4 @@
-#include "trace/bvh8.h"
+#include "math/bvh8.h"
 
 #include <float.h>
 #include <stdlib.h>
