@@ -137,6 +137,8 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_TORUS;
     if (l->ops == &triangle_ops || l->ops == &smooth_triangle_ops)
         return PACKET_TRIANGLE;
+    if (l->ops == &mesh_ops || l->ops == &mesh2_ops)
+        return PACKET_MESH;
     return PACKET_NONE;
 }
 

@@ -18,6 +18,7 @@ enum packet_shape {
     PACKET_DISC,
     PACKET_TORUS,
     PACKET_TRIANGLE,
+    PACKET_MESH,
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };

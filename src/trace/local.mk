@@ -14,7 +14,7 @@ liblambert_a_SOURCES += \
 # The packet kernels, once per instruction set.
 packet_sources = %D%/packet_kernel.c %D%/packet_product.h \
 	%D%/packet.h %D%/packet_cross.h %D%/packet_objects.h %D%/packet_shapes.h \
-	%D%/packet_sponge.h %D%/packet_torus.h %D%/lanes.h \
+	%D%/packet_mesh.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h %D%/lanes.h \
 	%D%/shade_kernel.c %D%/shade_kernel.h %D%/shade_lanes.h %D%/shade_place.h
 noinst_LIBRARIES += libpacket_base.a
 libpacket_base_a_SOURCES = $(packet_sources)

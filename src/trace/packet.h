@@ -31,13 +31,17 @@ static inline bool search_is_nearer(const struct search *f, double t, uint32_t o
     return t < f->t || (t == f->t && object < f->object);
 }
 
+// Eight rays in the terms of a tree, as bvh8_ray; t_far < 0: the lane wants no more.
+struct tree_lanes {
+    float o[3][8], inverse[3][8], t_far[8];
+    double t_begin[8], scale[8];
+};
+
 // Eight rays side by side. Lanes that are not `alive` hold copies of one that is.
 struct packet {
     double o[3][8], d[3][8], t_min[8], t_max[8];
     double t[8]; // as in search, when the lane has no search of its own yet
-    // In terms of the tree of objects, as bvh8_ray; < 0: the lane wants no more.
-    float tree_o[3][8], tree_inverse[3][8], t_far[8];
-    double t_begin[8], scale[8];
+    struct tree_lanes top;
     uint32_t object[8]; // UINT32_MAX: none
     uint32_t leaf[8];   // of an unknown boundary
     double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where

@@ -10,6 +10,7 @@
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/disc.h"
+#include "scene/shapes/mesh.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
@@ -32,6 +33,7 @@ struct maker {
     const struct object *object[OBJECTS];
     uint32_t count;
     uint64_t random;
+    bool alone; // the one-ray form is the reference, not all crossings
     bool grid; // coordinates are multiples of 1/4, nothing is turned: faces coincide
 };
 
@@ -278,11 +280,13 @@ static int check_world(struct world *w, struct maker *m)
         trace_occluded(w, s, b, dark);
         for (uint32_t i = 0; i < b->count; i++) {
             const struct ray_query q = query_at(b, i);
-            const struct boundary want = brute(w, s, &q, SWEEP_CLOSEST);
             const struct hit one = trace_closest_1(w, s, &q);
+            const struct boundary want =
+                m->alone ? one.b : brute(w, s, &q, SWEEP_CLOSEST);
             assert_same(&want, &one.b);
             assert_same(&want, &hit[i].b);
-            const bool shadowed = !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
+            const bool shadowed = m->alone ? trace_occluded_1(w, s, &q)
+                                           : !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
             assert_int_equal(shadowed, trace_occluded_1(w, s, &q));
             assert_int_equal(shadowed, dark[i]);
             hits += !isinf(want.t);
@@ -468,6 +472,48 @@ static void sponges(void **state)
     }
 }
 
+// A bumpy sheet of 2 n^2 triangles that share their corners; on a grid it is flat here and
+// there, so that rays meet edges and corners.
+static struct object *random_mesh(struct maker *m, uint32_t n)
+{
+    struct mesh mesh = {.vertex_count = (n + 1) * (n + 1), .face_count = 2 * n * n};
+    mesh.vertex = arena_new_array(m->a, struct vec3, mesh.vertex_count);
+    mesh.face = arena_alloc(m->a, mesh.face_count * sizeof *mesh.face);
+    for (uint32_t i = 0; i <= n; i++)
+        for (uint32_t k = 0; k <= n; k++)
+            mesh.vertex[i * (n + 1) + k] =
+                vec3(4. * i / n - 2, 4. * k / n - 2, between(m, -.5, .5));
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < n; k++) {
+            const uint32_t a = i * (n + 1) + k, b = a + n + 1, f = 2 * (i * n + k);
+            memcpy(mesh.face[f], (uint32_t[]){a, a + 1, b}, sizeof *mesh.face);
+            memcpy(mesh.face[f + 1], (uint32_t[]){a + 1, b + 1, b}, sizeof *mesh.face);
+        }
+    mesh_finish(&mesh, m->a);
+    return of(m, &mesh2_ops, &mesh);
+}
+
+static void meshes(void **state)
+{
+    (void)state;
+    for (uint64_t k = 0; k < 4; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 300 + k, .alone = true};
+        m.grid = k % 2;
+        for (int i = 0; i < 8; i++) {
+            struct object *o = random_mesh(&m, k < 2 ? 4 : 16);
+            if (i % 2) {
+                struct transform t = transform_rotate(somewhere(&m, 90));
+                object_transform(m.a, o, &t);
+            }
+            struct transform t = transform_translate(somewhere(&m, 3));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 static void nested_csg(void **state)
 {
     (void)state;
@@ -509,6 +555,7 @@ int main(void)
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(sponges),
+        cmocka_unit_test(meshes),
         cmocka_unit_test(nested_csg),
         cmocka_unit_test(many_spheres),
         cmocka_unit_test(the_environment_names_the_kernels),

@@ -1,0 +1,197 @@
+#ifndef TRACE_PACKET_TREE_H
+#define TRACE_PACKET_TREE_H
+
+// Eight rays and the boxes of a BVH8; one ray and eight boxes.
+#include "trace/lanes.h"
+#include "trace/packet.h"
+
+// ---- one ray ----------------------------------------------------------------------------
+
+struct tree_ray8 {
+    struct float8 o[3], inverse[3];
+};
+
+LANES_INLINE struct tree_ray8 tree_ray8_of(const struct bvh8_ray *r)
+{
+    struct tree_ray8 v;
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        v.o[a] = f8_set(r->o[a]);
+        v.inverse[a] = f8_set(r->inverse[a]);
+    }
+    return v;
+}
+
+LANES_INLINE unsigned node_meets(const struct bvh8_node *n, const struct bvh8_ray *r,
+                                 const struct tree_ray8 *v, float near_t[8])
+{
+    struct float8 near = f8_set(0), far = f8_set(r->t_far);
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct float8 p = f8_load(n->box[a + r->negative[a]]);
+        const struct float8 q = f8_load(n->box[a + 3 - r->negative[a]]);
+        near = f8_max(f8_mul(f8_sub(p, v->o[a]), v->inverse[a]), near);
+        far = f8_min(f8_mul(f8_sub(q, v->o[a]), v->inverse[a]), far);
+    }
+    f8_store(near_t, near);
+    return f8_le(near, f8_mul(far, f8_set(BVH8_SLACK)));
+}
+
+// Puts the children that the ray meets on the stack, the nearest on top.
+LANES_INLINE uint32_t push_children(const struct bvh8_node *n, const struct bvh8_ray *r,
+                                    const struct tree_ray8 *v, struct bvh8_entry *stack,
+                                    uint32_t depth)
+{
+    float t[8];
+    const uint32_t base = depth;
+    for (unsigned bits = node_meets(n, r, v, t); bits; bits &= bits - 1) {
+        const int k = __builtin_ctz(bits);
+        uint32_t at = depth++;
+        for (; at > base && stack[at - 1].t < t[k]; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = (struct bvh8_entry){n->child[k], t[k]};
+    }
+    return depth;
+}
+
+// The ray of one lane.
+static inline struct bvh8_ray tree_lane(const struct tree_lanes *l, int lane)
+{
+    struct bvh8_ray r = {.t_far = l->t_far[lane],
+                         .t_begin = l->t_begin[lane],
+                         .scale = l->scale[lane]};
+    for (int a = 0; a < 3; a++) {
+        r.o[a] = l->o[a][lane];
+        r.inverse[a] = l->inverse[a][lane];
+        r.negative[a] = r.inverse[a] < 0 ? 3 : 0;
+    }
+    return r;
+}
+
+// ---- eight rays ---------------------------------------------------------------------------
+
+struct packet_entry {
+    float near[8]; // where the lanes enter the box; beyond all where they do not
+    int32_t child;
+    float t; // of one lane, for the order
+};
+
+struct tree8 {
+    struct float8 o[3], inverse[3], far;
+    int negative[3];
+    bool mixed; // the directions' signs differ between lanes
+};
+
+static const float never = 3e38f;
+
+LANES_INLINE struct tree8 tree8_of(const struct tree_lanes *l, unsigned lanes)
+{
+    struct tree8 v = {.mixed = false};
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        v.o[a] = f8_load(l->o[a]);
+        v.inverse[a] = f8_load(l->inverse[a]);
+        const unsigned down = lanes & ~f8_le(f8_set(0), v.inverse[a]);
+        v.negative[a] = down ? 3 : 0;
+        v.mixed |= down && down != lanes;
+    }
+    if (v.mixed)
+        v.negative[0] = v.negative[1] = v.negative[2] = 0;
+    return v;
+}
+
+LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct tree8 *v,
+                                  float near_t[8])
+{
+    struct float8 near = f8_set(0), far = v->far;
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct float8 p = f8_mul(
+            f8_sub(f8_set(n->box[a + v->negative[a]][k]), v->o[a]), v->inverse[a]);
+        const struct float8 q = f8_mul(
+            f8_sub(f8_set(n->box[a + 3 - v->negative[a]][k]), v->o[a]), v->inverse[a]);
+        near = f8_max(v->mixed ? f8_min(p, q) : p, near);
+        far = f8_min(v->mixed ? f8_max(p, q) : q, far);
+    }
+    far = f8_mul(far, f8_set(BVH8_SLACK));
+    const unsigned bits = f8_le(near, far);
+    if (bits)
+        f8_store(near_t, f8_keep_le(near, far, never));
+    return bits;
+}
+
+// As push_children; *met_lanes grows by the lanes of the children met.
+LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tree8 *v,
+                                     struct packet_entry *stack, uint32_t depth,
+                                     uint32_t *met_lanes)
+{
+    const uint32_t base = depth;
+    for (int k = 0; k < 8 && n->child[k] != BVH8_EMPTY; k++) {
+        float near[8];
+        const unsigned met = child_meets(n, k, v, near);
+        if (!met)
+            continue;
+        *met_lanes += (uint32_t)__builtin_popcount(met);
+        const float t = near[__builtin_ctz(met)];
+        uint32_t at = depth++;
+        for (; at > base && stack[at - 1].t < t; at--)
+            stack[at] = stack[at - 1];
+        f8_store(stack[at].near, f8_load(near));
+        stack[at].child = n->child[k];
+        stack[at].t = t;
+    }
+    return depth;
+}
+
+// As bvh8_ray_begin, for each of `lanes`; returns those that may meet the tree. inverse:
+// 1 / d.
+LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec8 d,
+                                 struct vec8 inverse, struct real8 t_min,
+                                 struct real8 t_max, unsigned lanes, struct tree_lanes *l)
+{
+    const struct real8 largest = v8_max_abs(d), tiny = r8_set(0x1p-60);
+    struct mask8 out = m8_of(0);
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct real8 at = a == 0 ? o.x : a == 1 ? o.y : o.z;
+        const struct real8 by = a == 0 ? d.x : a == 1 ? d.y : d.z;
+        const struct real8 lo = r8_set(vec3_axis(b->bounds.min, a));
+        const struct real8 hi = r8_set(vec3_axis(b->bounds.max, a));
+        const struct mask8 flat = r8_lt(r8_abs(by), r8_mul(tiny, largest));
+        const struct real8 inv = a == 0 ? inverse.x : a == 1 ? inverse.y : inverse.z;
+        const struct real8 t0 = r8_mul(r8_sub(lo, at), inv);
+        const struct real8 t1 = r8_mul(r8_sub(hi, at), inv);
+        t_min = r8_select(flat, t_min, r8_max(t_min, r8_min(t0, t1)));
+        t_max = r8_select(flat, t_max, r8_min(t_max, r8_max(t0, t1)));
+        out = m8_or(out, m8_and(flat, m8_or(r8_lt(at, lo), r8_lt(hi, at))));
+        const struct real8 most = r8_select(r8_lt(by, r8_set(0)), r8_set(-0x1p60),
+                                            r8_set(0x1p60));
+        r8_store_floats(l->inverse[a], r8_select(flat, most, r8_mul(largest, inv)));
+    }
+    const unsigned in = lanes & m8_bits(m8_without(r8_le(t_min, t_max), out));
+    const struct vec8 begin = v8_sub(v8_mad(o, t_min, d), V8_SET(b->origin));
+    r8_store_floats(l->o[0], begin.x);
+    r8_store_floats(l->o[1], begin.y);
+    r8_store_floats(l->o[2], begin.z);
+    r8_store(l->t_begin, t_min);
+    r8_store(l->scale, largest);
+    const struct real8 far = r8_mul(r8_sub(t_max, t_min), largest);
+    r8_store_floats(l->t_far, r8_select(m8_of(in),
+                                        r8_min(r8_mul(far, r8_set(BVH8_SLACK)),
+                                               r8_set(1e30)),
+                                        r8_set(-1)));
+    return in;
+}
+
+// The lanes of `won` want nothing beyond t; if `any`, nothing at all.
+static inline void tree_limit(struct tree_lanes *l, unsigned won, const double t[8],
+                              bool any)
+{
+    for (; won; won &= won - 1) {
+        const int i = __builtin_ctz(won);
+        const double far = (t[i] - l->t_begin[i]) * l->scale[i];
+        l->t_far[i] = any ? -1 : far < 1e30 ? (float)far * BVH8_SLACK : 1e30f;
+    }
+}
+
+#endif
