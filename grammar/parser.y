@@ -165,7 +165,7 @@ static struct ast_list add_element(struct parse *p, struct ast_list list, struct
 %token MORE                     // a ']' with '[' after it
 %token <enum word> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
 %token <enum word> FUNCTION ARRAY
-%token <struct ast *> NUMBER STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
+%token <struct ast *> NUMBER VECTOR3 STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
 
 %type <struct ast *> statement block function_block function_body params size entry
 %type <struct ast *> full compare value arith unary primary vector string string_or_arith
@@ -424,7 +424,8 @@ primary:
 member: CONSTANT | PART | GRAY ;
 
 vector:
-    '<' components '>'                  { $$ = of_list(p, AST_VECTOR, @$, WORD_NONE, $2.first); }
+    VECTOR3
+  | '<' components '>'                  { $$ = of_list(p, AST_VECTOR, @$, WORD_NONE, $2.first); }
   ;
 
 components:
@@ -562,6 +563,10 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
     *where = t.where;
     enum ast_kind node;
     switch (kind) {
+    case TOK_VECTOR3:
+        value->TOK_VECTOR3 = ast_new(p->arena, AST_VECTOR3, t.where);
+        value->TOK_VECTOR3->vector = t.vector;
+        return kind;
     case TOK_NUMBER:
         value->TOK_NUMBER = ast_new(p->arena, AST_NUMBER, t.where);
         value->TOK_NUMBER->number = t.number;
@@ -574,7 +579,7 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
     case TOK_OTHER_NAME:
     case TOK_ARRAY_NAME:
     case TOK_FUNCTION_NAME:
-        node = t.value ? AST_VALUE : AST_UNDECLARED;
+        node = t.value || !t.len ? AST_VALUE : AST_UNDECLARED;
         break;
     default:
         value->TOK_WORD = (enum word)t.word;
@@ -584,6 +589,8 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
     n->text = t.text;
     n->len = t.len;
     n->value = t.value;
+    if (node == AST_VALUE && !t.value) // a calculation that failed
+        n->op = OP_FAILED;
     value->TOK_NAME = n;
     return kind;
 }

@@ -61,6 +61,10 @@ bool args_int(struct args *a, const char *role, long *out)
 // The components of a vector of n plain numbers (a sign is allowed).
 static bool literal_vector(const struct ast *n, double *out, size_t count)
 {
+    if (n->kind == AST_VECTOR3 && count == 3) {
+        memcpy(out, n->vector, 3 * sizeof *out);
+        return true;
+    }
     if (n->kind != AST_VECTOR)
         return false;
     const struct ast *c = n->list;
@@ -125,8 +129,11 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
 {
     const struct ast *v = a->at;
     size_t count = 0;
-    if (!v || v->kind != AST_VECTOR)
+    bool three = v && v->kind == AST_VECTOR3;
+    if (!v || (v->kind != AST_VECTOR && !three))
         return expected(a, role, "list of numbers in < >");
+    if (three)
+        count = 3;
     for (const struct ast *c = v->list; c; c = c->next)
         count++;
     if (count != n) {
@@ -135,6 +142,8 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
         return expected(a, role, want);
     }
     args_next(a);
+    if (three)
+        memcpy(out, v->vector, 3 * sizeof *out);
     for (const struct ast *c = v->list; c; c = c->next, out++)
         if (!checked(a, eval_float(a->b->e, c, out)))
             return false;
@@ -150,8 +159,8 @@ bool args_at_vector(struct args *a)
     int width;
     if (!n || !ast_is_number(n))
         return false;
-    if (n->kind == AST_NUMBER || n->kind == AST_VECTOR)
-        return n->kind == AST_VECTOR;
+    if (n->kind == AST_NUMBER || n->kind == AST_VECTOR || n->kind == AST_VECTOR3)
+        return n->kind != AST_NUMBER;
     return eval_number(a->b->e, n, 1, v, &width) && width > 1;
 }
 

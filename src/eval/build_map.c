@@ -87,7 +87,8 @@ static bool double_entry(struct args *a)
     double v[5];
     int width = 1;
     const struct ast *n = a->at;
-    if (!n || !ast_is_number(n) || n->kind == AST_VECTOR)
+    if (!n || !ast_is_number(n) || n->kind == AST_VECTOR ||
+        n->kind == AST_VECTOR3)
         return false;
     if (n->kind == AST_NUMBER)
         return true;

@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "eval/array.h"
 #include "eval/builder.h"
+#include "eval/calc.h"
 #include "eval/expr.h"
 #include "eval/function.h"
 #include "eval/spline.h"
@@ -146,6 +147,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
                      .diags = diags,
                      .options = options,
                      .symbols = symbols_new(),
+                     .calcs = calc_table_new(),
                      .scene = scene,
                      .version = options->version ? options->version : 370};
     unsigned errors = diags->errors, errors_max = diags->errors_max;
@@ -169,6 +171,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     arena_free(tokens);
     arena_free(e.parse);
     symbols_free(e.symbols);
+    calc_table_free(e.calcs);
     diags->errors_max = errors_max;
     return diags->errors == errors;
 }

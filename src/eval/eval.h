@@ -56,6 +56,7 @@ struct eval {
     struct diag_sink *diags;
     const struct eval_options *options;
     struct symbol_tables *symbols;
+    struct calc_table *calcs;
     struct builder *builder;
     struct scene *scene;
     int version;              // in force now, 100*f

@@ -124,7 +124,7 @@ static double arithmetic(struct eval *e, const struct ast *n, double a, double b
     }
 }
 
-static bool compare(int op, double a, double b)
+bool eval_compare(int op, double a, double b)
 {
     bool equal = fabs(a - b) <= equal_within;
     switch (op) {
@@ -145,7 +145,7 @@ static bool compare_strings(struct eval *e, const struct ast *n, int wanted, dou
     const char *a, *b;
     if (!eval_string(e, n->left, &a) || !eval_string(e, n->right, &b))
         return false;
-    return fill(compare(n->op, strcmp(a, b), 0), wanted, out, width);
+    return fill(eval_compare(n->op, strcmp(a, b), 0), wanted, out, width);
 }
 
 static bool binary(struct eval *e, const struct ast *n, int wanted, double *out,
@@ -162,7 +162,7 @@ static bool binary(struct eval *e, const struct ast *n, int wanted, double *out,
     number_widen(out, width, q);
     number_widen(b, &q, *width);
     for (int i = 0; i < *width; i++)
-        out[i] = arith ? arithmetic(e, n, out[i], b[i]) : compare(n->op, out[i], b[i]);
+        out[i] = arith ? arithmetic(e, n, out[i], b[i]) : eval_compare(n->op, out[i], b[i]);
     return true;
 }
 
@@ -180,22 +180,27 @@ static bool conditional(struct eval *e, const struct ast *n, int wanted, double 
     return true;
 }
 
+int member_index(enum word w)
+{
+    switch (w) {
+    case WORD_y: case WORD_v: case WORD_green: return 1;
+    case WORD_z: case WORD_blue: return 2;
+    case WORD_t: case WORD_filter: return 3;
+    case WORD_transmit: return 4;
+    case WORD_gray: return -1;
+    default: return 0;
+    }
+}
+
 static bool member(struct eval *e, const struct ast *n, int wanted, double *out,
                    int *width)
 {
     double v[5] = {0};
-    int w, i = 0;
+    int w, i = member_index(n->word);
     if (!eval_number(e, n->left, wanted, v, &w))
         return false;
-    switch (n->word) {
-    case WORD_y: case WORD_v: case WORD_green: i = 1; break;
-    case WORD_z: case WORD_blue: i = 2; break;
-    case WORD_t: case WORD_filter: i = 3; break;
-    case WORD_transmit: i = 4; break;
-    case WORD_gray:
+    if (i < 0)
         return fill(0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2], 1, out, width);
-    default: break;
-    }
     if (i >= w) {
         diag_at(e->diags, DIAG_NO_MEMBER, n->where, word_text(n->word), w);
         return false;
@@ -210,6 +215,10 @@ static bool bare_number(struct eval *e, const struct ast *n, int wanted, double 
     case AST_NUMBER: return fill(n->number, wanted, out, width);
     case AST_CONSTANT: return constant(e, n, wanted, out, width);
     case AST_VECTOR: return vector(e, n, out, width);
+    case AST_VECTOR3:
+        memcpy(out, n->vector, 3 * sizeof *out);
+        *width = 3;
+        return true;
     case AST_BINARY: return binary(e, n, wanted, out, width);
     case AST_CONDITIONAL: return conditional(e, n, wanted, out, width);
     case AST_MEMBER: return member(e, n, wanted, out, width);
@@ -412,7 +421,8 @@ bool ast_is_number(const struct ast *n)
     if (!n)
         return false;
     switch (n->kind) {
-    case AST_NUMBER: case AST_CONSTANT: case AST_VECTOR: case AST_UNARY: case AST_BINARY:
+    case AST_NUMBER: case AST_CONSTANT: case AST_VECTOR: case AST_VECTOR3: case AST_UNARY:
+    case AST_BINARY:
     case AST_CONDITIONAL: case AST_MEMBER: case AST_APPLY: return true;
     case AST_VALUE:
         return n->op == OP_FAILED || (n->value && n->value->kind == VALUE_NUMBER);

@@ -9,6 +9,10 @@
 // (spec/language 2.3 and 2.4, "full").
 bool eval_full(struct eval *e, const struct ast *n, int wanted, double out[5], int *width);
 bool eval_truth(double v);
+bool eval_compare(int op, double a, double b); // also '&' and '|'
+int member_index(enum word w);                 // of `.x`, `.red` ...; -1: `.gray`
+// Added to a subscript before it is truncated.
+#define INDEX_SLACK 1e-10
 // Repeats a single number, pads others with 0.
 void number_widen(double *n, int *width, int wanted);
 

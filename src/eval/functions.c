@@ -16,13 +16,6 @@
 static const double zero_within = 1e-10; // spec/language, conventions
 static const double pi = 3.14159265358979323846;
 
-struct builtin {
-    bool (*run)(struct call *c);
-    const char *arguments;
-    uint8_t least, most;
-    char result;
-};
-
 static const struct builtin builtins[WORD_COUNT] = {
 #define BUILTIN(word, least_, most_, arguments_, kind)                                   \
     [WORD_##word] = {.run = call_##word,                                                 \
@@ -33,6 +26,8 @@ static const struct builtin builtins[WORD_COUNT] = {
 #include "eval/functions.def"
 #undef BUILTIN
 };
+
+const struct builtin *builtin_find(enum word w) { return &builtins[w]; }
 
 bool word_is_string_function(enum word w) { return builtins[w].result == 's'; }
 

@@ -22,6 +22,14 @@ struct call {
     struct call_result result;
 };
 
+struct builtin {
+    bool (*run)(struct call *c); // NULL: the word is no function
+    const char *arguments;
+    uint8_t least, most;
+    char result;
+};
+const struct builtin *builtin_find(enum word w);
+
 #define BUILTIN(word, least, most, arguments, kind) bool call_##word(struct call *c);
 #include "eval/functions.def"
 #undef BUILTIN

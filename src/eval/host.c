@@ -8,12 +8,12 @@
 #include "base/arena.h"
 #include "eval/array.h"
 #include "eval/builder.h"
+#include "eval/calc.h"
 #include "eval/expr.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
 
 enum { SCOPES_MAX = 1000 };
-static const double index_slack = 1e-10; // added before a subscript is truncated
 
 static enum name_class class_of(const struct value *v)
 {
@@ -72,7 +72,7 @@ bool eval_index(struct eval *e, struct place base, const struct ast *index,
         }
         if (!eval_float(e, index, &v))
             return false;
-        v += index_slack;
+        v += INDEX_SLACK;
         if (v < 0 || number_to_int(v) >= a->size[i]) {
             diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where,
                     (long)number_to_int(floor(v)), (unsigned)a->size[i]);
@@ -257,7 +257,7 @@ const struct value *eval_array(struct eval *e, const struct ast *sizes,
         }
         if (!eval_float(e, n, &v))
             return NULL;
-        size[dimensions++] = (long)number_to_int(v + index_slack);
+        size[dimensions++] = (long)number_to_int(v + INDEX_SLACK);
     }
     if (!array_fits(e, sizes->where, dimensions, size))
         return NULL;
@@ -516,6 +516,7 @@ struct stream_host eval_host(struct eval *e)
         .declare = declare,
         .declare_number = declare_number,
         .declare_array = declare_array,
+        .calculate = e->options->statement ? NULL : calc_run,
         .undef = undef,
         .define_macro = define_macro,
         .enter_scope = enter_scope,

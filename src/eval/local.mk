@@ -8,7 +8,7 @@ liblambert_a_SOURCES += \
 	%D%/build_pigment.c %D%/build_settings.c %D%/build_texture.c \
 	%D%/build_transform.c %D%/build_warp.c %D%/builder.c
 liblambert_a_SOURCES += \
-	%D%/array.c %D%/array.h %D%/builder.h %D%/color.c %D%/eval.c %D%/eval.h \
+	%D%/array.c %D%/array.h %D%/builder.h %D%/calc.c %D%/calc.h %D%/calc_compile.c %D%/color.c %D%/eval.c %D%/eval.h \
 	%D%/expr.c %D%/expr.h %D%/file_data.c %D%/file_data.h %D%/file_io.c %D%/file_io.h \
 	%D%/files.c %D%/formula.c %D%/formula.h %D%/function.c %D%/function.h \
 	%D%/functions.c %D%/functions.def \

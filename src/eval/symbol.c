@@ -164,10 +164,9 @@ struct place symbols_find(struct symbol_tables *t, const char *name, size_t len,
     return place_of(find_entry(t, name, len, depth));
 }
 
-static struct symbol *make_entry(struct symbol_tables *t, const char *text, size_t len,
-                                 uint32_t depth)
+static struct symbol *make_entry_of(struct symbol_tables *t, struct name *name,
+                                    uint32_t depth)
 {
-    struct name *name = intern(t, text, len);
     struct symbol **at = &name->top;
     while (*at && (*at)->depth > depth)
         at = &(*at)->outer;
@@ -187,6 +186,56 @@ static struct symbol *make_entry(struct symbol_tables *t, const char *text, size
     s->next_in_scope = t->scope[depth];
     t->scope[depth] = s;
     return s;
+}
+
+static struct symbol *make_entry(struct symbol_tables *t, const char *text, size_t len,
+                                 uint32_t depth)
+{
+    return make_entry_of(t, intern(t, text, len), depth);
+}
+
+struct name *symbols_name(struct symbol_tables *t, const char *text, size_t len)
+{
+    return intern(t, text, len);
+}
+
+struct place symbols_place(const struct symbol_tables *t, const struct name *name)
+{
+    (void)t;
+    return place_of(name->top);
+}
+
+struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool local)
+{
+    if (!local && name->top)
+        return place_of(name->top);
+    return place_of(make_entry_of(t, name, local ? t->depth - 1 : 0));
+}
+
+const struct value *symbol_value(const struct symbol *s)
+{
+    return s->is_number ? NULL : s->value;
+}
+
+const struct value *symbol_number(const struct symbol *s)
+{
+    return s->is_number && !s->number.deprecated ? &s->number : NULL;
+}
+
+bool symbol_takes_number(const struct symbol *s)
+{
+    return s->is_number || !s->value ||
+           (s->value->kind != VALUE_MACRO && s->value->kind != VALUE_FUNCTION);
+}
+
+bool symbol_set_number(struct symbol *s, const struct value *v)
+{
+    if (!symbol_takes_number(s))
+        return false;
+    s->is_number = true;
+    s->value = NULL;
+    s->number = *v;
+    return true;
 }
 
 struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,

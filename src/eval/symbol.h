@@ -33,6 +33,17 @@ struct place symbols_find(struct symbol_tables *t, const char *name, size_t len,
 // The entry in the current (local) or the global scope, made if it is not there.
 struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
                           bool local);
+// For those who keep names: the name itself, and the newest entry of it.
+struct name;
+struct name *symbols_name(struct symbol_tables *t, const char *text, size_t len);
+struct place symbols_place(const struct symbol_tables *t, const struct name *name);
+// Where an assignment to the name goes; the entry is made if it is not there.
+struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool local);
+const struct value *symbol_value(const struct symbol *s);  // NULL: none, or a number
+const struct value *symbol_number(const struct symbol *s); // in place; NULL: no number
+// Assigns a number unless the name is a macro's or a function's.
+bool symbol_set_number(struct symbol *s, const struct value *v);
+bool symbol_takes_number(const struct symbol *s);
 // The same in one of the open scopes; 1: the global one.
 struct place symbols_make_at(struct symbol_tables *t, const char *name, size_t len,
                              uint32_t scope);

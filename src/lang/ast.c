@@ -71,7 +71,8 @@ static void print_head(const struct ast *n, FILE *out)
         [AST_NUMBER] = "number",   [AST_STRING] = "string",
         [AST_VALUE] = "value",     [AST_UNDECLARED] = "undeclared",
         [AST_WORD] = "word",       [AST_CONSTANT] = "constant",
-        [AST_VECTOR] = "vector",   [AST_UNARY] = "unary",
+        [AST_VECTOR] = "vector",   [AST_VECTOR3] = "vector",
+        [AST_UNARY] = "unary",
         [AST_BINARY] = "binary",   [AST_CONDITIONAL] = "conditional",
         [AST_MEMBER] = "member",   [AST_CALL] = "call",
         [AST_APPLY] = "apply",     [AST_INDEX] = "index",
@@ -102,6 +103,9 @@ static void print_head(const struct ast *n, FILE *out)
     case AST_UNARY:
     case AST_BINARY:
         fprintf(out, " %s", op_text(n->op, buffer));
+        break;
+    case AST_VECTOR3:
+        fprintf(out, " %.17g %.17g %.17g", n->vector[0], n->vector[1], n->vector[2]);
         break;
     case AST_VECTOR:
     case AST_CONDITIONAL:

@@ -35,6 +35,7 @@ enum ast_kind {
     AST_WORD,        // word: a reserved word standing as an item (`rgb`, `rotate`, `open`)
     AST_CONSTANT,    // word: x y z t u v pi clock true false yes no on off version ...
     AST_VECTOR,      // list: 2..5 components (more for matrix and poly)
+    AST_VECTOR3,     // vector: three components, written as plain numbers
     AST_UNARY,       // op ('-' '!' '+'), left
     AST_BINARY,      // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
     AST_CONDITIONAL, // list: condition, if true, if false
@@ -66,6 +67,7 @@ struct ast {
         double number;
         const char *text; // STRING, UNDECLARED, and the name of VALUE, APPLY, INDEX
         struct ast *left;
+        const double *vector; // VECTOR3
     };
     union {
         struct ast *right;

@@ -69,7 +69,15 @@ void directive_end_of_cursor(struct stream *s, struct cursor *c)
 bool directive_number(struct stream *s, int start, double *out)
 {
     bool ok;
+    struct calc_result r;
     *out = 0;
+    if (start == TOK_START_CONDITION) {
+        enum calc_outcome outcome = stream_calculate(s, CALC_CONDITION, false, &r);
+        if (outcome == CALC_DONE)
+            *out = r.number;
+        if (outcome != CALC_NONE)
+            return outcome == CALC_DONE;
+    }
     const struct ast *e = parse_run(s, start, &ok);
     return ok && e && s->host.number(s->host.user, e, out);
 }
@@ -86,7 +94,7 @@ static bool is_defined(struct stream *s, const char *directive)
     bool known = false;
     if (!raw_expect(s, '(', "'('", directive))
         return false;
-    if (raw_peek(s).word != WORD_NONE)
+    if (raw_word(s) != WORD_NONE)
         raw_take(s); // reserved words are in no table
     else if (raw_lvalue(s, &name, directive))
         known = s->host.is_declared(s->host.user, &name);
@@ -387,13 +395,33 @@ static void dispatch(struct stream *s, struct token word)
     }
 }
 
+// `declare NAME = number;` is most of what loops do: it is taken without its tokens being
+// made.
+static bool directive_assign(struct stream *s)
+{
+    struct calc_result r;
+    enum word w = raw_word(s);
+    if ((w != WORD_declare && w != WORD_local) || s->pending_set)
+        return false;
+    struct cursor *c = &s->cursors[s->cursor_count - 1];
+    if (c->at >= c->count)
+        return false;
+    c->at++;
+    if (stream_calculate(s, CALC_ASSIGNMENT, w == WORD_local, &r) != CALC_NONE)
+        return true;
+    c->at--;
+    return false;
+}
+
 void directive_run(struct stream *s, struct token hash)
 {
-    int next = raw_peek(s).kind;
+    int next = raw_kind(s);
     if (next < 256 && next != '#' && next != 0) { // POV-Ray passes over it too
         diag_at(s->diags, DIAG_LONE_HASH, hash.where, 0);
         return;
     }
+    if (directive_assign(s))
+        return;
     struct token word = raw_take(s);
     word.where = span_join(hash.where, word.where);
     dispatch(s, word);

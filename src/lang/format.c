@@ -173,7 +173,7 @@ bool format_source(struct source_map *sources, uint32_t file, struct diag_sink *
 {
     struct format f = {.file = sources->file[file], .width = width, .out = out};
     unsigned errors = diags->errors;
-    struct token *tokens = lex_file(sources, file, diags, &f.count);
+    struct token *tokens = lex_file(sources, file, diags, NULL, &f.count);
     f.tokens = tokens;
     const struct source_file *s = f.file;
     for (uint32_t at = 0; at < s->len && diags->errors == errors;) {

@@ -10,7 +10,7 @@ void macro_define(struct stream *s, struct token word)
     struct token name;
     struct macro *m = arena_new_struct(s->arena, struct macro);
     bool ok = raw_expect_name(s, &name, "#macro") && raw_expect(s, '(', "'('", "#macro");
-    while (ok && raw_peek(s).kind != ')') {
+    while (ok && raw_kind(s) != ')') {
         const struct cursor *c = &s->cursors[s->cursor_count - 1];
         const struct token *parameter = &c->tokens[c->at];
         struct token t;
@@ -36,6 +36,7 @@ void macro_define(struct stream *s, struct token word)
     m->name = arena_strndup(s->arena, name.text, name.len);
     m->where = name.where;
     m->body = c->tokens + from;
+    m->slots = c->slots + from;
     m->count = c->at - 2 - from; // without '#' and `end`
     s->host.define_macro(s->host.user, name.text, name.len, name.where, m);
 }
@@ -53,7 +54,7 @@ bool array_literal(struct stream *s, struct ast_list *sizes, struct ast **elemen
             return false;
         *sizes = ast_append(*sizes, n);
     } while (raw_take_if(s, '['));
-    if (raw_peek(s).kind == '{')
+    if (raw_kind(s) == '{')
         *elements = parse_run(s, TOK_START_ELEMENTS, &ok);
     return ok;
 }
@@ -87,7 +88,7 @@ static bool is_reference(const struct stream *s)
 static void skip_call(struct stream *s)
 {
     for (int depth = 1; depth > 0;) {
-        int kind = raw_peek(s).kind;
+        int kind = raw_kind(s);
         if (kind == TOK_END || kind == '#' || kind == '{' || kind == '}' || kind == ';')
             return;
         raw_take(s);
@@ -98,6 +99,7 @@ static void skip_call(struct stream *s)
 static bool read_argument(struct stream *s, struct macro_argument *a)
 {
     bool ok;
+    struct span where = raw_peek(s).where;
     *a = (struct macro_argument){0};
     if (is_reference(s)) {
         a->by_reference = true;
@@ -112,10 +114,16 @@ static bool read_argument(struct stream *s, struct macro_argument *a)
         skip_call(s);
         return false;
     }
-    if (raw_peek(s).kind == TOK_ARRAY) {
+    struct calc_result calc;
+    enum calc_outcome outcome = stream_calculate(s, CALC_ARGUMENT, false, &calc);
+    if (outcome != CALC_NONE) {
+        a->rvalue = parse_calculated(s, where, &calc);
+        return true;
+    }
+    if (raw_kind(s) == TOK_ARRAY) {
         struct ast_list sizes;
         struct ast *elements, *array;
-        struct span where = raw_take(s).where;
+        raw_take(s);
         if (!array_literal(s, &sizes, &elements))
             return false;
         array = ast_new(s->nodes, AST_BLOCK, where);
@@ -138,14 +146,14 @@ static int read_arguments(struct stream *s, struct span call, const struct macro
     bool ok = raw_expect(s, '(', "'('", "a macro call");
     while (ok) {
         // A directive or macro may stand before an argument.
-        if (raw_peek(s).kind == '#')
+        if (raw_kind(s) == '#')
             stream_give_back(s, stream_next(s));
-        if (raw_peek(s).kind == ')')
+        if (raw_kind(s) == ')')
             break;
         struct macro_argument extra;
         ok = read_argument(s, count < PARAMETERS_MAX ? &out[count] : &extra);
         count++;
-        if (ok && !raw_take_if(s, ',') && raw_peek(s).kind == TOK_END)
+        if (ok && !raw_take_if(s, ',') && raw_kind(s) == TOK_END)
             break;
     }
     if (!ok || !raw_expect(s, ')', "')'", "a macro call"))
@@ -179,7 +187,7 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
         s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
                                  sizeof *s->cursors);
         s->cursors[s->cursor_count++] = (struct cursor){
-            .tokens = m->body, .count = m->count, .macro = m, .frames = s->frame_count,
+            .tokens = m->body, .slots = m->slots, .count = m->count, .macro = m, .frames = s->frame_count,
             .at = ok ? 0 : m->count,
             .expansion = source_expand(s->sources, m->name, name.where)};
         s->calls++;

@@ -16,7 +16,7 @@ static const struct ast *read_rvalue(struct stream *s, bool *ok)
 {
     struct ast *first = parse_run(s, TOK_START_RVALUE, ok);
     struct ast *last = first;
-    while (*ok && is_texture(last) && raw_peek(s).word == WORD_texture) {
+    while (*ok && is_texture(last) && raw_word(s) == WORD_texture) {
         last->next = parse_run(s, TOK_START_RVALUE, ok);
         last = last->next;
     }
@@ -26,11 +26,11 @@ static const struct ast *read_rvalue(struct stream *s, bool *ok)
 static void read_deprecated(struct stream *s, struct lvalue *to)
 {
     to->deprecated = true;
-    if (raw_peek(s).word == WORD_once) {
+    if (raw_word(s) == WORD_once) {
         raw_take(s);
         to->deprecated_once = true;
     }
-    if (raw_peek(s).kind == TOK_STRING) {
+    if (raw_kind(s) == TOK_STRING) {
         struct token t = raw_take(s);
         struct ast *text = ast_new(s->nodes, AST_STRING, t.where);
         text->text = t.text;
@@ -43,7 +43,7 @@ static void read_deprecated(struct stream *s, struct lvalue *to)
 static void skip_declaration(struct stream *s)
 {
     for (;;) {
-        int kind = raw_peek(s).kind;
+        int kind = raw_kind(s);
         if (kind == TOK_END || kind == '#' || kind == '{' || kind == '}')
             return;
         raw_take(s);
@@ -55,16 +55,16 @@ static void skip_declaration(struct stream *s)
 // Whether an `array` word is the right side, after an #if or macro may have made it.
 static bool next_is_array(struct stream *s)
 {
-    if (raw_peek(s).kind == '#')
+    if (raw_kind(s) == '#')
         stream_give_back(s, stream_next(s));
-    return raw_peek(s).kind == TOK_ARRAY;
+    return raw_kind(s) == TOK_ARRAY;
 }
 
 void directive_declare(struct stream *s, struct token word)
 {
     struct lvalue mark = {0}, to;
     const char *directive = word.word == WORD_local ? "#local" : "#declare";
-    if (raw_peek(s).word == WORD_deprecated) {
+    if (raw_word(s) == WORD_deprecated) {
         raw_take(s);
         read_deprecated(s, &mark);
     }
@@ -176,7 +176,7 @@ static bool read_items(struct stream *s, struct token word, struct ast_list *ite
         items->first = parse_run(s, TOK_START_ITEMS, &ok);
         return ok;
     }
-    while (raw_peek(s).kind != ')') {
+    while (raw_kind(s) != ')') {
         struct lvalue place;
         if (!raw_lvalue(s, &place, "#read"))
             return false;

@@ -47,7 +47,63 @@ static bool completes(const struct parse *p, int kind)
 {
     return kind == TOK_NUMBER || kind == TOK_STRING || kind == TOK_NAME ||
            kind == TOK_STRING_NAME || kind == TOK_OTHER_NAME || kind == TOK_CONSTANT ||
-           kind == ')' || kind == ']' || kind == '>' || kind == '}' || p->after_period;
+           kind == TOK_VECTOR3 || kind == ')' || kind == ']' || kind == '>' ||
+           kind == '}' || p->after_period;
+}
+
+struct ast *parse_calculated(struct stream *s, struct span where,
+                             const struct calc_result *r)
+{
+    struct ast *n = ast_new(s->nodes, r->width == 1 ? AST_NUMBER : AST_VALUE, where);
+    if (r->width == 1)
+        n->number = r->number;
+    else if (r->width)
+        n->value = r->value;
+    else
+        n->op = OP_FAILED;
+    return n;
+}
+
+// Whether an expression can begin with the next token, and belong to none before it.
+static bool expression_begins(const struct parse *p)
+{
+    int last = p->now.kind, next = raw_kind(p->in);
+    if (last == '+' || last == '-' || last == '*' || last == '/' || last == '!' ||
+        last == '.' || (last == 0 && p->start == TOK_START_STATEMENT))
+        return false;
+    switch (next) {
+    case TOK_NUMBER: case TOK_NAME: case TOK_CONSTANT: case TOK_WORD: return true;
+    case TOK_VECTOR3: case '<': case '-': case '+': case '!': return !p->operand;
+    case '(':
+        return last == 0 || last == ',' || last == TOK_WORD || last == TOK_RGB ||
+               last == TOK_COLOR || last == TOK_PART;
+    default: return false;
+    }
+}
+
+// Takes a whole expression as if it were one number or vector.
+static bool take_calculated(struct parse *p, struct token *t)
+{
+    struct calc_result r;
+    struct stream *s = p->in;
+    if (!s->host.calculate || s->pending_set || !expression_begins(p))
+        return false;
+    struct token first = raw_peek(s);
+    enum calc_outcome outcome = stream_calculate(s, CALC_ITEM, false, &r);
+    if (outcome == CALC_NONE)
+        return false;
+    *t = first;
+    t->kind = TOK_NAME;
+    t->word = WORD_NONE;
+    t->len = 0; // its text is no name
+    t->value = NULL;
+    if (outcome == CALC_DONE && r.width == 1) {
+        t->kind = TOK_NUMBER;
+        t->number = r.number;
+    } else if (outcome == CALC_DONE) {
+        t->value = r.value;
+    }
+    return true;
 }
 
 int parse_token(struct parse *p, struct token *out)
@@ -61,10 +117,10 @@ int parse_token(struct parse *p, struct token *out)
     struct stream *s = p->in;
     bool end_possible = p->bounded && p->operand && p->nest == 0 && p->vectors == 0;
     struct token t;
-    if (end_possible && raw_peek(s).kind == '#' && !directive_continues(s)) {
+    if (end_possible && raw_kind(s) == '#' && !directive_continues(s)) {
         t = raw_peek(s);
         t.kind = TOK_STOP;
-    } else {
+    } else if (end_possible || p->function || !take_calculated(p, &t)) {
         t = stream_next(s);
         if (end_possible && !continues(p, t.kind)) {
             stream_give_back(s, t);
@@ -170,12 +226,12 @@ void parse_missing_semicolon(struct parse *p, const struct ast *value)
         return;
     struct span where = p->last.where;
     where.begin = where.end > where.begin ? where.end - 1 : where.end;
-    bool compares = p->now.where.file == p->last.where.file && raw_peek(p->in).kind == '<';
+    bool compares = p->now.where.file == p->last.where.file && raw_kind(p->in) == '<';
     const char *hint = compares ? "a comparison here needs parentheses around it" : NULL;
     enum diag_code code = p->in->version < 3.5 ? DIAG_OLD_SEMICOLON : DIAG_SEMICOLON;
     diag_hint(p->in->diags, code, where, hint, 0);
-    while (compares && raw_peek(p->in).kind != TOK_END && raw_peek(p->in).kind != '#' &&
-           raw_peek(p->in).kind != '}')
+    while (compares && raw_kind(p->in) != TOK_END && raw_kind(p->in) != '#' &&
+           raw_kind(p->in) != '}')
         if (raw_take(p->in).kind == ';')
             return;
 }
@@ -189,6 +245,12 @@ static const char *token_text(struct parse *p, const struct token *t)
         return "a number";
     case TOK_STRING:
         return "a string";
+    case TOK_VECTOR3:
+        return "a vector";
+    case TOK_NAME:
+        if (!t->len)
+            return "an expression";
+        // fallthrough
     default:
         return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
     }
@@ -232,7 +294,7 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
         return;
     p->failed = true;
     const struct token *t = &p->now, *last = &p->last;
-    if (t->kind == '{' && last->kind == TOK_NAME && !last->value) {
+    if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
         report_unknown_word(s, last);
         return;
     }

@@ -47,6 +47,10 @@ enum {
 // `result` may also be NULL for an empty list: then *ok says.
 struct ast *parse_run(struct stream *in, int start, bool *ok);
 
+// The node of a calculation's result.
+struct ast *parse_calculated(struct stream *s, struct span where,
+                             const struct calc_result *r);
+
 // For the grammar's actions.
 struct diag_sink *stream_diags(struct stream *s);
 void parse_open(struct parse *p, enum word word, bool entry, struct span where);

@@ -39,8 +39,10 @@ void stream_free(struct stream *s)
 {
     if (!s)
         return;
-    for (uint32_t i = 0; i < s->lexed_count; i++)
+    for (uint32_t i = 0; i < s->lexed_count; i++) {
         free(s->lexed[i].tokens);
+        free(s->lexed[i].slots);
+    }
     free(s->lexed);
     free(s->cursors);
     free(s->frames);
@@ -70,7 +72,11 @@ static const struct lexed *lex_once(struct stream *s, uint32_t file)
     s->lexed = stream_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
     struct lexed *l = &s->lexed[s->lexed_count++];
     l->file = file;
-    l->tokens = lex_file(s->sources, file, s->diags, &l->count);
+    struct arena *vectors = s->host.calculate ? s->arena : NULL;
+    l->tokens = lex_file(s->sources, file, s->diags, vectors, &l->count);
+    l->slots = calloc(l->count + 1, sizeof *l->slots);
+    if (!l->slots)
+        abort();
     return l;
 }
 
@@ -80,7 +86,7 @@ void stream_push_file(struct stream *s, uint32_t file)
     s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
                              sizeof *s->cursors);
     s->cursors[s->cursor_count++] =
-        (struct cursor){.tokens = l->tokens, .count = l->count, .frames = s->frame_count};
+        (struct cursor){.tokens = l->tokens, .slots = l->slots, .count = l->count, .frames = s->frame_count};
     s->includes++;
 }
 
@@ -115,6 +121,8 @@ void stream_give_back(struct stream *s, struct token t)
 // Leaves texts that are read to their end, except the main file.
 static void pop_finished(struct stream *s)
 {
+    if (s->cursors[s->cursor_count - 1].at < s->cursors[s->cursor_count - 1].count)
+        return;
     while (s->cursor_count > 1) {
         struct cursor *c = &s->cursors[s->cursor_count - 1];
         if (c->at < c->count)
@@ -129,13 +137,17 @@ static void pop_finished(struct stream *s)
     }
 }
 
+// Member by member: the copy is then made of what is at hand, without a second look.
 static struct token at(const struct cursor *c, uint32_t i)
 {
-    struct token t = c->tokens[i];
-    if (i >= c->count)
-        t.kind = TOK_END;
-    t.where.expansion = c->expansion;
-    return t;
+    const struct token *t = &c->tokens[i];
+    return (struct token){.kind = i >= c->count ? TOK_END : t->kind,
+                          .where = {t->where.file, t->where.begin, t->where.end,
+                                    c->expansion},
+                          .word = t->word,
+                          .len = t->len,
+                          .text = t->text,
+                          .number = t->number};
 }
 
 // What comes next, looking through the ends of macro bodies and includes.
@@ -151,6 +163,13 @@ static struct token peek(const struct stream *s, uint32_t skip)
             skip -= c->count - c->at;
     }
     return (struct token){0};
+}
+
+// The kind of what comes after the token in hand.
+static int next_kind(const struct stream *s)
+{
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    return c->at < c->count ? c->tokens[c->at].kind : peek(s, 0).kind;
 }
 
 static bool is_name(int kind)
@@ -171,6 +190,22 @@ struct token raw_peek(struct stream *s)
     return s->pending_set ? uncooked(s->pending) : peek(s, 0);
 }
 
+int raw_kind(struct stream *s)
+{
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    if (!s->pending_set && c->at < c->count)
+        return c->tokens[c->at].kind;
+    return raw_peek(s).kind;
+}
+
+enum word raw_word(struct stream *s)
+{
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    if (!s->pending_set && c->at < c->count)
+        return (enum word)c->tokens[c->at].word;
+    return (enum word)raw_peek(s).word;
+}
+
 struct token raw_peek_second(struct stream *s)
 {
     return peek(s, s->pending_set ? 0 : 1);
@@ -184,16 +219,51 @@ struct token raw_take(struct stream *s)
     }
     pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
-    struct token t = at(c, c->at);
+    uint32_t i = c->at;
     s->steps++;
-    if (c->at < c->count)
-        c->at++;
-    return t;
+    c->at += i < c->count;
+    return at(c, i);
+}
+
+// Whether what comes after a text might go on with the expression that ends it.
+static bool may_go_on_after(const struct stream *s, const struct cursor *c)
+{
+    if (c == &s->cursors[0])
+        return false;
+    switch (peek(s, c->count - c->at).kind) {
+    case ',': case '}': case '>': case ')': case ';': case ']': case TOK_WORD: return false;
+    default: return true;
+    }
+}
+
+enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool local,
+                                   struct calc_result *out)
+{
+    if (!s->host.calculate || s->pending_set || s->stopped || diag_full(s->diags))
+        return CALC_NONE;
+    pop_finished(s);
+    struct cursor *c = &s->cursors[s->cursor_count - 1];
+    struct calc_place at = {.kind = kind,
+                            .local = local,
+                            .goes_on = kind == CALC_ITEM && may_go_on_after(s, c),
+                            .tokens = c->tokens + c->at,
+                            .count = c->count - c->at,
+                            .slot = c->slots + c->at};
+    if (!at.count)
+        return CALC_NONE;
+    at.where = at.tokens[0].where;
+    at.where.expansion = c->expansion;
+    enum calc_outcome outcome = s->host.calculate(s->host.user, &at, out);
+    if (outcome != CALC_NONE) {
+        c->at += out->used;
+        s->steps += out->used;
+    }
+    return outcome;
 }
 
 bool raw_take_if(struct stream *s, int kind)
 {
-    if (raw_peek(s).kind != kind)
+    if (raw_kind(s) != kind)
         return false;
     raw_take(s);
     return true;
@@ -252,7 +322,7 @@ static struct token defined(struct stream *s, struct token t)
     struct token number = t;
     number.kind = TOK_NUMBER;
     number.word = WORD_NONE;
-    if (raw_peek(s).word != WORD_NONE && raw_peek_second(s).kind == ')') {
+    if (raw_word(s) != WORD_NONE && raw_peek_second(s).kind == ')') {
         raw_take(s);
         number.number = 0;
     } else if (raw_lvalue(s, &name, "defined")) {
@@ -304,10 +374,10 @@ static bool bind_name(struct stream *s, struct token *t)
         t->kind = TOK_STRING_NAME;
         break;
     case NAME_FUNCTION:
-        t->kind = peek(s, 0).kind == '(' ? TOK_FUNCTION_NAME : TOK_OTHER_NAME;
+        t->kind = next_kind(s) == '(' ? TOK_FUNCTION_NAME : TOK_OTHER_NAME;
         break;
     case NAME_ARRAY:
-        t->kind = peek(s, 0).kind == '[' ? TOK_ARRAY_NAME : TOK_OTHER_NAME;
+        t->kind = next_kind(s) == '[' ? TOK_ARRAY_NAME : TOK_OTHER_NAME;
         break;
     case NAME_OBJECT:
     case NAME_BLOCK:
@@ -353,11 +423,11 @@ struct token stream_next(struct stream *s)
             arena_rewind(s->nodes, mark);
             continue;
         }
-        if (t.kind == TOK_WORD && peek(s, 0).kind == '(') {
+        if (t.kind == TOK_WORD && next_kind(s) == '(') {
             if (t.word == WORD_defined)
                 return defined(s, t);
             t.kind = call_token((enum word)t.word);
-        } else if (t.kind == ']' && peek(s, 0).kind == '[') {
+        } else if (t.kind == ']' && next_kind(s) == '[') {
             t.kind = TOK_MORE;
         } else if (t.kind == TOK_NAME && !bind_name(s, &t)) {
             continue;
@@ -377,7 +447,7 @@ void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t fi
     (void)a;
     const struct source_file *f = sources->file[file];
     uint32_t count;
-    struct token *tokens = lex_file(sources, file, diags, &count);
+    struct token *tokens = lex_file(sources, file, diags, NULL, &count);
     for (uint32_t i = 0; i < count; i++) {
         const struct token *t = &tokens[i];
         uint32_t line = source_line(f, t->where.begin);

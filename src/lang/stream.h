@@ -51,6 +51,37 @@ struct macro_argument {
     const struct ast *rvalue; // list of items when not by reference
 };
 
+// Where an expression may be taken straight from tokens instead of through the grammar.
+enum calc_kind {
+    CALC_ITEM,       // a number or vector among the items of a block
+    CALC_ARGUMENT,   // of a macro, to its ',' or ')'
+    CALC_CONDITION,  // in parentheses
+    CALC_ASSIGNMENT, // NAME = value ;
+};
+
+struct calc_place {
+    enum calc_kind kind;
+    bool local;   // CALC_ASSIGNMENT: #local
+    bool goes_on; // what follows the end of these tokens may belong to the expression
+    const struct token *tokens;
+    uint32_t count;
+    uint32_t *slot;    // the host's, 0 at first: what it knows of this place
+    struct span where; // file and expansion of the tokens
+};
+
+struct calc_result {
+    uint32_t used; // tokens
+    int width;     // 0: failed
+    double number;             // width 1
+    const struct value *value; // wider
+};
+
+enum calc_outcome {
+    CALC_NONE, // left to the grammar: nothing has happened
+    CALC_DONE,
+    CALC_FAILED, // and reported; `used` tokens belong to it all the same
+};
+
 // How the stream asks for the worth of expressions and where names are kept;
 // eval/ fills it in, so that lang/ need not know eval/. All report their own
 // errors; false or NULL means the statement had an error and was dropped. Nodes
@@ -71,6 +102,9 @@ struct stream_host {
     bool (*declare_number)(void *user, const struct lvalue *to, double v); // #for
     bool (*declare_array)(void *user, const struct lvalue *to, const struct ast *sizes,
                           const struct ast *elements); // elements: nested AST_ENTRY or NULL
+    // The short way for what is simple; NULL: everything goes through the grammar.
+    enum calc_outcome (*calculate)(void *user, const struct calc_place *at,
+                                   struct calc_result *out);
     bool (*undef)(void *user, const struct lvalue *name);
     bool (*define_macro)(void *user, const char *name, size_t len, struct span where,
                          void *macro);

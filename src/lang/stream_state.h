@@ -17,6 +17,7 @@ struct macro {
     const char *name; // terminated
     struct span where;
     const struct token *body; // count tokens
+    uint32_t *slots;          // ... and calc_place.slot of each
     uint32_t count;
     const struct token *parameter[PARAMETERS_MAX];
     int parameter_count;
@@ -25,6 +26,7 @@ struct macro {
 // Where tokens come from: a file, or the body of a macro being called.
 struct cursor {
     const struct token *tokens;
+    uint32_t *slots; // calc_place.slot of each token
     uint32_t at, count;
     uint32_t expansion;
     uint32_t frames; // frames open when it began
@@ -48,6 +50,7 @@ struct frame {
 struct lexed {
     uint32_t file;
     struct token *tokens;
+    uint32_t *slots;
     uint32_t count;
 };
 
@@ -66,7 +69,7 @@ struct stream {
     bool pending_set;
     struct token pending; // given back by the parser
     struct arena_mark statement;
-    int runs;        // of the grammar, inside each other
+    int runs; // of the grammar, inside each other
     double version;
     uint64_t steps; // tokens taken, those of loops and macros each time anew
     bool stopped;
@@ -82,6 +85,8 @@ void stream_give_back(struct stream *s, struct token t);
 
 // Below the directives: the very next token, and taking it.
 struct token raw_peek(struct stream *s);
+int raw_kind(struct stream *s);                 // of raw_peek
+enum word raw_word(struct stream *s);           // likewise
 struct token raw_peek_second(struct stream *s); // the one after, in the same text
 struct token raw_take(struct stream *s);
 bool raw_take_if(struct stream *s, int kind);
@@ -89,6 +94,10 @@ bool raw_expect(struct stream *s, int kind, const char *what, const char *where)
 bool raw_expect_name(struct stream *s, struct token *name, const char *where);
 // A name and its subscripts; they live in s->nodes.
 bool raw_lvalue(struct stream *s, struct lvalue *out, const char *where);
+
+// Tries to take what comes next the short way (stream_host.calculate).
+enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool local,
+                                   struct calc_result *out);
 
 void directive_run(struct stream *s, struct token hash);
 void directive_end_of_cursor(struct stream *s, struct cursor *c);

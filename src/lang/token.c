@@ -48,3 +48,32 @@ enum word word_find(const char *text, size_t len)
     }
     return WORD_NONE;
 }
+
+static uint32_t word_hash(const char *text, size_t len)
+{
+    uint32_t h = 2166136261u; // FNV-1a
+    for (size_t i = 0; i < len; i++)
+        h = (h ^ (unsigned char)text[i]) * 16777619u;
+    return (h ^ h >> 15) % 2048;
+}
+
+void word_table_init(struct word_table *t)
+{
+    *t = (struct word_table){0};
+    for (int w = 1; w < WORD_COUNT; w++) {
+        uint32_t at = word_hash(texts[w], strlen(texts[w]));
+        while (t->word[at])
+            at = (at + 1) % 2048;
+        t->word[at] = (uint16_t)w;
+    }
+}
+
+enum word word_table_find(const struct word_table *t, const char *text, size_t len)
+{
+    for (uint32_t at = word_hash(text, len); t->word[at]; at = (at + 1) % 2048) {
+        const char *word = texts[t->word[at]];
+        if (strncmp(word, text, len) == 0 && word[len] == 0)
+            return (enum word)t->word[at];
+    }
+    return WORD_NONE;
+}

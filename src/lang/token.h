@@ -16,7 +16,10 @@ struct token {
     uint16_t word;
     uint16_t len;
     const char *text; // points into the source; not terminated
-    double number;
+    union {
+        double number;
+        const double *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
+    };
     const struct value *value; // a declared name, when read by the stream: its value
 };
 
@@ -66,6 +69,12 @@ enum word_class {
 const char *word_text(enum word w);
 enum word_class word_class(enum word w);
 enum word word_find(const char *text, size_t len); // WORD_NONE: not reserved
+// The same for those who ask often: a hash table, made by word_table_init.
+struct word_table {
+    uint16_t word[2048];
+};
+void word_table_init(struct word_table *t);
+enum word word_table_find(const struct word_table *t, const char *text, size_t len);
 const char *const *word_list(void);                // WORD_COUNT - 1 texts, sorted
 
 #endif
