@@ -67,6 +67,7 @@ static void keep_stats(struct lambert_context *ctx, const struct render_stats *r
     s->node_visits = r->trace.node_visits;
     s->leaf_tests = r->trace.leaf_tests;
     s->csg_tests = r->trace.csg_tests;
+    s->function_evaluations = r->trace.evaluations;
     s->tiles_done = r->tiles_done;
     s->tiles_total = r->tiles_total;
     struct rusage usage;

@@ -14,8 +14,18 @@ struct block {
 
 enum { BLOCK_MAX = 16 << 20 }; // blocks double up to this size
 
+// In the arena itself, so that a record goes with the memory it was made for.
+struct ending {
+    void (*done)(void *data);
+    void *data;
+    struct ending *prev;
+    struct block *block;
+    size_t used; // of the block, before the record
+};
+
 struct arena {
     struct block *head;
+    struct ending *last;
     size_t size; // of all blocks
 };
 
@@ -38,15 +48,25 @@ struct arena *arena_new(size_t first_block)
     struct arena *a = malloc(sizeof *a);
     if (!a)
         abort();
+    a->last = NULL;
     a->head = block_new(NULL, first_block);
     a->size = a->head->size;
     return a;
+}
+
+static void end_last(struct arena *a)
+{
+    struct ending *e = a->last;
+    a->last = e->prev;
+    e->done(e->data);
 }
 
 void arena_free(struct arena *a)
 {
     if (!a)
         return;
+    while (a->last)
+        end_last(a);
     for (struct block *b = a->head, *prev; b; b = prev) {
         prev = b->prev;
         free(b);
@@ -59,6 +79,8 @@ size_t arena_size(const struct arena *a) { return a->size; }
 static void drop_head(struct arena *a)
 {
     struct block *b = a->head;
+    while (a->last && a->last->block == b)
+        end_last(a);
     a->head = b->prev;
     a->size -= b->size;
     free(b);
@@ -68,6 +90,8 @@ void arena_reset(struct arena *a)
 {
     while (a->head->prev)
         drop_head(a);
+    while (a->last)
+        end_last(a);
     a->head->used = 0;
 }
 
@@ -80,6 +104,8 @@ void arena_rewind(struct arena *a, struct arena_mark mark)
 {
     while (a->head != mark.block)
         drop_head(a);
+    while (a->last && a->last->block == a->head && a->last->used >= mark.used)
+        end_last(a);
     a->head->used = mark.used;
 }
 
@@ -107,6 +133,14 @@ void *arena_alloc(struct arena *a, size_t size)
 void *arena_alloc_aligned(struct arena *a, size_t size, size_t align)
 {
     return alloc(a, size, align);
+}
+
+void arena_at_end(struct arena *a, void (*done)(void *data), void *data)
+{
+    struct ending *e = arena_alloc(a, sizeof *e);
+    *e = (struct ending){done, data, a->last, a->head,
+                         (size_t)((unsigned char *)e - a->head->data)};
+    a->last = e;
 }
 
 char *arena_strndup(struct arena *a, const char *s, size_t len)

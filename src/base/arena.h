@@ -30,6 +30,10 @@ char *arena_strndup(struct arena *a, const char *s, size_t len);
 char *arena_printf(struct arena *a, const char *fmt, ...)
     __attribute__((format(printf, 2, 3)));
 
+// Calls done(data) when the memory is freed that was current at the call: for what in an
+// arena holds on to something else.
+void arena_at_end(struct arena *a, void (*done)(void *data), void *data);
+
 #define arena_new_struct(a, type) ((type *)arena_alloc((a), sizeof(type)))
 #define arena_new_array(a, type, n) ((type *)arena_alloc((a), (n) * sizeof(type)))
 

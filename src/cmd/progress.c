@@ -125,6 +125,8 @@ static void print_json(struct cmd *c, FILE *out, const struct lambert_stats *s,
     fprintf(out, ",\"node_visits\":%llu,\"leaf_tests\":%llu,\"csg_tests\":%llu",
             (unsigned long long)s->node_visits, (unsigned long long)s->leaf_tests,
             (unsigned long long)s->csg_tests);
+    fprintf(out, ",\"function_evaluations\":%llu",
+            (unsigned long long)s->function_evaluations);
     fprintf(out, ",\"tiles_done\":%u,\"tiles_total\":%u,\"objects\":%u,\"leaves\":%u",
             s->tiles_done, s->tiles_total, s->objects, s->leaves);
     fprintf(out, ",\"lights\":%u,\"memory_peak\":%llu,\"warnings\":%u}\n", s->lights,
@@ -151,5 +153,9 @@ void stats_print(struct cmd *c, FILE *out, bool json, const char *picture)
     fprintf(out, "\nnode visits %llu, shape tests %llu, CSG tests %llu\n",
             (unsigned long long)s.node_visits, (unsigned long long)s.leaf_tests,
             (unsigned long long)s.csg_tests);
+    if (s.function_evaluations)
+        fprintf(out, "function evaluations for surfaces %llu (%.3g a ray)\n",
+                (unsigned long long)s.function_evaluations,
+                (double)s.function_evaluations / rays);
     fprintf(out, "memory at most %.1f MB\n", (double)s.memory_peak / 1048576);
 }

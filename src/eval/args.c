@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "eval/function.h"
+
 // The readers that shapes use (scene/args.h). Numbers and vectors written out are
 // taken straight from the AST: a mesh has millions of them.
 
@@ -204,6 +206,16 @@ const struct texture *args_texture(struct args *a)
 bool args_at_texture(struct args *a)
 {
     return args_at_value(a, VALUE_TEXTURE) || args_at_block(a) == WORD_texture;
+const struct tape *args_function(struct args *a, const char *role)
+{
+    if (args_at_block(a) != WORD_function) {
+        expected(a, role, "function { } block");
+        return NULL;
+    }
+    const struct tape *t = function_expression(a->b->e, args_next(a));
+    if (!t)
+        args_fail(a);
+    return t;
 }
 
 bool args_end(struct args *a)

@@ -44,6 +44,9 @@ struct args *args_call(struct args *a, const char *word);
 // texture.
 const struct texture *args_texture(struct args *a);
 bool args_at_texture(struct args *a);
+// The block `function { expression in x, y, z }`, which must be next; NULL after an error.
+struct tape;
+const struct tape *args_function(struct args *a, const char *role);
 bool args_end(struct args *a); // nothing is left (or only object modifiers)
 
 // Reports `message` at the block; the shape is then dropped. / A warning only.

@@ -1,6 +1,7 @@
 #ifndef SCENE_BOUNDARY_H
 #define SCENE_BOUNDARY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // What a ray meets at one t of one leaf. A solid's crossings toggle inside and
@@ -26,6 +27,9 @@ struct boundary {
 struct boundary_list {
     struct boundary *at;
     uint32_t count, capacity;
+    bool first_only; // by the caller: what lies beyond the first drawn crossing with
+                     // t_min < t < t_max of the ray need not be found
+    uint64_t evaluations; // of functions, added up by shapes that are made of them
 };
 
 // The new entry, zeroed but for drawn = 1.

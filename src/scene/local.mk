@@ -4,6 +4,8 @@ liblambert_a_SOURCES += \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shapes.def %D%/texture.h \
 	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
+	%D%/shapes/container.c %D%/shapes/container.h %D%/shapes/isosurface.c \
+	%D%/shapes/isosurface.h %D%/shapes/isosurface_tree.c %D%/shapes/isosurface_walk.c \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
 	%D%/heights.h %D%/shapes/height_field.c %D%/shapes/height_field.h %D%/shapes/julia.h %D%/shapes/julia_fractal.c %D%/shapes/julia_iterate.c \
 	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \
@@ -15,7 +17,7 @@ liblambert_a_SOURCES += \
 # functions
 liblambert_a_SOURCES += \
 	%D%/tape.def %D%/tape.h %D%/tape_bounds.c %D%/tape_build.c %D%/tape_build.h \
-	%D%/tape_run.c %D%/tape_steps.h
+	%D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \
 	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "math/interval.h"
 #include "math/vec.h"
@@ -49,6 +50,9 @@ struct interval tape_bounds(const struct tape *t, const struct interval *argumen
 struct tape_slope tape_bounds_slope(const struct tape *t,
                                     const struct tape_slope *argument, int directions);
 double tape_at(const void *tape, struct vec3 p); // of x, y, z; as pattern.function wants
+
+// As an expression of the scene language.
+void tape_print(const struct tape *t, FILE *out);
 
 // A function in C that a tape calls. `bounds` fills out and, if partial is not NULL,
 // partial[i * arguments + k] = d out[i] / d in[k]; NULL: nothing is known. `expand`

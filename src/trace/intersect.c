@@ -39,8 +39,9 @@ void trace_scratch_free(struct trace_scratch *s)
     free(s);
 }
 
-const struct trace_stats *trace_scratch_stats(const struct trace_scratch *s)
+const struct trace_stats *trace_scratch_stats(struct trace_scratch *s)
 {
+    s->stats.evaluations = s->crossings.evaluations;
     return &s->stats;
 }
 
@@ -130,7 +131,9 @@ static bool single_leaf(const struct world *w, struct trace_scratch *s,
         return l->ops->closest(l->shape, &local, out);
     }
     s->crossings.count = 0;
+    s->crossings.first_only = true;
     leaf_crossings(w, o->first_leaf, ray, &s->crossings);
+    s->crossings.first_only = false;
     for (uint32_t i = 0; i < s->crossings.count; i++) {
         const struct boundary *b = &s->crossings.at[i];
         if (b->drawn && b->t > ray->t_min && b->t < ray->t_max) {

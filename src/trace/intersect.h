@@ -26,8 +26,9 @@ void trace_scratch_free(struct trace_scratch *s);
 // Counters of a thread, added up for --stats.
 struct trace_stats {
     uint64_t rays, shadow_rays, node_visits, leaf_tests, csg_tests;
+    uint64_t evaluations; // of functions, to find surfaces
 };
-const struct trace_stats *trace_scratch_stats(const struct trace_scratch *s);
+const struct trace_stats *trace_scratch_stats(struct trace_scratch *s);
 
 // Rays in structure-of-arrays form, for packets. Capacity is a multiple of 8;
 // entries past count are ignored. All arrays 64-byte aligned.

@@ -60,6 +60,7 @@ static void stats_add(struct render_stats *to, const struct tracer *t)
     to->trace.node_visits += s->node_visits;
     to->trace.leaf_tests += s->leaf_tests;
     to->trace.csg_tests += s->csg_tests;
+    to->trace.evaluations += s->evaluations;
     to->samples += t->samples;
 }
 

@@ -335,7 +335,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     struct boundary room[2];
-    struct boundary_list l = {room, 0, 2};
+    struct boundary_list l = {.at = room, .capacity = 2};
     struct height_walk w = walk_of(shape, ray, &l);
     w.first_only = true;
     w.t_min = ray->t_min;

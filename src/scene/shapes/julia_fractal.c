@@ -196,7 +196,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     struct boundary room[2];
-    struct boundary_list l = {room, 0, 2};
+    struct boundary_list l = {.at = room, .capacity = 2};
     march(shape, ray, 1, &l);
     if (l.count == 0 || !(room[0].t > ray->t_min && room[0].t < ray->t_max))
         return false;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "eval/formula.h"
 #include "math/transform.h"
 #include "scene/args.h"
 #include "scene/heights.h"
@@ -145,6 +146,18 @@ struct args *args_call(struct args *a, const char *word)
     struct args *inner = fake_args_new(a->arena, a->diags, text);
     inner->parent = a;
     return inner;
+}
+
+const struct tape *args_function(struct args *a, const char *role)
+{
+    (void)role;
+    struct args *in = args_block(a, "function");
+    if (!in)
+        return NULL;
+    struct tape_builder *b = tape_builder_new(a->arena);
+    const uint32_t at[] = {tape_argument(b, 0), tape_argument(b, 1), tape_argument(b, 2)};
+    const uint32_t out = formula_build(b, in->at, at, NULL);
+    return tape_finish(b, a->arena, 3, &out, 1);
 }
 
 bool args_end(struct args *a) { return !*blank(a->at); }

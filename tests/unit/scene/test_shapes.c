@@ -79,6 +79,12 @@ static const struct sample samples[] = {
                       "<.3,0,0>, <.3,0,.2>, <.2,0,.3>, <0,0,.3>, "
                       "<.6,0,0>, <.6,.1,.4>, <.4,0,.6>, <0,0,.6>, "
                       "<.9,0,0>, <.9,0,.6>, <.6,0,.9>, <0,0,.9>"},
+    {"isosurface", "function { x * x + y * y + z * z - 0.8 }"},
+    {"isosurface", "function { square(sqrt(x * x + z * z) - 0.7) + y * y - 0.04 }"},
+    {"isosurface", "function { sin(6 * x) * cos(6 * y) + sin(6 * y) * cos(6 * z) + sin(6 * "
+                   "z) * cos(6 * x) } contained_by { sphere { <0, 0, 0>, 1 } }"},
+    {"isosurface", "function { larger(fabs(x), larger(fabs(y), fabs(z))) - 0.7 }"},
+    {"isosurface", "function { y - 0.25 * sin(4 * x) } open"},
     {"text", NULL}, // needs a font file
 };
 

@@ -1,0 +1,167 @@
+// The cells of an isosurface's container (isosurface.h).
+#include <float.h>
+#include <stdlib.h>
+
+#include "base/arena.h"
+#include "scene/shapes/isosurface.h"
+
+enum {
+    DEPTH_MAX = 6,    // 64 cells along an axis
+    DEPTH_SMOOTH = 4, // enough where the gradient hardly turns
+};
+
+// The gradient hardly turns in a cell whose bounds of it are this much smaller than itself.
+static const double SMOOTH = 0.35;
+// Slopes between samples of an opaque function are taken to be this much too small.
+static const double SAMPLE_MARGIN = 1.25;
+// Cells are widened by this share of their size's order: points on a ray are rounded.
+static const double WIDENED = 0x1p-38;
+
+static void free_cells(struct iso_cell *c)
+{
+    for (int i = 0; c && i < 8; i++)
+        free_cells(atomic_load_explicit(&c[i].child, memory_order_relaxed));
+    free(c);
+}
+
+static void free_tree(void *root)
+{
+    struct iso_cell *c = root;
+    free_cells(atomic_load_explicit(&c->child, memory_order_relaxed));
+}
+
+struct iso_cell *iso_tree_new(struct arena *a)
+{
+    struct iso_cell *root = arena_new_struct(a, struct iso_cell);
+    root->kind = CELL_BRANCH;
+    arena_at_end(a, free_tree, root);
+    return root;
+}
+
+struct aabb iso_child_box(const struct aabb *box, const struct vec3 *m, int octant)
+{
+    struct aabb b = *box;
+    *(octant & 1 ? &b.min.x : &b.max.x) = m->x;
+    *(octant & 2 ? &b.min.y : &b.max.y) = m->y;
+    *(octant & 4 ? &b.min.z : &b.max.z) = m->z;
+    return b;
+}
+
+static struct interval side(double lo, double hi, double slack)
+{
+    return interval(lo - slack, hi + slack);
+}
+
+static float rounded_down(double v) { return nextafterf((float)v, -INFINITY); }
+static float rounded_up(double v) { return nextafterf((float)v, INFINITY); }
+
+// Whether the gradient points one way, more or less.
+static bool is_smooth(const struct interval *d)
+{
+    double size = 0, spread = 0;
+    for (int i = 0; i < 3; i++) {
+        const double m = interval_middle(d[i]), w = 0.5 * interval_width(d[i]);
+        if (!(w < INFINITY))
+            return false;
+        size += m * m;
+        spread += w * w;
+    }
+    return spread < SMOOTH * SMOOTH * size;
+}
+
+// By bounds of the function and of its gradient.
+static void look(const struct isosurface *s, struct iso_cell *c, const struct aabb *b,
+                 double slack, int depth)
+{
+    struct tape_slope in[3] = {{.v = side(b->min.x, b->max.x, slack)},
+                               {.v = side(b->min.y, b->max.y, slack)},
+                               {.v = side(b->min.z, b->max.z, slack)}};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            in[i].d[k] = interval_point(i == k);
+    const struct tape_slope r = tape_bounds_slope(s->f, in, 3);
+    struct interval v = interval_subtract(r.v, interval_point(s->threshold));
+    if (!(v.lo > 0 || v.hi <= 0)) {
+        // The mean value form: the value in the middle and the way to the farthest point.
+        const struct interval middle[3] = {interval_point(interval_middle(in[0].v)),
+                                           interval_point(interval_middle(in[1].v)),
+                                           interval_point(interval_middle(in[2].v))};
+        struct interval m =
+            interval_subtract(tape_bounds(s->f, middle), interval_point(s->threshold));
+        for (int i = 0; i < 3; i++)
+            m = interval_add(
+                m, interval_multiply(r.d[i], interval_subtract(in[i].v, middle[i])));
+        v = interval(fmax(v.lo, m.lo), fmin(v.hi, m.hi));
+    }
+    for (int i = 0; i < 3; i++) {
+        c->slope[i][0] = rounded_down(r.d[i].lo);
+        c->slope[i][1] = rounded_up(r.d[i].hi);
+    }
+    if (v.lo > 0)
+        c->kind = CELL_OUTSIDE;
+    else if (v.hi <= 0)
+        c->kind = CELL_INSIDE;
+    else
+        c->kind = depth >= DEPTH_MAX || (depth >= DEPTH_SMOOTH && is_smooth(r.d))
+                      ? CELL_LEAF
+                      : CELL_BRANCH;
+}
+
+// By samples: the middle and the corners, and a slope that is at least max_gradient and
+// at least what the samples show.
+static void sample(const struct isosurface *s, struct iso_cell *c, const struct aabb *b,
+                   int depth)
+{
+    double at[3][TAPE_LANES], v[1][TAPE_LANES];
+    for (int l = 0; l < TAPE_LANES; l++) {
+        at[0][l] = l & 1 ? b->max.x : b->min.x;
+        at[1][l] = l & 2 ? b->max.y : b->min.y;
+        at[2][l] = l & 4 ? b->max.z : b->min.z;
+    }
+    tape_run_packet(s->f, (const double(*)[TAPE_LANES])at, v);
+    const struct vec3 m = vec3_scale(0.5, vec3_add(b->min, b->max));
+    const double middle = iso_value(s, m),
+                 half = 0.5 * vec3_length(vec3_sub(b->max, b->min));
+    double steepest = s->max_gradient;
+    for (int l = 0; l < TAPE_LANES; l++) {
+        const double slope = fabs(v[0][l] - s->threshold - middle) / half;
+        steepest = fmax(steepest, SAMPLE_MARGIN * slope);
+    }
+    for (int i = 0; i < 3; i++) {
+        c->slope[i][0] = -INFINITY;
+        c->slope[i][1] = INFINITY;
+    }
+    c->steepest = (float)fmin(steepest, FLT_MAX);
+    if (fabs(middle) > steepest * half)
+        c->kind = middle > 0 ? CELL_OUTSIDE : CELL_INSIDE;
+    else
+        c->kind = depth >= DEPTH_MAX ? CELL_LEAF : CELL_BRANCH;
+}
+
+struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
+                              const struct aabb *box, int depth, uint32_t *evaluations)
+{
+    struct iso_cell *c = atomic_load_explicit(&cell->child, memory_order_acquire);
+    if (c)
+        return c;
+    c = calloc(8, sizeof *c);
+    if (!c)
+        abort();
+    const struct vec3 m = vec3_scale(0.5, vec3_add(box->min, box->max));
+    const double slack = WIDENED * vec3_max_abs(vec3_sub(s->bounds.max, s->bounds.min));
+    for (int i = 0; i < 8; i++) {
+        const struct aabb b = iso_child_box(box, &m, i);
+        atomic_init(&c[i].child, NULL);
+        if (tape_is_opaque(s->f))
+            sample(s, &c[i], &b, depth + 1);
+        else
+            look(s, &c[i], &b, slack, depth + 1);
+        *evaluations += tape_is_opaque(s->f) ? 1 + TAPE_LANES : 1;
+    }
+    struct iso_cell *made = NULL;
+    if (atomic_compare_exchange_strong_explicit(
+            &cell->child, &made, c, memory_order_acq_rel, memory_order_acquire))
+        return c;
+    free(c); // another thread was first; what it made is the same
+    return made;
+}
