@@ -122,14 +122,13 @@ static struct interval wave(double (*f)(double), struct interval a, int top, int
 {
     if (!(interval_size(a) < 1e9))
         return interval_size(a) < INFINITY ? interval(-1, 1) : interval_whole();
+    const bool rises = reaches_quarter(a, top), falls = reaches_quarter(a, bottom);
+    if (rises && falls)
+        return interval(-1, 1);
     const double p = f(a.lo), q = f(a.hi);
     struct interval r = interval(p < q ? p : q, p > q ? p : q);
     r = clamped(interval_widened(r.lo, r.hi, INTERVAL_ELEMENTARY), -1, 1);
-    if (reaches_quarter(a, top))
-        r.hi = 1;
-    if (reaches_quarter(a, bottom))
-        r.lo = -1;
-    return r;
+    return interval(falls ? -1 : r.lo, rises ? 1 : r.hi);
 }
 
 struct interval interval_sin(struct interval a) { return wave(det_sin, a, 1, 3); }
@@ -163,9 +162,15 @@ struct interval interval_atan2(struct interval y, struct interval x)
         return interval_whole();
     if (x.lo <= 0 && y.lo <= 0 && y.hi >= 0) // the cut or the origin
         return all;
-    const double p = det_atan2(y.lo, x.lo), q = det_atan2(y.lo, x.hi);
-    const double r = det_atan2(y.hi, x.lo), s = det_atan2(y.hi, x.hi);
-    return interval_widened(fmin(fmin(p, q), fmin(r, s)), fmax(fmax(p, q), fmax(r, s)),
+    // The angle grows with y right of the y axis, with x below the x axis.
+    const double low_y = y.lo >= 0   ? (x.hi > 0 ? y.lo : y.hi)
+                         : y.hi <= 0 ? (x.lo > 0 ? y.lo : y.hi)
+                                     : y.lo;
+    const double high_y = y.lo >= 0   ? (x.lo > 0 ? y.hi : y.lo)
+                          : y.hi <= 0 ? (x.hi > 0 ? y.hi : y.lo)
+                                      : y.hi;
+    const double low_x = low_y >= 0 ? x.hi : x.lo, high_x = high_y >= 0 ? x.lo : x.hi;
+    return interval_widened(det_atan2(low_y, low_x), det_atan2(high_y, high_x),
                             INTERVAL_ELEMENTARY);
 }
 

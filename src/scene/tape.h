@@ -49,6 +49,17 @@ struct interval tape_bounds(const struct tape *t, const struct interval *argumen
 // argument[i].d[k] says how argument i changes with direction k < directions.
 struct tape_slope tape_bounds_slope(const struct tape *t,
                                     const struct tape_slope *argument, int directions);
+// Of eight boxes of x, y, z at once, with the slopes by these if wanted: the bounds hold, as those of
+// tape_bounds_slope, of which they are the same up to a few roundings.
+struct tape_boxes {
+    double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
+};
+struct tape_slopes {
+    double lo[TAPE_LANES], hi[TAPE_LANES];
+    double slope_lo[3][TAPE_LANES], slope_hi[3][TAPE_LANES];
+};
+void tape_bounds_packet(const struct tape *t, const struct tape_boxes *in, bool slopes,
+                        struct tape_slopes *out);
 double tape_at(const void *tape, struct vec3 p); // of x, y, z; as pattern.function wants
 
 // As an expression of the scene language.

@@ -308,18 +308,24 @@ static void extern_bounds(const struct tape_step *s, const struct tape_slope *in
     }
 }
 
+void tape_bounds_call(const struct tape_step *s, const struct tape_slope *in, int n,
+                      struct tape_slope *to)
+{
+    if (s->op == TAPE_EXTERN)
+        extern_bounds(s, in, to, n);
+    else if (s->op == TAPE_CALL)
+        *to = run(s->callee, in, n);
+    else
+        *to = looped(s->callee, s->op == TAPE_PRODUCT, in, s->count, n);
+}
+
 static void called(const struct tape *t, const struct tape_step *s, struct tape_slope *r,
                    int n)
 {
     struct tape_slope in[TAPE_LIST_MAX];
     for (uint32_t i = 0; i < s->count; i++)
         in[i] = r[t->list[s->list + i]];
-    if (s->op == TAPE_EXTERN)
-        extern_bounds(s, in, r + s->to, n);
-    else if (s->op == TAPE_CALL)
-        r[s->to] = run(s->callee, in, n);
-    else
-        r[s->to] = looped(s->callee, s->op == TAPE_PRODUCT, in, s->count, n);
+    tape_bounds_call(s, in, n, r + s->to);
 }
 
 // ---- the tape -----------------------------------------------------------------------
@@ -359,24 +365,28 @@ static struct tape_slope binary(enum tape_op op, const struct tape_slope *x,
 static void step(const struct tape *t, const struct tape_step *s, struct tape_slope *r,
                  int n)
 {
-    const enum tape_op op = (enum tape_op)s->op;
+    if (s->op == TAPE_EXTERN || s->op == TAPE_CALL || s->op == TAPE_SUM ||
+        s->op == TAPE_PRODUCT)
+        called(t, s, r, n);
+    else
+        tape_bounds_step((enum tape_op)s->op, &r[s->a], &r[s->b], &r[s->c], &r[s->d], n,
+                         &r[s->to]);
+}
+
+void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
+                      const struct tape_slope *b, const struct tape_slope *c,
+                      const struct tape_slope *d, int n, struct tape_slope *to)
+{
     switch (op) {
-    case TAPE_MIN:
-    case TAPE_MAX: r[s->to] = least(op, &r[s->a], &r[s->b], n); break;
-    case TAPE_SELECT: r[s->to] = chosen(&r[s->a], &r[s->b], &r[s->c], &r[s->d], n); break;
-    case TAPE_EXTERN:
-    case TAPE_CALL:
-    case TAPE_SUM:
-    case TAPE_PRODUCT: called(t, s, r, n); break;
+    case TAPE_MIN: case TAPE_MAX: *to = least(op, a, b, n); break;
+    case TAPE_SELECT: *to = chosen(a, b, c, d, n); break;
 #define UNARY(name, value, derivative)                                                   \
-    case TAPE_##name:                                                                    \
-        r[s->to] = unary(op, &r[s->a], n);                                               \
-        break;
+    case TAPE_##name: *to = unary(op, a, n); break;
 #define BINARY(name, value, by_a, by_b)
 #include "scene/tape.def"
 #undef UNARY
 #undef BINARY
-    default: r[s->to] = binary(op, &r[s->a], &r[s->b], n);
+    default: *to = binary(op, a, b, n);
     }
 }
 

@@ -67,6 +67,13 @@ enum {
 
 #define TAPE_LOG10_E 0.43429448190325182765
 
+// One operation of tape_bounds_slope; a call on its arguments.
+void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
+                      const struct tape_slope *b, const struct tape_slope *c,
+                      const struct tape_slope *d, int n, struct tape_slope *to);
+void tape_bounds_call(const struct tape_step *s, const struct tape_slope *in, int n,
+                      struct tape_slope *to);
+
 // Truncated; out of 32 bits: -2147483648.
 static inline double tape_integer(double v)
 {

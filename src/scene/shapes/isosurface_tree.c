@@ -6,8 +6,8 @@
 #include "scene/shapes/isosurface.h"
 
 enum {
-    DEPTH_MAX = 6,    // 64 cells along an axis
-    DEPTH_SMOOTH = 4, // enough where the gradient hardly turns
+    DEPTH_MAX = 4,    // 16 cells along an axis
+    DEPTH_SMOOTH = 3, // enough where the gradient hardly turns
 };
 
 // The gradient hardly turns in a cell whose bounds of it are this much smaller than itself.
@@ -47,11 +47,6 @@ struct aabb iso_child_box(const struct aabb *box, const struct vec3 *m, int octa
     return b;
 }
 
-static struct interval side(double lo, double hi, double slack)
-{
-    return interval(lo - slack, hi + slack);
-}
-
 static float rounded_down(double v) { return nextafterf((float)v, -INFINITY); }
 static float rounded_up(double v) { return nextafterf((float)v, INFINITY); }
 
@@ -69,42 +64,50 @@ static bool is_smooth(const struct interval *d)
     return spread < SMOOTH * SMOOTH * size;
 }
 
-// By bounds of the function and of its gradient.
-static void look(const struct isosurface *s, struct iso_cell *c, const struct aabb *b,
-                 double slack, int depth)
+static void set_kind(struct iso_cell *c, struct interval v, const struct interval *d,
+                     int depth)
 {
-    struct tape_slope in[3] = {{.v = side(b->min.x, b->max.x, slack)},
-                               {.v = side(b->min.y, b->max.y, slack)},
-                               {.v = side(b->min.z, b->max.z, slack)}};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            in[i].d[k] = interval_point(i == k);
-    const struct tape_slope r = tape_bounds_slope(s->f, in, 3);
-    struct interval v = interval_subtract(r.v, interval_point(s->threshold));
-    if (!(v.lo > 0 || v.hi <= 0)) {
-        // The mean value form: the value in the middle and the way to the farthest point.
-        const struct interval middle[3] = {interval_point(interval_middle(in[0].v)),
-                                           interval_point(interval_middle(in[1].v)),
-                                           interval_point(interval_middle(in[2].v))};
-        struct interval m =
-            interval_subtract(tape_bounds(s->f, middle), interval_point(s->threshold));
-        for (int i = 0; i < 3; i++)
-            m = interval_add(
-                m, interval_multiply(r.d[i], interval_subtract(in[i].v, middle[i])));
-        v = interval(fmax(v.lo, m.lo), fmin(v.hi, m.hi));
-    }
-    for (int i = 0; i < 3; i++) {
-        c->slope[i][0] = rounded_down(r.d[i].lo);
-        c->slope[i][1] = rounded_up(r.d[i].hi);
-    }
     if (v.lo > 0)
         c->kind = CELL_OUTSIDE;
     else if (v.hi <= 0)
         c->kind = CELL_INSIDE;
     else
-        c->kind = depth >= DEPTH_MAX || (depth >= DEPTH_SMOOTH && is_smooth(r.d))
+        c->kind = depth >= DEPTH_MAX || (depth >= DEPTH_SMOOTH && is_smooth(d))
                       ? CELL_LEAF
                       : CELL_BRANCH;
+    for (int i = 0; i < 3; i++) {
+        c->slope[i][0] = rounded_down(d[i].lo);
+        c->slope[i][1] = rounded_up(d[i].hi);
+    }
+}
+
+// By bounds of the function and of its gradient, and by the mean value form: the value in
+// the middle and the way to the farthest point.
+static void look(const struct isosurface *s, struct iso_cell *c, const struct aabb *b,
+                 double slack, int depth)
+{
+    struct tape_boxes box, middle;
+    struct tape_slopes r, m;
+    for (int l = 0; l < TAPE_LANES; l++)
+        for (int i = 0; i < 3; i++) {
+            box.lo[i][l] = vec3_axis(b[l].min, i) - slack;
+            box.hi[i][l] = vec3_axis(b[l].max, i) + slack;
+            middle.lo[i][l] = middle.hi[i][l] = 0.5 * (box.lo[i][l] + box.hi[i][l]);
+        }
+    tape_bounds_packet(s->f, &box, true, &r);
+    tape_bounds_packet(s->f, &middle, false, &m);
+    for (int l = 0; l < TAPE_LANES; l++) {
+        struct interval v = interval(m.lo[l], m.hi[l]), d[3];
+        for (int i = 0; i < 3; i++) {
+            d[i] = interval(r.slope_lo[i][l], r.slope_hi[i][l]);
+            const struct interval off = interval_subtract(
+                interval(box.lo[i][l], box.hi[i][l]), interval_point(middle.lo[i][l]));
+            v = interval_add(v, interval_multiply(d[i], off));
+        }
+        v = interval(fmax(v.lo, r.lo[l]), fmin(v.hi, r.hi[l]));
+        v = interval_subtract(v, interval_point(s->threshold));
+        set_kind(&c[l], v, d, depth);
+    }
 }
 
 // By samples: the middle and the corners, and a slope that is at least max_gradient and
@@ -149,15 +152,16 @@ struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
         abort();
     const struct vec3 m = vec3_scale(0.5, vec3_add(box->min, box->max));
     const double slack = WIDENED * vec3_max_abs(vec3_sub(s->bounds.max, s->bounds.min));
+    struct aabb b[8];
     for (int i = 0; i < 8; i++) {
-        const struct aabb b = iso_child_box(box, &m, i);
+        b[i] = iso_child_box(box, &m, i);
         atomic_init(&c[i].child, NULL);
         if (tape_is_opaque(s->f))
-            sample(s, &c[i], &b, depth + 1);
-        else
-            look(s, &c[i], &b, slack, depth + 1);
-        *evaluations += tape_is_opaque(s->f) ? 1 + TAPE_LANES : 1;
+            sample(s, &c[i], &b[i], depth + 1);
     }
+    if (!tape_is_opaque(s->f))
+        look(s, c, b, slack, depth + 1);
+    *evaluations += tape_is_opaque(s->f) ? 8 * (1 + TAPE_LANES) : 16;
     struct iso_cell *made = NULL;
     if (atomic_compare_exchange_strong_explicit(
             &cell->child, &made, c, memory_order_acq_rel, memory_order_acquire))

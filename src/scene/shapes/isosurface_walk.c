@@ -15,6 +15,7 @@ enum {
     EVALUATIONS_MAX = 20000, // of one ray: past this stretches are decided by their ends
     STRETCHES_MAX = 64,      // open at a time
     REFINE_MAX = 80,
+    CHEAP_STEPS = 3,
     ERROR_TRIES = 6,
 };
 
@@ -165,6 +166,8 @@ static void decide(struct walk *w, double a, double fa, double b, double fb, dou
 
 struct stretch {
     double a, fa, b, fb;
+    struct interval d; // holds the derivative everywhere on it
+    int cheap;         // steps left that evaluate single points
 };
 
 // Nothing is gained by halving: f over the stretch is within its own rounding.
@@ -174,21 +177,62 @@ static bool is_rounding(struct walk *w, const struct stretch *s, struct interval
     return interval_width(v) <= 4 * interval_width(over(w, m, m, 0).v);
 }
 
-// Whether the stretch is done with; else it is to be halved.
-static bool is_settled(struct walk *w, const struct stretch *s)
+// Whether f keeps its sign: from both ends it cannot fall to zero before it has to rise
+// again. The slack covers the rounding of this test and of f, which is checked below
+// where it matters.
+static bool is_excluded(const struct stretch *s)
 {
+    const double up = fmax(s->fa > 0 ? s->d.hi : -s->d.lo, 0);
+    const double down = fmax(s->fa > 0 ? -s->d.lo : s->d.hi, 0);
+    const double room = fabs(s->fa) * up + fabs(s->fb) * down;
+    return room > up * down * (s->b - s->a) * (1 + GAMMA(16)) && up + down < INFINITY;
+}
+
+// Leaves out what the ends alone show to be free of roots, if that is much.
+static bool trim(struct walk *w, struct stretch *s)
+{
+    const double length = s->b - s->a;
+    const double from_a = fabs(s->fa) / (s->fa > 0 ? -s->d.lo : s->d.hi);
+    const double from_b = fabs(s->fb) / (s->fb > 0 ? s->d.hi : -s->d.lo);
+    if (!(from_a >= 0 && from_b >= 0 && from_a + from_b > 0.25 * length &&
+          from_a + from_b < length))
+        return false;
+    const double a = s->a + 0.999 * from_a, b = s->b - 0.999 * from_b;
+    const double fa = value(w, a), fb = value(w, b);
+    if ((fa <= 0) != (s->fa <= 0) || (fb <= 0) != (s->fb <= 0) || !(a < b))
+        return false;
+    s->a = a;
+    s->b = b;
+    s->fa = fa;
+    s->fb = fb;
+    return true;
+}
+
+// Whether the stretch is done with; else it is to be halved.
+static bool is_settled(struct walk *w, struct stretch *s)
+{
+    const bool changes = (s->fa <= 0) != (s->fb <= 0);
+    if (!changes && is_excluded(s))
+        return true;
+    if (s->cheap > 0 && s->d.hi - s->d.lo < INFINITY) {
+        s->cheap--;
+        trim(w, s);
+        if (!changes)
+            return is_excluded(s);
+    }
     const double length = s->b - s->a;
     const double least = fmax(SHORTEST * w->chord, 8 * ROUNDOFF * fabs(s->b));
     const struct tape_slope r = over(w, s->a, s->b, 1);
     if (r.v.lo > 0 || r.v.hi < 0)
         return true;
-    const double slope = least_size(r.d[0]);
+    s->d = interval(fmax(s->d.lo, r.d[0].lo), fmin(s->d.hi, r.d[0].hi));
+    const double slope = least_size(s->d);
     if (slope > 0 || length <= least || w->evaluations > EVALUATIONS_MAX ||
         (length < 0x1p-12 * w->chord && is_rounding(w, s, r.v))) {
         decide(w, s->a, s->fa, s->b, s->fb, slope);
         return true;
     }
-    return false;
+    return !changes && is_excluded(s);
 }
 
 static void isolate(struct walk *w, struct stretch all)
@@ -197,15 +241,16 @@ static void isolate(struct walk *w, struct stretch all)
     int n = 1;
     open[0] = all;
     while (n && !w->done) {
-        const struct stretch s = open[--n];
-        if (n + 2 > STRETCHES_MAX || is_settled(w, &s)) {
-            if (n + 2 > STRETCHES_MAX)
-                decide(w, s.a, s.fa, s.b, s.fb, 0);
+        struct stretch s = open[--n];
+        if (n + 2 > STRETCHES_MAX) {
+            decide(w, s.a, s.fa, s.b, s.fb, 0);
             continue;
         }
+        if (is_settled(w, &s))
+            continue;
         const double m = 0.5 * (s.a + s.b), f = value(w, m);
-        open[n++] = (struct stretch){m, f, s.b, s.fb};
-        open[n++] = (struct stretch){s.a, s.fa, m, f};
+        open[n++] = (struct stretch){m, f, s.b, s.fb, s.d, s.cheap};
+        open[n++] = (struct stretch){s.a, s.fa, m, f, s.d, s.cheap};
     }
 }
 
@@ -228,13 +273,13 @@ static void sampled(struct walk *w, struct stretch all, double steepest)
             continue;
         }
         const double m = 0.5 * (s.a + s.b), f = value(w, m);
-        open[n++] = (struct stretch){m, f, s.b, s.fb};
-        open[n++] = (struct stretch){s.a, s.fa, m, f};
+        open[n++] = (struct stretch){.a = m, .fa = f, .b = s.b, .fb = s.fb};
+        open[n++] = (struct stretch){.a = s.a, .fa = s.fa, .b = m, .fb = f};
     }
 }
 
 // The derivative along the ray by the bounds of the gradient.
-static double slope_in(const struct walk *w, const struct iso_cell *c)
+static struct interval slope_in(const struct walk *w, const struct iso_cell *c)
 {
     double lo = 0, hi = 0, size = 0;
     for (int i = 0; i < 3; i++) {
@@ -246,12 +291,12 @@ static double slope_in(const struct walk *w, const struct iso_cell *c)
         size += fabs(p) + fabs(q);
     }
     const double slack = GAMMA(8) * size;
-    return lo > slack ? lo - slack : hi < -slack ? -hi - slack : 0;
+    return interval_widened(lo - slack, hi + slack, 0);
 }
 
 static void leaf(struct walk *w, const struct iso_cell *c, double a, double b)
 {
-    struct stretch s = {.a = a, .b = b};
+    struct stretch s = {.a = a, .b = b, .cheap = CHEAP_STEPS};
     s.fa = value_at(w, a);
     settle(w, a, s.fa <= 0);
     if (w->done)
@@ -259,13 +304,14 @@ static void leaf(struct walk *w, const struct iso_cell *c, double a, double b)
     s.fb = value_at(w, b);
     if (tape_is_opaque(w->s->f)) {
         sampled(w, s, c->steepest);
-    } else {
-        const double slope = slope_in(w, c);
-        if (slope > 0)
-            decide(w, s.a, s.fa, s.b, s.fb, slope);
-        else
-            isolate(w, s);
+        return;
     }
+    s.d = slope_in(w, c);
+    const double slope = least_size(s.d);
+    if (slope > 0)
+        decide(w, s.a, s.fa, s.b, s.fb, slope);
+    else
+        isolate(w, s);
 }
 
 // ---- cells --------------------------------------------------------------------------
