@@ -206,6 +206,8 @@ const struct texture *args_texture(struct args *a)
 bool args_at_texture(struct args *a)
 {
     return args_at_value(a, VALUE_TEXTURE) || args_at_block(a) == WORD_texture;
+}
+
 const struct tape *args_function(struct args *a, const char *role)
 {
     if (args_at_block(a) != WORD_function) {

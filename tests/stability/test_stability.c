@@ -285,7 +285,7 @@ static void many_holes(void **state)
         for (bool moved_on = true; moved_on;) {
             moved_on = false;
             for (uint32_t k = 0; k < l.world->leaf_count; k++) {
-                struct boundary_list b = {NULL, 0, 0};
+                struct boundary_list b = {0};
                 const struct leaf *leaf = &l.world->leaf[k];
                 const struct ray ray = {o, {0, 0, 1}, 0, HUGE_VAL};
                 if (!leaf->inverted)

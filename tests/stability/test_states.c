@@ -122,7 +122,7 @@ static bool is_solid_sound(const char *text, int rays, bool *met)
     struct loaded l;
     load(&l, "%s", text);
     uint64_t s = 12345;
-    struct boundary_list b = {NULL, 0, 0};
+    struct boundary_list b = {0};
     bool sound = true;
     const struct leaf *leaf = &l.world->leaf[0];
     for (int i = 0; i < rays && sound; i++) {
@@ -174,7 +174,7 @@ static void a_line_along_the_rim(void **state)
                           {-8.0510312734597764e-19, 1, 1.1138772163623738e-18},
                           -HUGE_VAL,
                           HUGE_VAL};
-    struct boundary_list b = {NULL, 0, 0};
+    struct boundary_list b = {0};
     double where = 0;
     leaf->ops->intersect(leaf->shape, &r, &b);
     assert_null(fault(leaf, &r, &b, &where));
