@@ -4,8 +4,27 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "math/elementary.h"
+
+// Large pictures ask for large pages: the first touch of each page costs more than what
+// is written to it.
+static void *zeroed(size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    enum { PAGE = 1 << 21 };
+    if (size >= 2 * PAGE && size <= SIZE_MAX - PAGE) {
+        size = (size + PAGE - 1) & ~(size_t)(PAGE - 1);
+        void *p = aligned_alloc(PAGE, size);
+        if (!p)
+            return NULL;
+        madvise(p, size, MADV_HUGEPAGE); // where it is refused, small pages do
+        return memset(p, 0, size);
+    }
+#endif
+    return calloc(size, 1);
+}
 
 bool image_init(struct image *im, int width, int height, int channels)
 {
@@ -15,7 +34,7 @@ bool image_init(struct image *im, int width, int height, int channels)
     size_t pixels = (size_t)width * (size_t)height;
     if (pixels > SIZE_MAX / sizeof(float) / (size_t)channels)
         return false;
-    im->pixel = calloc(pixels * (size_t)channels, sizeof(float));
+    im->pixel = zeroed(pixels * (size_t)channels * sizeof(float));
     return im->pixel;
 }
 

@@ -111,7 +111,8 @@ static void work_in_threads(struct render *r)
     if (!thread)
         abort();
     // This thread works too; if the system refuses a thread, the others do its share.
-    while (started + 1 < count && pthread_create(&thread[started], NULL, work_deep, r) == 0)
+    while (started + 1 < count &&
+           pthread_create(&thread[started], NULL, work_deep, r) == 0)
         started++;
     work_deep(r);
     for (uint32_t i = 0; i < started; i++)
@@ -156,9 +157,7 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     struct job job;
     job_init(&job, arena, w, &s);
     struct render r = {.job = &job, .progress = progress, .out = out};
-    jitter_tables_init(&r.tables.jitter);
-    if (camera_has_lens(job.camera))
-        lens_init(&r.tables.lens, arena, job.camera);
+    tile_tables_init(&r.tables, arena, &job);
     if (s.col_end > s.col_begin && s.row_end > s.row_begin) {
         r.tiles_across =
             (uint32_t)((s.col_end - s.col_begin + s.tile_size - 1) / s.tile_size);

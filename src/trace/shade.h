@@ -58,8 +58,6 @@ double crossing_eta(const struct crossing_sides *c);
 struct rgb way_fade(const struct interior *x, const struct inside *inside, double s);
 bool finish_has_mirror(const struct finish *f);
 bool finish_takes_light(const struct finish *f);
-// q^n for a cosine q.
-double highlight_power(double q, double n);
 struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
                               float *weight);
 struct vec3 mirrored(struct vec3 d, struct vec3 n, struct vec3 surface);

@@ -59,22 +59,22 @@ LANES_INLINE struct real8 gather(const double *from, const struct simple_group *
     return r8_load(v);
 }
 
-// A checker of two colours; false: the pattern needs the general rule.
-LANES_INLINE bool checker8(const struct tracer *t, const struct surface *s,
-                           const struct simple_surface *x, struct simple_group *g)
+// A checker of two colours in the lanes of `bits`; false: the pattern needs the general
+// rule.
+LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface *x,
+                           struct simple_group *g, unsigned bits)
 {
     static const double far = 1e8; // what pattern_warp clamps to lies beyond
     const double edge = 1e-10;     // as the pattern's
     const struct transform *m = &s->texture_transform;
     struct vec8 p = v8_load((const double(*)[8])g->p);
-    (void)t;
     if (!m->identity)
         p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
     for (const struct warp *w = x->pigment->pattern.warps; w; w = w->next)
         if (!w->transform.identity)
             p = v8_row_times(v8_sub(p, V8_SET(w->transform.offset)),
                              &w->transform.inverse);
-    if (m8_bits(r8_le(v8_max_abs(p), r8_set(far))) != 255)
+    if (bits & ~m8_bits(r8_le(v8_max_abs(p), r8_set(far))))
         return false;
     const struct real8 e = r8_set(edge);
     const struct real8 cell =
@@ -82,7 +82,8 @@ LANES_INLINE bool checker8(const struct tracer *t, const struct surface *s,
                r8_floor(r8_add(p.z, e)));
     const struct real8 even = r8_mul(r8_floor(r8_mul(cell, r8_set(0.5))), r8_set(2));
     const unsigned odd = m8_bits(r8_lt(even, cell));
-    for (int i = 0; i < 8; i++) {
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
         const struct rgb c = x->color[odd >> i & 1];
         g->color[0][i] = c.r;
         g->color[1][i] = c.g;
@@ -91,27 +92,44 @@ LANES_INLINE bool checker8(const struct tracer *t, const struct surface *s,
     return true;
 }
 
-static void colors(struct tracer *t, const struct leaf *const leaf[8],
-                   struct simple_group *g)
+// The colours of lanes that share a surface.
+LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_group *g,
+                            unsigned bits)
 {
-    const struct world *w = t->job->world;
-    uint32_t same = 0;
-    for (int i = 1; i < 8; i++)
-        same += leaf[i]->surface == leaf[0]->surface;
-    const struct simple_surface *first = &t->job->simple[leaf[0]->surface];
-    for (int i = 0; i < 8; i++)
-        g->att[i] = t->job->simple[leaf[i]->surface].att;
-    if (same == 7 && first->kind == SIMPLE_CHECKER &&
-        checker8(t, &w->surface[leaf[0]->surface], first, g))
+    const struct simple_surface *x = &t->job->simple[surface];
+    const struct surface *s = &t->job->world->surface[surface];
+    if (bits == 255 && x->kind == SIMPLE_SOLID) {
+        f8_store(g->color[0], f8_set(x->color[0].r));
+        f8_store(g->color[1], f8_set(x->color[0].g));
+        f8_store(g->color[2], f8_set(x->color[0].b));
+        f8_store(g->att, f8_set(x->att));
         return;
-    for (int i = 0; i < 8; i++) {
-        const struct simple_surface *x = &t->job->simple[leaf[i]->surface];
+    }
+    for (unsigned m = bits; m; m &= m - 1)
+        g->att[__builtin_ctz(m)] = x->att;
+    if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
+        return;
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
         struct rgb c = x->color[0];
         if (x->kind != SIMPLE_SOLID && (g->live >> i & 1))
-            c = simple_color(t, &w->surface[leaf[i]->surface], g, i);
+            c = simple_color(s, g, i);
         g->color[0][i] = c.r;
         g->color[1][i] = c.g;
         g->color[2][i] = c.b;
+    }
+}
+
+static void colors(struct tracer *t, const struct leaf *const leaf[8],
+                   struct simple_group *g)
+{
+    for (unsigned left = 255; left;) {
+        const uint32_t surface = leaf[__builtin_ctz(left)]->surface;
+        unsigned bits = 0;
+        for (unsigned i = 0; i < 8; i++)
+            bits |= (unsigned)(leaf[i]->surface == surface) << i;
+        colors_of(t, surface, g, bits);
+        left &= ~bits;
     }
 }
 
@@ -158,12 +176,20 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
     const struct mask8 turned = r8_lt(r8_set(0), v8_dot(x.ns, d));
     v8_store(g->n, v8_select(turned, v8_neg(x.ns), x.ns));
     g->in_row = rays_in_row;
-    for (uint32_t i = 0; i < 8; i++) {
+    for (uint32_t i = 0; i < 8; i++)
         g->in_row &= g->slot[i] == g->slot[0] + i;
-        for (int c = 0; c < 3; c++)
-            g->through[c][i] = t->wave.through[c][g->slot[i]];
+    for (int c = 0; c < 3; c++) {
+        const float *through = t->wave.through[c];
+        if (g->in_row)
+            f8_store(g->through[c], f8_load(through + g->slot[0]));
+        else
+            for (uint32_t i = 0; i < 8; i++)
+                g->through[c][i] = through[g->slot[i]];
     }
-    colors(t, leaf, g);
+    if (same == 8)
+        colors_of(t, leaf[0]->surface, g, 255);
+    else
+        colors(t, leaf, g);
 }
 
 // ---- light ------------------------------------------------------------------------------
@@ -213,11 +239,7 @@ LANES_INLINE struct float8 powers8(struct real8 q, double n, unsigned bits)
             q = r8_mul(q, q);
         }
     } else if (bits) {
-        double v[8];
-        r8_store(v, q);
-        for (unsigned m = bits; m; m &= m - 1)
-            v[__builtin_ctz(m)] = highlight_power(v[__builtin_ctz(m)], n);
-        power = r8_load(v);
+        power = r8_pow_single(r8_select(m8_of(bits), q, r8_set(1)), n);
     }
     return f8_of(r8_select(m8_of(bits), power, r8_set(0)));
 }
@@ -269,15 +291,6 @@ static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
     return rgb8_load((const float(*)[8])c);
 }
 
-static struct real8 brilliant(struct real8 cosine, double brilliance)
-{
-    double v[8];
-    r8_store(v, cosine);
-    for (int i = 0; i < 8; i++)
-        v[i] = det_pow_single(v[i], brilliance);
-    return r8_load(v);
-}
-
 // layer_lit. Takes lanes that get nothing out of *live.
 LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *lamp,
                               const struct simple_group *g, struct vec8 to,
@@ -300,7 +313,7 @@ LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *l
     if (f->diffuse > 0 || back) {
         struct real8 cosine = r8_abs(facing);
         if (f->brilliance != 1)
-            cosine = brilliant(cosine, (double)f->brilliance);
+            cosine = r8_pow_single(cosine, (double)f->brilliance);
         float strength[8];
         for (int i = 0; i < 8; i++)
             strength[i] = fmaxf(0, back >> i & 1 ? f->diffuse_back : f->diffuse);
@@ -350,33 +363,82 @@ static bool is_black(struct rgb c)
     return fabsf(c.r) < e && fabsf(c.g) < e && fabsf(c.b) < e;
 }
 
-// The rest of lamp_view, lane by lane; returns the lanes that are lit.
-static unsigned attenuate(const struct lamp *lamp, const struct simple_group *g,
-                          struct light8 *v)
+// power, smooth and spot of trace/lamp.c.
+LANES_INLINE struct real8 power8(struct real8 base, double exponent)
 {
-    double to[3][8], distance[8];
-    float color[3][8] = {{0}};
-    unsigned lit = 0;
+    return exponent == 0   ? r8_set(1)
+           : exponent == 1 ? base
+                           : r8_pow_single(base, exponent);
+}
+
+LANES_INLINE struct real8 smooth8(double low, double high, struct real8 v)
+{
+    const struct real8 t = r8_div(r8_sub(v, r8_set(low)), r8_set(high - low));
+    const struct real8 s = r8_mul(r8_mul(t, t), r8_sub(r8_set(3), r8_mul(r8_set(2), t)));
+    return r8_select(r8_lt(v, r8_set(low)), r8_set(0),
+                     r8_select(r8_lt(v, r8_set(high)), s, r8_set(1)));
+}
+
+LANES_INLINE struct real8 spot8(const struct lamp *lamp, const struct light8 *v)
+{
+    const struct real8 along = v8_dot(v->to, V8_SET(lamp->light->axis));
+    const struct real8 k = r8_select(r8_lt(r8_set(0), v->distance), r8_neg(along), along);
+    const struct mask8 ahead = r8_lt(r8_set(0), k);
+    if (!m8_bits(ahead))
+        return r8_set(0);
+    // Behind the lamp nothing is lit: any base will do.
+    struct real8 factor = power8(r8_select(ahead, k, r8_set(1)), lamp->light->tightness);
+    if (lamp->cos_radius > 0) {
+        const struct real8 edge = smooth8(lamp->cos_falloff, lamp->cos_radius, k);
+        factor =
+            r8_select(r8_lt(k, r8_set(lamp->cos_radius)), r8_mul(factor, edge), factor);
+    }
+    return r8_select(ahead, factor, r8_set(0));
+}
+
+static struct real8 cylinders(const struct lamp *lamp, const struct simple_group *g,
+                              const struct light8 *v)
+{
+    double to[3][8], distance[8], factor[8];
     v8_store(to, v->to);
     r8_store(distance, v->distance);
-    for (unsigned m = g->live; m; m &= m - 1) {
-        const int i = __builtin_ctz(m);
+    for (int i = 0; i < 8; i++) {
         const struct lamp_view one = {
             {to[0][i], to[1][i], to[2][i]}, distance[i], lamp->light->color};
-        const double factor = lamp_attenuation(
-            lamp, lamp->light->location, vec3(g->p[0][i], g->p[1][i], g->p[2][i]), &one);
-        struct rgb c = one.color;
-        if (factor != 1)
-            c = rgb_scale((float)factor, c);
-        if (factor == 0 || is_black(c))
-            continue;
-        lit |= 1u << i;
-        color[0][i] = c.r;
-        color[1][i] = c.g;
-        color[2][i] = c.b;
+        factor[i] = lamp_attenuation(lamp, lamp->light->location,
+                                     vec3(g->p[0][i], g->p[1][i], g->p[2][i]), &one);
     }
-    v->color = rgb8_load((const float(*)[8])color);
-    return lit;
+    return r8_load(factor);
+}
+
+// The rest of lamp_view (lamp_attenuation); returns the lanes that are lit.
+LANES_INLINE unsigned attenuate(const struct lamp *lamp, const struct simple_group *g,
+                                struct light8 *v)
+{
+    const struct light *l = lamp->light;
+    struct real8 factor = r8_set(1);
+    if (l->kind == LIGHT_CYLINDER) {
+        factor = cylinders(lamp, g, v); // with its fading
+    } else {
+        if (l->kind == LIGHT_SPOT)
+            factor = spot8(lamp, v);
+        if (l->fade_power > 0 && l->fade_distance != 0)
+            factor =
+                r8_mul(factor,
+                       r8_div(r8_set(2),
+                              r8_add(r8_set(1),
+                                     power8(r8_div(v->distance, r8_set(l->fade_distance)),
+                                            l->fade_power))));
+    }
+    const unsigned dark = m8_bits(r8_eq(factor, r8_set(0)));
+    if (dark == 255)
+        return 0;
+    v->color = rgb8_scale(f8_of(factor), v->color);
+    const struct float8 e = f8_set((float)zero), o = f8_set(0);
+    const unsigned seen = f8_le(e, f8_max(v->color.r, f8_sub(o, v->color.r))) |
+                          f8_le(e, f8_max(v->color.g, f8_sub(o, v->color.g))) |
+                          f8_le(e, f8_max(v->color.b, f8_sub(o, v->color.b)));
+    return g->live & seen & ~dark;
 }
 
 LANES_INLINE unsigned black8(struct rgb8 c)
@@ -447,6 +509,8 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
     for (const struct simple_group *end = g + groups; g < end; g++) {
         struct light8 v = direction8(lamp, v8_load((const double(*)[8])g->p));
         unsigned live = even ? g->live : attenuate(lamp, g, &v);
+        if (!live)
+            continue;
         const struct rgb8 sum = lit8(c, lamp, g, v.to, &live);
         if (!live)
             continue;
@@ -511,7 +575,8 @@ LANES_INLINE void reflectivity8(const struct simple_class *k,
     } else {
         share = r8_sub(r8_set(1), cosine);
         if (f->reflection_falloff != 1)
-            share = brilliant(r8_max(r8_set(0), share), (double)f->reflection_falloff);
+            share =
+                r8_pow_single(r8_max(r8_set(0), share), (double)f->reflection_falloff);
         const struct real8 less = r8_sub(share, r8_set(1));
         share = r8_select(r8_lt(r8_abs(share), r8_set(zero)), r8_set(0), share);
         share = r8_select(r8_lt(r8_abs(less), r8_set(zero)), r8_set(1), share);

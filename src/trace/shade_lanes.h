@@ -3,6 +3,7 @@
 
 // What shading needs beyond trace/lanes.h: colours are floats, computed in lanes too.
 
+#include <float.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -81,6 +82,34 @@ LANES_INLINE struct real8 r8_exp_single(struct real8 x)
         memcpy(&power[i], &bits, sizeof bits);
     }
     return r8_mul(r8_add(even, r8_mul(r, odd)), r8_load(power));
+}
+
+// det_pow_single in lanes.
+LANES_INLINE struct real8 r8_pow_single(struct real8 x, double y)
+{
+    double all[8], mantissa[8];
+    r8_store(all, x);
+    if (m8_bits(m8_and(r8_le(r8_set(DBL_MIN), x), r8_le(x, r8_set(DBL_MAX)))) != 255) {
+        for (int i = 0; i < 8; i++)
+            all[i] = det_pow_single(all[i], y);
+        return r8_load(all);
+    }
+    for (int i = 0; i < 8; i++)
+        all[i] = single_split(all[i], &mantissa[i]);
+    const struct real8 m = r8_load(mantissa), k = r8_load(all), one = r8_set(1);
+    const struct real8 s = r8_div(r8_sub(m, one), r8_add(m, one));
+    const struct real8 q = r8_mul(s, s), w = r8_mul(q, q);
+    struct real8 even = r8_set(single_log_even[4]), odd = r8_set(single_log_odd[3]);
+#pragma GCC unroll 4
+    for (int i = 3; i >= 0; i--)
+        even = r8_add(r8_set(single_log_even[i]), r8_mul(w, even));
+#pragma GCC unroll 3
+    for (int i = 2; i >= 0; i--)
+        odd = r8_add(r8_set(single_log_odd[i]), r8_mul(w, odd));
+    const struct real8 log_m = r8_mul(r8_mul(r8_set(2), s), r8_add(even, r8_mul(q, odd)));
+    const struct real8 log_x = r8_add(r8_mul(k, r8_set(SINGLE_LN2_HIGH)),
+                                      r8_add(r8_mul(k, r8_set(SINGLE_LN2_LOW)), log_m));
+    return r8_exp_single(r8_mul(r8_set(y), log_x));
 }
 
 struct rgb8 {

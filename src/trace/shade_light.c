@@ -43,7 +43,7 @@ struct rgb irid_factor(const struct shading *s, const struct finish *f, struct v
 }
 
 // q^n for a cosine q. Most highlights are far off, or have a whole exponent.
-double highlight_power(double q, double n)
+static double highlight_power(double q, double n)
 {
     static const double dark = 40; // exp(-40) is below any float next to a colour
     static const double by_squares = 4096;
@@ -105,7 +105,8 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     const float d = back ? f->diffuse_back : f->diffuse;
     if (d > 0) {
         const double cosine = fabs(facing);
-        float i = (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));
+        float i =
+            (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));
         i *= d * l->att;
         if (f->crand > 0)
             i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp->index + 100));

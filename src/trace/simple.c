@@ -241,8 +241,7 @@ bool simple_take(struct tracer *t, uint32_t k)
     return true;
 }
 
-struct rgb simple_color(const struct tracer *t, const struct surface *s,
-                        const struct simple_group *g, int lane)
+struct rgb simple_color(const struct surface *s, const struct simple_group *g, int lane)
 {
     const struct vec3 p = vec3(g->p[0][lane], g->p[1][lane], g->p[2][lane]);
     const struct vec3 n = vec3(g->n[0][lane], g->n[1][lane], g->n[2][lane]);
@@ -251,7 +250,6 @@ struct rgb simple_color(const struct tracer *t, const struct surface *s,
                                .ray_d = vec3(g->d[0][lane], g->d[1][lane], g->d[2][lane]),
                                .p_world = p,
                                .normal_seen = n};
-    (void)t;
     if (!s->texture_transform.identity) {
         at.p = transform_inverse_point(&s->texture_transform, p);
         at.normal = transform_inverse_normal(&s->texture_transform, n);

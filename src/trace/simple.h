@@ -71,7 +71,6 @@ void simple_shade(struct tracer *t);
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g);
 // The colour at lane `lane` by the general rule.
-struct rgb simple_color(const struct tracer *t, const struct surface *s,
-                        const struct simple_group *g, int lane);
+struct rgb simple_color(const struct surface *s, const struct simple_group *g, int lane);
 
 #endif

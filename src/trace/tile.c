@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "base/arena.h"
+
 // Every other bit of a Morton code, from bit 0: one coordinate.
 static uint32_t morton_part(uint32_t code)
 {
@@ -10,6 +12,34 @@ static uint32_t morton_part(uint32_t code)
     code = (code | (code >> 2)) & 0x0f0f0f0fu;
     code = (code | (code >> 4)) & 0x00ff00ffu;
     return (code | (code >> 8)) & 0x0000ffffu;
+}
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *job)
+{
+    enum { BLOCK = 32 }; // of pixels in Morton order
+    const struct render_settings *s = &job->settings;
+    const int width = least(s->tile_size, s->col_end - s->col_begin);
+    const int height = least(s->tile_size, s->row_end - s->row_begin);
+    jitter_tables_init(&t->jitter);
+    if (camera_has_lens(job->camera))
+        lens_init(&t->lens, a, job->camera);
+    t->place_count = 0;
+    if (width <= 0 || height <= 0)
+        return;
+    t->place = arena_new_array(a, struct tile_place, (size_t)width * (size_t)height);
+    for (int y0 = 0; y0 < height; y0 += BLOCK) {
+        for (int x0 = 0; x0 < width; x0 += BLOCK) {
+            for (uint32_t code = 0; code < BLOCK * BLOCK; code++) {
+                const int x = x0 + (int)morton_part(code);
+                const int y = y0 + (int)morton_part(code >> 1);
+                if (x < width && y < height)
+                    t->place[t->place_count++] =
+                        (struct tile_place){(uint16_t)x, (uint16_t)y};
+            }
+        }
+    }
 }
 
 static void store(const struct job *job, float *pixel, const float c[4])
@@ -26,24 +56,23 @@ static void sample(void *user, const struct vec2 *position, uint32_t count,
 }
 
 // One ray a pixel, in Morton order, so that rays of a packet stay close together.
-static void plain(struct tracer *t, const struct tile *tile, struct image *out)
+static void plain(struct tracer *t, const struct tile_tables *tables,
+                  const struct tile *tile, struct image *out)
 {
     struct vec2 position[BATCH_SIZE];
     float color[BATCH_SIZE][4];
     const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
-    uint32_t side = 1, count = 0;
-    while (side < (uint32_t)width || side < (uint32_t)height)
-        side *= 2;
-    for (uint32_t code = 0; code < side * side; code++) {
-        const int x = (int)morton_part(code), y = (int)morton_part(code >> 1);
-        if (x < width && y < height)
-            position[count++] = (struct vec2){tile->x0 + x + 0.5, tile->y0 + y + 0.5};
-        if (count < BATCH_SIZE && code + 1 < side * side)
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < tables->place_count; i++) {
+        const struct tile_place p = tables->place[i];
+        if (p.x < width && p.y < height)
+            position[count++] = (struct vec2){tile->x0 + p.x + 0.5, tile->y0 + p.y + 0.5};
+        if (count < BATCH_SIZE && i + 1 < tables->place_count)
             continue;
         tracer_samples(t, position, count, color);
-        for (uint32_t i = 0; i < count; i++)
-            store(t->job, image_at(out, (int)position[i].u, (int)position[i].v),
-                  color[i]);
+        for (uint32_t k = 0; k < count; k++)
+            store(t->job, image_at(out, (int)position[k].u, (int)position[k].v),
+                  color[k]);
         count = 0;
     }
 }
@@ -179,5 +208,5 @@ void tile_render(struct tracer *t, const struct tile_tables *tables,
     else if (t->job->settings.antialias)
         smoothed(t, &tables->jitter, tile, out);
     else
-        plain(t, tile, out);
+        plain(t, tables, tile, out);
 }

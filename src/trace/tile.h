@@ -10,11 +10,19 @@ struct tile {
     int x0, y0, x1, y1; // half-open
 };
 
+struct tile_place {
+    uint16_t x, y; // from the tile's corner
+};
+
 // Worked out once for all tiles.
 struct tile_tables {
     struct jitter_tables jitter;
-    struct lens lens; // of a camera that has one
+    struct lens lens;         // of a camera that has one
+    struct tile_place *place; // the pixels of a whole tile in Morton order
+    uint32_t place_count;
 };
+
+void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *job);
 
 // Renders the pixels of a tile into the picture.
 void tile_render(struct tracer *t, const struct tile_tables *tables,
