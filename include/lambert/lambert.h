@@ -148,6 +148,20 @@ struct lambert_stats {
 LAMBERT_API void lambert_get_stats(const struct lambert_context *ctx,
                                    struct lambert_stats *out);
 
+// --- Meshes -----------------------------------------------------------------
+
+struct lambert_mesh_stats {
+    uint32_t objects, left_out; // left out: no bounds, or a kind of sheet without triangles
+    uint64_t vertices, triangles;
+};
+// Writes the objects of what was loaded as triangle meshes, one for each object: closed,
+// 2-manifold and turned outward (by the right-hand rule in the scene's coordinates) for
+// solids. The name says the format: .obj, .stl or .ply (both binary). An older file stays
+// whole when this fails.
+LAMBERT_API enum lambert_status lambert_mesh_write(struct lambert_context *ctx,
+                                                   const char *path,
+                                                   struct lambert_mesh_stats *out);
+
 // For those who work on lambert: what a stage makes of the file.
 LAMBERT_API enum lambert_status lambert_dump_tokens(struct lambert_context *ctx,
                                                     const char *path, FILE *out);

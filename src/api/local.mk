@@ -1,7 +1,7 @@
 liblambert_a_SOURCES += \
 	include/lambert/lambert.h \
 	%D%/context.c %D%/context.h %D%/load.c %D%/options.c %D%/options.def \
-	%D%/picture.c %D%/probe.c %D%/probe.h %D%/render.c
+	%D%/mesh.c %D%/mesh_file.c %D%/mesh_file.h %D%/picture.c %D%/probe.c %D%/probe.h %D%/render.c
 lambertincludedir = $(includedir)/lambert
 lambertinclude_HEADERS = include/lambert/lambert.h
 liblambert_a_CPPFLAGS += -DLAMBERT_VERSION='"$(PACKAGE_VERSION)"' \

@@ -75,11 +75,12 @@ bool progress_show(void *cmd, uint32_t done, uint32_t total);
 void progress_end(struct cmd *c);
 void stats_print(struct cmd *c, FILE *out, bool json, const char *picture);
 
-// render.c, compare.c, scenes.c, check.c, format.c
+// render.c, compare.c, scenes.c, check.c, format.c, mesh.c
 int cmd_render(struct cmd *c);
 int cmd_compare(struct cmd *c);
 int cmd_check(struct cmd *c);
 int cmd_format(struct cmd *c);
+int cmd_mesh(struct cmd *c);
 int compare_scenes(struct cmd *c);
 
 // process.c: runs a program in `folder` with its output in a log file. Seconds it

@@ -13,6 +13,7 @@ static const struct {
     {"run", "Running", true},      {"animation", "Animation", false},
     {"tools", "Tools", false},     {"compare", "lambert compare", false},
     {"fmt", "lambert fmt", false},
+    {"mesh", "lambert mesh", false},
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 
@@ -22,6 +23,7 @@ static const char *const examples[][2] = {
     {"lambert scene.pov --width 800 -o out.exr", "so do long options"},
     {"lambert check scene.pov", "read it and say what is wrong"},
     {"lambert fmt -i scene.pov", "indent it anew"},
+    {"lambert mesh scene.pov -o scene.obj", "its solids as triangle meshes"},
     {"lambert compare a.png b.png", "how much two pictures differ"},
     {"lambert compare scene.pov --out DIR", "render with POV-Ray too and compare"},
 };
@@ -97,7 +99,8 @@ int help_print(FILE *out, bool all)
           "       lambert compare A B\n"
           "       lambert compare SCENE... [options]\n"
           "       lambert check SCENE... [options]\n"
-          "       lambert fmt [--check | --in-place] SCENE...\n\nexamples:\n",
+          "       lambert fmt [--check | --in-place] SCENE...\n"
+          "       lambert mesh SCENE -o NAME.obj|.stl|.ply\n\nexamples:\n",
           out);
     for (int i = 0; i < EXAMPLE_COUNT; i++)
         fprintf(out, "  %-42s %s\n", examples[i][0], examples[i][1]);
@@ -192,7 +195,8 @@ static const char man_head[] =
     ".B lambert compare\n.I A B\n.br\n"
     ".B lambert compare\n.I SCENE\\fR...\n[\\fIoptions\\fR]\n.br\n"
     ".B lambert check\n.I SCENE\\fR...\n[\\fIoptions\\fR]\n.br\n"
-    ".B lambert fmt\n[\\-\\-check | \\-\\-in\\-place]\n.I SCENE\\fR...\n"
+    ".B lambert fmt\n[\\-\\-check | \\-\\-in\\-place]\n.I SCENE\\fR...\n.br\n"
+    ".B lambert mesh\n.I SCENE\n.B \\-o\n.I NAME\n"
     ".SH DESCRIPTION\n"
     "Reads a scene, traces it and writes a picture, by default\n"
     "a PNG file named after the scene in the working directory.\n"
@@ -216,6 +220,11 @@ static const char man_tail[] =
     "comments and line ends stay; blanks at the ends of lines go.\n"
     ".B \\-\\-in\\-place\nwrites the files back,\n"
     ".B \\-\\-check\nnames those that would change and exits with 1.\n"
+    ".PP\n"
+    ".B lambert mesh SCENE \\-o NAME\n"
+    "writes the objects of a scene as triangle meshes (NAME ends in .obj, .stl or .ply):\n"
+    "solids closed and turned outward by the right-hand rule in the scene's coordinates,\n"
+    "meshes as they are. Objects without an end or an inside are named and left out.\n"
     ".SH COMPARE\n"
     ".B lambert compare A B\n"
     "says how much two pictures differ: the part of the pixels that are off,\n"
@@ -290,7 +299,7 @@ int completion_print(FILE *out)
             fprintf(out, "--%s ", o->name);
     fputs("' -- \"$cur\")) ;;\n    *) COMPREPLY=($(compgen -f -- \"$cur\"))\n"
           "       test \"$COMP_CWORD\" = 1 && "
-          "COMPREPLY+=($(compgen -W 'check compare fmt' -- \"$cur\")) ;;\n"
+          "COMPREPLY+=($(compgen -W 'check compare fmt mesh' -- \"$cur\")) ;;\n"
           "    esac\n}\ncomplete -o filenames -F _lambert lambert\n",
           out);
     return CMD_OK;

@@ -123,6 +123,7 @@ static const struct command {
     {"compare", cmd_compare, false},
     {"check", cmd_check, true},
     {"fmt", cmd_format, false},
+    {"mesh", cmd_mesh, false},
 };
 
 static const struct command *find_command(int argc, char **argv)

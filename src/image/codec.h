@@ -52,6 +52,8 @@ bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec
 enum image_type image_type_of_bytes(const uint8_t *data, size_t size);
 // The whole file, to be freed.
 bool file_bytes(const char *path, struct byte_buffer *b, struct codec_error e);
+// Writes all of it; an older file stays whole when this fails. "-" is standard output.
+bool file_write(const char *path, const struct byte_buffer *b, struct codec_error e);
 
 // One reader per file type (read_NAME.c). On failure what was allocated stays in *t and
 // is freed by the caller.

@@ -114,8 +114,7 @@ static bool write_into(const char *path, const struct byte_buffer *b,
 }
 
 // Devices and pipes cannot be replaced, and a link should stay a link.
-static bool write_bytes(const char *path, const struct byte_buffer *b,
-                        struct codec_error e)
+bool file_write(const char *path, const struct byte_buffer *b, struct codec_error e)
 {
     struct stat st;
     if (strcmp(path, "-") == 0 || (stat(path, &st) == 0 && !S_ISREG(st.st_mode)))
@@ -140,7 +139,7 @@ bool image_write(const struct image *im, const char *path,
     default: codec_fail(e, "no such file type"); break;
     }
     if (ok)
-        ok = write_bytes(path, &bytes, e);
+        ok = file_write(path, &bytes, e);
     free(bytes.data);
     return ok;
 }
