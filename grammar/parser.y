@@ -27,7 +27,8 @@ struct parse;
 #define YYMAXDEPTH 16000
 
 #define YYLLOC_DEFAULT(Cur, Rhs, N)                                                      \
-    ((Cur) = (N) ? span_join(YYRHSLOC(Rhs, 1), YYRHSLOC(Rhs, N))                         \
+    ((Cur) = (N) == 1 ? YYRHSLOC(Rhs, 1)                                                 \
+             : (N)    ? span_join(YYRHSLOC(Rhs, 1), YYRHSLOC(Rhs, N))                    \
                  : (struct span){YYRHSLOC(Rhs, 0).file, YYRHSLOC(Rhs, 0).end,            \
                                  YYRHSLOC(Rhs, 0).end, YYRHSLOC(Rhs, 0).expansion})
 
@@ -558,18 +559,17 @@ element:
 
 static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
 {
-    struct token t;
-    int kind = parse_token(p, &t);
-    *where = t.where;
+    int kind = parse_token(p, where);
+    const struct token *t = p->now;
     enum ast_kind node;
     switch (kind) {
     case TOK_VECTOR3:
-        value->TOK_VECTOR3 = ast_new(p->arena, AST_VECTOR3, t.where);
-        value->TOK_VECTOR3->vector = t.vector;
+        value->TOK_VECTOR3 = ast_new(p->arena, AST_VECTOR3, *where);
+        value->TOK_VECTOR3->vector = t->vector;
         return kind;
     case TOK_NUMBER:
-        value->TOK_NUMBER = ast_new(p->arena, AST_NUMBER, t.where);
-        value->TOK_NUMBER->number = t.number;
+        value->TOK_NUMBER = ast_new(p->arena, AST_NUMBER, *where);
+        value->TOK_NUMBER->number = t->number;
         return kind;
     case TOK_STRING:
         node = AST_STRING;
@@ -579,17 +579,17 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
     case TOK_OTHER_NAME:
     case TOK_ARRAY_NAME:
     case TOK_FUNCTION_NAME:
-        node = t.value || !t.len ? AST_VALUE : AST_UNDECLARED;
+        node = t->value || !t->len ? AST_VALUE : AST_UNDECLARED;
         break;
     default:
-        value->TOK_WORD = (enum word)t.word;
+        value->TOK_WORD = (enum word)t->word;
         return kind;
     }
-    struct ast *n = ast_new(p->arena, node, t.where);
-    n->text = t.text;
-    n->len = t.len;
-    n->value = t.value;
-    if (node == AST_VALUE && !t.value) // a calculation that failed
+    struct ast *n = ast_new(p->arena, node, *where);
+    n->text = t->text;
+    n->len = t->len;
+    n->value = t->value;
+    if (node == AST_VALUE && !t->value) // a calculation that failed
         n->op = OP_FAILED;
     value->TOK_NAME = n;
     return kind;

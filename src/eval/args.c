@@ -124,7 +124,10 @@ bool args_string(struct args *a, const char *role, const char **out)
     if (!text)
         return expected(a, role, "string");
     args_next(a);
-    return checked(a, eval_string(a->b->e, n, out));
+    if (!checked(a, eval_string(a->b->e, n, out)))
+        return false;
+    *out = arena_strndup(a->b->arena, *out, strlen(*out));
+    return true;
 }
 
 bool args_floats(struct args *a, const char *role, double *out, size_t n)

@@ -67,7 +67,8 @@ const struct value *eval_rvalue(struct eval *e, const struct ast *items)
         return NULL;
     if (!items->next) {
         const struct value *named = eval_named(e, items);
-        if (named)
+        bool kept = named && (named->kind != VALUE_STRING || items->len);
+        if (kept)
             return copied(e, named);
         if (items->kind == AST_INDEX)
             return NULL;

@@ -81,6 +81,7 @@ bool eval_float(struct eval *e, const struct ast *n, double *out);
 bool eval_vec2(struct eval *e, const struct ast *n, struct vec2 *out);
 bool eval_vec3(struct eval *e, const struct ast *n, struct vec3 *out);
 bool eval_vec4(struct eval *e, const struct ast *n, double out[4]);
+// Texts are good as long as the node; whoever keeps one copies it.
 bool eval_string(struct eval *e, const struct ast *n, const char **out);
 bool eval_path(struct eval *e, const struct ast *n, const char **out); // no escapes
 

@@ -375,7 +375,7 @@ bool ast_is_string(const struct ast *n)
 
 static bool literal(struct eval *e, const struct ast *n, bool path, const char **out)
 {
-    struct text_buffer b = {.arena = e->arena};
+    struct text_buffer b = {.arena = e->nodes};
     const char *bad = text_unescape(&b, n->text, n->len, path);
     if (bad)
         diag_at(e->diags, DIAG_BAD_ESCAPE, n->where, bad[1]);

@@ -21,7 +21,8 @@ void number_widen(double *n, int *width, int wanted);
 const struct value *eval_named(struct eval *e, const struct ast *n);
 bool ast_is_string(const struct ast *n);
 
-// A built-in function's result: a number of width 1 or 3, or a string.
+// A built-in function's result: a number of width 1 or 3, or a string, which like the
+// node is good until the statement ends.
 struct call_result {
     int width; // 0: a string
     double n[5];

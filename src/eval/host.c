@@ -73,7 +73,7 @@ bool eval_index(struct eval *e, struct place base, const struct ast *index,
         if (!eval_float(e, index, &v))
             return false;
         v += INDEX_SLACK;
-        if (v < 0 || number_to_int(v) >= a->size[i]) {
+        if (!(v >= 0 && v < a->size[i])) {
             diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where,
                     (long)number_to_int(floor(v)), (unsigned)a->size[i]);
             return false;
@@ -354,7 +354,11 @@ static struct ast *finish_call(struct eval *e, struct ast *n)
         return n;
     }
     if (!r.width) {
-        become(n, value_new_string(e->arena, r.text, strlen(r.text)), false);
+        struct value *v = arena_new_struct(e->nodes, struct value);
+        v->kind = VALUE_STRING;
+        v->string.text = r.text;
+        v->string.len = (uint32_t)strlen(r.text);
+        become(n, v, false);
     } else if (r.width == 1) {
         n->kind = AST_NUMBER;
         n->list = NULL;

@@ -56,7 +56,7 @@ bool call_chr(struct call *c)
     double n = number_to_int(c->arg[0].f);
     if (n < 0 || n > 65535)
         return call_domain(c, "the code is not between 0 and 65535");
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     text_add(&b, "", 0);
     if (n > 0)
         text_add_unit(&b, (uint32_t)n);
@@ -65,7 +65,7 @@ bool call_chr(struct call *c)
 
 bool call_concat(struct call *c)
 {
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     for (uint32_t i = 0; i < c->count; i++)
         text_add(&b, c->arg[i].s, strlen(c->arg[i].s));
     return give_text(c, &b);
@@ -73,7 +73,7 @@ bool call_concat(struct call *c)
 
 static bool change_case(struct call *c, char first, char last, int by)
 {
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     text_add(&b, c->arg[0].s, strlen(c->arg[0].s));
     for (char *s = b.text; *s; s++)
         if (*s >= first && *s <= last)
@@ -95,7 +95,7 @@ bool call_substr(struct call *c)
     const char *stop = s;
     for (double i = 0; i < count; i++)
         text_unit(&stop, end);
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     text_add(&b, s, (size_t)(stop - s));
     return give_text(c, &b);
 }
@@ -117,14 +117,14 @@ static void add_number(struct text_buffer *b, double v, double width, double pre
 
 bool call_str(struct call *c)
 {
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     add_number(&b, c->arg[0].f, c->arg[1].f, c->arg[2].f);
     return give_text(c, &b);
 }
 
 bool call_vstr(struct call *c)
 {
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     double n = number_to_int(c->arg[0].f);
     n = n < 2 ? 2 : n > 5 ? 5 : n;
     for (int i = 0; i < (int)n; i++) {
@@ -149,7 +149,7 @@ bool call_datetime(struct call *c)
     size_t n = gmtime_r(&t, &utc) ? strftime(text, sizeof text, format, &utc) : 0;
     if (!n)
         return call_domain(c, "the format gives nothing");
-    struct text_buffer b = {.arena = c->e->arena};
+    struct text_buffer b = {.arena = c->e->nodes};
     text_add(&b, text, n);
     return give_text(c, &b);
 }

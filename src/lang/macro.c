@@ -151,7 +151,7 @@ static int read_arguments(struct stream *s, struct span call, const struct macro
         if (raw_kind(s) == ')')
             break;
         struct macro_argument extra;
-        ok = read_argument(s, count < PARAMETERS_MAX ? &out[count] : &extra);
+        ok = read_argument(s, count < m->parameter_count ? &out[count] : &extra);
         count++;
         if (ok && !raw_take_if(s, ',') && raw_kind(s) == TOK_END)
             break;
@@ -169,7 +169,7 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
 {
     struct arena_mark mark = arena_mark(s->nodes);
     struct macro_argument *args =
-        arena_new_array(s->nodes, struct macro_argument, PARAMETERS_MAX);
+        arena_new_array(s->nodes, struct macro_argument, (size_t)m->parameter_count + 1);
     int count = read_arguments(s, name.where, m, args);
     if (count >= 0 && s->calls >= CALLS_MAX) {
         diag_at(s->diags, DIAG_TOO_DEEP, name.where, "macro calls", CALLS_MAX);

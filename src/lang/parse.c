@@ -67,7 +67,7 @@ struct ast *parse_calculated(struct stream *s, struct span where,
 // Whether an expression can begin with the next token, and belong to none before it.
 static bool expression_begins(const struct parse *p)
 {
-    int last = p->now.kind, next = raw_kind(p->in);
+    int last = p->now->kind, next = raw_kind(p->in);
     if (last == '+' || last == '-' || last == '*' || last == '/' || last == '!' ||
         last == '.' || (last == 0 && p->start == TOK_START_STATEMENT))
         return false;
@@ -106,46 +106,57 @@ static bool take_calculated(struct parse *p, struct token *t)
     return true;
 }
 
-int parse_token(struct parse *p, struct token *out)
+// Where the next token comes from, at a place where the right side may end.
+static void take_next(struct parse *p, struct token *t)
 {
-    if (p->now.kind < 0) { // the first: what to read
-        p->now.kind = 0;
-        *out = (struct token){.where = raw_peek(p->in).where};
-        out->where.end = out->where.begin;
-        return p->start;
-    }
     struct stream *s = p->in;
     bool end_possible = p->bounded && p->operand && p->nest == 0 && p->vectors == 0;
-    struct token t;
     if (end_possible && raw_kind(s) == '#' && !directive_continues(s)) {
-        t = raw_peek(s);
-        t.kind = TOK_STOP;
-    } else if (end_possible || p->function || !take_calculated(p, &t)) {
-        t = stream_next(s);
-        if (end_possible && !continues(p, t.kind)) {
-            stream_give_back(s, t);
-            t.kind = TOK_STOP;
+        *t = raw_peek(s);
+        t->kind = TOK_STOP;
+    } else if (end_possible) {
+        stream_take(s, t);
+        if (!continues(p, t->kind)) {
+            stream_give_back(s, *t);
+            t->kind = TOK_STOP;
         }
+    } else if (p->function || !take_calculated(p, t)) {
+        stream_take(s, t);
     }
-    if (t.kind != TOK_STOP) {
-        note_brackets(p, t.kind);
-        p->operand = completes(p, t.kind);
-        p->after_period = t.kind == '.';
+}
+
+int parse_token(struct parse *p, struct span *where)
+{
+    if (p->now->kind < 0) { // the first: what to read
+        p->now->kind = 0;
+        *where = raw_peek(p->in).where;
+        where->end = where->begin;
+        return p->start;
+    }
+    struct token *t = &p->slot[p->now == &p->slot[0]];
+    take_next(p, t);
+    if (t->kind != TOK_STOP) {
+        note_brackets(p, t->kind);
+        p->operand = completes(p, t->kind);
+        p->after_period = t->kind == '.';
     }
     if (p->nest > PARSE_NEST_MAX) {
-        diag_at(s->diags, DIAG_TOO_DEEP, t.where, "brackets", (int)PARSE_NEST_MAX);
+        diag_at(p->in->diags, DIAG_TOO_DEEP, t->where, "brackets", (int)PARSE_NEST_MAX);
         p->failed = true;
-        s->stopped = true;
-        t.kind = TOK_END;
+        p->in->stopped = true;
+        t->kind = TOK_END;
     }
-    if (p->function && t.kind == '<')
-        t.kind = TOK_LESS;
-    else if (p->function && t.kind == '>')
-        t.kind = TOK_GREATER;
+    if (p->function && t->kind == '<')
+        t->kind = TOK_LESS;
+    else if (p->function && t->kind == '>')
+        t->kind = TOK_GREATER;
     p->last = p->now;
     p->now = t;
-    *out = t;
-    return t.kind;
+    where->file = t->where.file;
+    where->begin = t->where.begin;
+    where->end = t->where.end;
+    where->expansion = t->where.expansion;
+    return t->kind;
 }
 
 void parse_open(struct parse *p, enum word word, bool entry, struct span where)
@@ -222,11 +233,11 @@ struct ast *parse_finish(struct parse *p, struct ast *node)
 void parse_missing_semicolon(struct parse *p, const struct ast *value)
 {
     if (value && (value->kind == AST_VALUE || value->kind == AST_INDEX) && !value->parens &&
-        p->last.kind == ']')
+        p->last->kind == ']')
         return;
-    struct span where = p->last.where;
+    struct span where = p->last->where;
     where.begin = where.end > where.begin ? where.end - 1 : where.end;
-    bool compares = p->now.where.file == p->last.where.file && raw_kind(p->in) == '<';
+    bool compares = p->now->where.file == p->last->where.file && raw_kind(p->in) == '<';
     const char *hint = compares ? "a comparison here needs parentheses around it" : NULL;
     enum diag_code code = p->in->version < 3.5 ? DIAG_OLD_SEMICOLON : DIAG_SEMICOLON;
     diag_hint(p->in->diags, code, where, hint, 0);
@@ -293,7 +304,7 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
     if (p->failed || s->stopped)
         return;
     p->failed = true;
-    const struct token *t = &p->now, *last = &p->last;
+    const struct token *t = p->now, *last = p->last;
     if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
         report_unknown_word(s, last);
         return;
@@ -313,17 +324,17 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
 static void skip_broken(struct parse *p)
 {
     struct stream *s = p->in;
-    if (p->now.kind == TOK_STOP)
+    if (p->now->kind == TOK_STOP)
         return;
-    if (p->braces < 0 || (p->now.kind == TOK_END && !s->stopped)) {
-        stream_give_back(s, p->now);
+    if (p->braces < 0 || (p->now->kind == TOK_END && !s->stopped)) {
+        stream_give_back(s, *p->now);
         return;
     }
     bool parens = p->start == TOK_START_CONDITION || p->start == TOK_START_LIST ||
                   p->start == TOK_START_ITEMS;
     if (p->start == TOK_START_LIST || p->start == TOK_START_ITEMS)
         p->nest++;
-    int last = p->now.kind;
+    int last = p->now->kind;
     while (!s->stopped) {
         if (p->braces <= 0 && (last == ';' || last == '}'))
             break;
@@ -353,7 +364,9 @@ static bool is_bounded(int start)
 struct ast *parse_run(struct stream *in, int start, bool *ok)
 {
     struct parse p = {.in = in, .arena = in->nodes, .start = start,
-                      .bounded = is_bounded(start), .now = {.kind = -1}};
+                      .bounded = is_bounded(start), };
+    p.slot[0].kind = -1;
+    p.now = p.last = &p.slot[0];
     *ok = false;
     if (in->runs == PARSE_RUNS_MAX) {
         diag_at(in->diags, DIAG_TOO_DEEP, raw_peek(in).where,
@@ -367,7 +380,7 @@ struct ast *parse_run(struct stream *in, int start, bool *ok)
     free(p.blocks);
     *ok = code == 0 && !p.failed;
     if (code == 2 && !p.failed && !in->stopped) {
-        diag_at(in->diags, DIAG_TOO_DEEP, p.now.where, "brackets", (int)PARSE_NEST_MAX);
+        diag_at(in->diags, DIAG_TOO_DEEP, p.now->where, "brackets", (int)PARSE_NEST_MAX);
         in->stopped = true;
     }
     if (!*ok)

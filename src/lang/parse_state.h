@@ -27,8 +27,9 @@ struct parse {
     int nest;           // open ( [ {
     int braces;         // open {
     int vectors;        // open < outside all of them
-    struct token last;  // the token before the one looked at
-    struct token now;   // the token looked at
+    struct token *last; // the token before the one looked at
+    struct token *now;  // the token looked at
+    struct token slot[2];
     struct parse_block *blocks;
     uint32_t block_count, block_capacity;
     struct ast *result;
@@ -57,7 +58,8 @@ void parse_open(struct parse *p, enum word word, bool entry, struct span where);
 struct ast *parse_close(struct parse *p, struct ast *node);
 struct ast *parse_finish(struct parse *p, struct ast *node);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
-int parse_token(struct parse *p, struct token *out);
+// The kind and place of the next token, which is *p->now then.
+int parse_token(struct parse *p, struct span *where);
 void parse_syntax_error(struct parse *p, const int *expected, int count);
 
 #endif

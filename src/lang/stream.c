@@ -137,17 +137,28 @@ static void pop_finished(struct stream *s)
     }
 }
 
-// Member by member: the copy is then made of what is at hand, without a second look.
-static struct token at(const struct cursor *c, uint32_t i)
+// Written where it is wanted: tokens are large, and copies of what was just written in
+// parts are slow.
+static inline void put(const struct cursor *c, uint32_t i, struct token *out)
 {
     const struct token *t = &c->tokens[i];
-    return (struct token){.kind = i >= c->count ? TOK_END : t->kind,
-                          .where = {t->where.file, t->where.begin, t->where.end,
-                                    c->expansion},
-                          .word = t->word,
-                          .len = t->len,
-                          .text = t->text,
-                          .number = t->number};
+    out->kind = i >= c->count ? TOK_END : t->kind;
+    out->where.file = t->where.file;
+    out->where.begin = t->where.begin;
+    out->where.end = t->where.end;
+    out->where.expansion = c->expansion;
+    out->word = t->word;
+    out->len = t->len;
+    out->text = t->text;
+    out->number = t->number;
+    out->value = NULL;
+}
+
+static struct token at(const struct cursor *c, uint32_t i)
+{
+    struct token t;
+    put(c, i, &t);
+    return t;
 }
 
 // What comes next, looking through the ends of macro bodies and includes.
@@ -211,18 +222,26 @@ struct token raw_peek_second(struct stream *s)
     return peek(s, s->pending_set ? 0 : 1);
 }
 
-struct token raw_take(struct stream *s)
+static void take(struct stream *s, struct token *out)
 {
     if (s->pending_set) {
         s->pending_set = false;
-        return uncooked(s->pending);
+        *out = uncooked(s->pending);
+        return;
     }
     pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     uint32_t i = c->at;
     s->steps++;
     c->at += i < c->count;
-    return at(c, i);
+    put(c, i, out);
+}
+
+struct token raw_take(struct stream *s)
+{
+    struct token t;
+    take(s, &t);
+    return t;
 }
 
 // Whether what comes after a text might go on with the expression that ends it.
@@ -390,50 +409,76 @@ static bool bind_name(struct stream *s, struct token *t)
     return true;
 }
 
-struct token stream_next(struct stream *s)
+// A token given back, if there is one.
+static bool take_pending(struct stream *s, struct token *out)
+{
+    if (!s->pending_set)
+        return false;
+    s->pending_set = false;
+    *out = s->pending;
+    if (out->kind == TOK_NAME && out->value) // may be gone by now
+        out->value = s->host.lookup(s->host.user, out->text, out->len).value;
+    return true;
+}
+
+static void run_directive(struct stream *s, const struct token *hash)
+{
+    struct arena_mark mark = arena_mark(s->nodes);
+    stream_ask(s, hash->where);
+    if (s->stopped)
+        return;
+    directive_run(s, *hash);
+    arena_rewind(s->nodes, mark);
+}
+
+// Gives the token its meaning here; false when there is none: it was a macro.
+static bool cook(struct stream *s, struct token *t)
+{
+    if (t->kind == TOK_NAME)
+        return bind_name(s, t);
+    if (t->kind == ']' && next_kind(s) == '[') {
+        t->kind = TOK_MORE;
+    } else if (t->kind == TOK_WORD && next_kind(s) == '(') {
+        if (t->word == WORD_defined)
+            *t = defined(s, *t);
+        else
+            t->kind = call_token((enum word)t->word);
+    }
+    return true;
+}
+
+void stream_take(struct stream *s, struct token *out)
 {
     if (s->pending_set && !is_name(s->pending.kind)) {
-        s->pending_set = false;
-        return s->pending;
+        take_pending(s, out);
+        return;
     }
     for (;;) {
         if (diag_full(s->diags))
             s->stopped = true;
-        if (s->stopped)
-            return at(&s->cursors[0], s->cursors[0].count);
-        struct token t;
-        if (s->pending_set) { // cooked already: a macro was expanded before
-            s->pending_set = false;
-            if (s->pending.kind == TOK_NAME && s->pending.value) // may be gone by now
-                s->pending.value = s->host.lookup(s->host.user, s->pending.text,
-                                                  s->pending.len).value;
-            return s->pending;
+        if (s->stopped) {
+            put(&s->cursors[0], s->cursors[0].count, out);
+            return;
         }
-        t = raw_take(s);
-        if (t.kind == TOK_END) {
+        if (take_pending(s, out)) // cooked already: a macro was expanded before
+            return;
+        take(s, out);
+        if (out->kind == TOK_END) {
             directive_end_of_cursor(s, &s->cursors[0]);
-            return t;
+            return;
         }
-        if (t.kind == '#') {
-            struct arena_mark mark = arena_mark(s->nodes);
-            stream_ask(s, t.where);
-            if (s->stopped)
-                continue;
-            directive_run(s, t);
-            arena_rewind(s->nodes, mark);
-            continue;
-        }
-        if (t.kind == TOK_WORD && next_kind(s) == '(') {
-            if (t.word == WORD_defined)
-                return defined(s, t);
-            t.kind = call_token((enum word)t.word);
-        } else if (t.kind == ']' && next_kind(s) == '[') {
-            t.kind = TOK_MORE;
-        } else if (t.kind == TOK_NAME && !bind_name(s, &t)) {
-            continue;
-        }
-        return t;
+        if (out->kind == '#')
+            run_directive(s, out);
+        else if (cook(s, out))
+            return;
     }
+}
+
+struct token stream_next(struct stream *s)
+{
+    struct token t;
+    stream_take(s, &t);
+    return t;
 }
 
 bool stream_at_end(const struct stream *s)

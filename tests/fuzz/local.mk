@@ -8,4 +8,4 @@ EXTRA_DIST += %D%/replay.sh \
 	%D%/corpus/blocks.pov %D%/corpus/directives.pov \
 	%D%/corpus/difference_huge.pov %D%/corpus/if_in_case.pov %D%/corpus/if_in_condition.pov \
 	%D%/corpus/if_in_elseif.pov %D%/corpus/while_at_end.pov \
-	%D%/corpus/while_in_macro.pov
+	%D%/corpus/subscript_huge.pov %D%/corpus/while_in_macro.pov
