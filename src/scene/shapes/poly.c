@@ -10,64 +10,115 @@
 #include "scene/args.h"
 #include "scene/shape.h"
 
+// The powers of z that go with one product of powers of x and y, from the highest that occurs.
+struct row {
+    int x, y, top;
+    const double *c;
+};
+
 struct poly {
     int order;
     const double *coefficient;
+    const struct row *row; // those that are not zero
+    uint32_t rows;
 };
 
 static size_t term_count(int n) { return (size_t)((n + 1) * (n + 2) * (n + 3) / 6); }
 
-// A polynomial in the ray's parameter, ascending powers.
+// A polynomial in the ray's parameter, ascending powers; degree -1: zero. What lies behind
+// the degree is not set.
 struct line_poly {
-    double c[POLYNOMIAL_DEGREE_MAX + 1];
     int degree;
+    double c[POLYNOMIAL_DEGREE_MAX + 1];
 };
 
-// p = p * (o + d t) + c
-static void horner(struct line_poly *p, double o, double d, const struct line_poly *c)
+// p = p * (o + d t)
+static void times_line(struct line_poly *p, double o, double d)
 {
-    for (int i = p->degree + 1; i >= 0; i--)
-        p->c[i] = (i <= p->degree ? o * p->c[i] : 0) + (i > 0 ? d * p->c[i - 1] : 0);
+    if (p->degree < 0)
+        return;
     p->degree++;
-    for (int i = 0; i <= c->degree; i++)
-        p->c[i] += c->c[i];
+    p->c[p->degree] = d * p->c[p->degree - 1];
+    for (int i = p->degree - 1; i > 0; i--)
+        p->c[i] = o * p->c[i] + d * p->c[i - 1];
+    p->c[0] *= o;
+}
+
+static void add_poly(struct line_poly *p, const struct line_poly *q)
+{
+    for (int i = p->degree + 1; i <= q->degree; i++)
+        p->c[i] = 0;
+    for (int i = 0; i <= q->degree; i++)
+        p->c[i] += q->c[i];
+    p->degree = q->degree > p->degree ? q->degree : p->degree;
+}
+
+static void add_constant(struct line_poly *p, double c)
+{
+    if (c == 0)
+        return;
+    p->c[0] = p->degree < 0 ? c : p->c[0] + c;
+    p->degree = p->degree < 0 ? 0 : p->degree;
+}
+
+// Moves a Horner scheme on by a number of powers.
+static void times_power(struct line_poly *p, double o, double d, int power)
+{
+    while (power-- > 0)
+        times_line(p, o, d);
 }
 
 // The polynomial along o + t d, as nested Horner schemes in x, y and z.
 static void along(const struct poly *s, struct vec3 o, struct vec3 d,
                   struct line_poly *out)
 {
-    const double *c = s->coefficient;
-    *out = (struct line_poly){.degree = -1};
-    for (int a = s->order; a >= 0; a--) {
-        struct line_poly in_y = {.degree = -1};
-        for (int b = s->order - a; b >= 0; b--) {
-            struct line_poly in_z = {.degree = -1};
-            for (int k = s->order - a - b; k >= 0; k--) {
-                const struct line_poly term = {{*c++}, 0};
-                horner(&in_z, o.z, d.z, &term);
+    struct line_poly in_y, in_z;
+    int x = s->order;
+    out->degree = -1;
+    for (uint32_t i = 0; i < s->rows;) {
+        const int at = s->row[i].x;
+        int y = s->row[i].y;
+        in_y.degree = -1;
+        for (; i < s->rows && s->row[i].x == at; i++) {
+            const struct row *r = &s->row[i];
+            times_power(&in_y, o.y, d.y, y - r->y);
+            y = r->y;
+            in_z.degree = -1;
+            for (int k = r->top; k >= 0; k--) {
+                times_line(&in_z, o.z, d.z);
+                add_constant(&in_z, r->c[r->top - k]);
             }
-            horner(&in_y, o.y, d.y, &in_z);
+            add_poly(&in_y, &in_z);
         }
-        horner(out, o.x, d.x, &in_y);
+        times_power(&in_y, o.y, d.y, y);
+        times_power(out, o.x, d.x, x - at);
+        x = at;
+        add_poly(out, &in_y);
     }
+    times_power(out, o.x, d.x, x);
+    if (out->degree < 0)
+        *out = (struct line_poly){.degree = 0, .c = {0}};
+}
+
+static double power(double x, int n)
+{
+    double v = 1;
+    for (; n > 0; n /= 2, x *= x)
+        v *= n % 2 ? x : 1;
+    return v;
 }
 
 static double value_at(const struct poly *s, struct vec3 p)
 {
-    const double *c = s->coefficient;
-    double x = 0;
-    for (int a = s->order; a >= 0; a--) {
-        double y = 0;
-        for (int b = s->order - a; b >= 0; b--) {
-            double z = 0;
-            for (int k = s->order - a - b; k >= 0; k--)
-                z = z * p.z + *c++;
-            y = y * p.y + z;
-        }
-        x = x * p.x + y;
+    double sum = 0;
+    for (uint32_t i = 0; i < s->rows; i++) {
+        const struct row *r = &s->row[i];
+        double z = 0;
+        for (int k = 0; k <= r->top; k++)
+            z = z * p.z + r->c[k];
+        sum += power(p.x, r->x) * power(p.y, r->y) * z;
     }
-    return x;
+    return sum;
 }
 
 static struct aabb bounds(const void *shape)
@@ -124,11 +175,33 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     out->uv = (struct vec2){p.x, p.y};
 }
 
+// Fills the rows from the coefficients.
+static void finish(struct poly *s, struct arena *arena)
+{
+    const int n = s->order;
+    const size_t most = (size_t)((n + 1) * (n + 2) / 2);
+    struct row *row = arena_new_array(arena, struct row, most);
+    const double *c = s->coefficient;
+    for (int x = n; x >= 0; x--)
+        for (int y = n - x; y >= 0; y--) {
+            struct row r = {x, y, n - x - y, c};
+            c += r.top + 1;
+            for (; r.top > 0 && *r.c == 0; r.top--)
+                r.c++;
+            if (*r.c != 0)
+                row[s->rows++] = r;
+        }
+    s->row = row;
+}
+
 static bool read_terms(struct poly *s, struct args *args)
 {
     double *c = arena_new_array(args_arena(args), double, term_count(s->order));
     s->coefficient = c;
-    return args_floats(args, "coefficients", c, term_count(s->order));
+    if (!args_floats(args, "coefficients", c, term_count(s->order)))
+        return false;
+    finish(s, args_arena(args));
+    return true;
 }
 
 static bool read_order(struct poly *s, struct args *args)
@@ -187,6 +260,7 @@ static bool build_polynomial(void *shape, struct args *args)
     for (struct args *term; (term = args_call(args, "xyz"));)
         if (!read_term(s, term, c))
             return false;
+    finish(s, args_arena(args));
     return true;
 }
 

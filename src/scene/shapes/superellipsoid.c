@@ -6,8 +6,8 @@
 // sampled between the planes on which F has kinks.
 #include <math.h>
 
-#include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/quick.h"
 #include "scene/args.h"
 #include "scene/shape.h"
 
@@ -16,12 +16,22 @@ struct superellipsoid {
     double e, n;
 };
 
-static double norm2(double a, double b, double p)
+// The p-norm (a^p + b^p)^(1/p) of a, b >= 0 and its derivatives. With w = (small/big)^p and
+// c = (1 + w)^(1/p) it is c big, its derivatives c/(1 + w) and that times w big/small.
+static double norm2(double a, double b, double p, double *da, double *db)
 {
-    const double big = fmax(a, b), small = fmin(a, b);
-    if (small == 0)
-        return big;
-    return big * det_pow(1 + det_pow(small / big, p), 1 / p);
+    const bool turned = a < b;
+    const double big = turned ? b : a, small = turned ? a : b;
+    double c = 1, by_big = 1, by_small = 0;
+    if (small > 0x1p-1000 * big) {
+        const double q = small / big, w = quick_pow(q, p);
+        c = quick_pow(1 + w, 1 / p);
+        by_big = c / (1 + w);
+        by_small = by_big * w / q;
+    }
+    *da = turned ? by_small : by_big;
+    *db = turned ? by_big : by_small;
+    return c * big;
 }
 
 struct sample {
@@ -30,22 +40,17 @@ struct sample {
 
 static struct vec3 gradient(const struct superellipsoid *s, struct vec3 p, double *f)
 {
-    const double x = fabs(p.x), y = fabs(p.y), z = fabs(p.z);
-    const double a = norm2(x, y, s->p), v = norm2(a, z, s->q);
-    *f = v - 1;
-    if (v == 0)
-        return vec3(0, 0, 0);
-    const double da = a > 0 ? det_pow(a / v, s->q - 1) : 0;
-    const double dx = x > 0 ? da * det_pow(x / a, s->p - 1) : 0;
-    const double dy = y > 0 ? da * det_pow(y / a, s->p - 1) : 0;
-    const double dz = z > 0 ? det_pow(z / v, s->q - 1) : 0;
-    return vec3(copysign(dx, p.x), copysign(dy, p.y), copysign(dz, p.z));
+    double dx, dy, da, dz;
+    const double a = norm2(fabs(p.x), fabs(p.y), s->p, &dx, &dy);
+    *f = norm2(a, fabs(p.z), s->q, &da, &dz) - 1;
+    return vec3(copysign(da * dx, p.x), copysign(da * dy, p.y), copysign(dz, p.z));
 }
 
 struct line {
     const struct superellipsoid *s;
     struct vec3 o, u; // unit direction, o nearest to the centre
     double shift, length;
+    double noise; // bound on the error of F: its numbers are near one, and see quick_pow
 };
 
 static struct sample at(const struct line *l, double t)
@@ -76,11 +81,10 @@ static bool in_cube(const struct line *l, double *a, double *b)
     return *a < *b;
 }
 
-static void add(const struct line *l, double t, enum crossing c, struct boundary_list *out)
+static void add(const struct line *l, double t, double slope, enum crossing c,
+                struct boundary_list *out)
 {
-    const double slope = fabs(at(l, t).slope);
-    // F is known to a few dozen roundings of numbers near one.
-    double dt = GAMMA(64) / fmax(slope, 0x1p-26);
+    double dt = 2 * l->noise / fmax(fabs(slope), 0x1p-26);
     dt += GAMMA(4) * (fabs(l->shift) + fabs(t));
     boundary_list_add(out, (t + l->shift) / l->length, dt / l->length, c, 0);
 }
@@ -106,40 +110,37 @@ static double root_between(const struct line *l, double outside, double inside)
     return t;
 }
 
-// A point inside on a convex F, or false: the tangents at both ends bound it from below.
-static bool find_inside(const struct line *l, double a, double b, double *inside)
+// The root of a convex F next to the outside point t, looking towards `to`, by Newton's
+// method, which comes from outside and does not pass it; false: there is none. *slope is
+// F's there.
+static bool approach(const struct line *l, double t, double to, double *root, double *slope)
 {
-    struct sample fa = at(l, a), fb = at(l, b);
+    const double way = to > t ? 1 : -1, noise = l->noise;
     for (int i = 0; i < 100; i++) {
-        if (fa.slope >= 0 || fb.slope <= 0)
-            return false;
-        const double t =
-            (fb.f - fa.f + fa.slope * a - fb.slope * b) / (fa.slope - fb.slope);
-        if (!(t > a && t < b) || fa.f + fa.slope * (t - a) > 0)
-            return false;
-        const struct sample f = at(l, t);
-        if (f.f < 0) {
-            *inside = t;
+        const struct sample v = at(l, t);
+        *slope = v.slope;
+        *root = t;
+        if (v.f <= noise)
             return true;
-        }
-        if (f.slope < 0) {
-            a = t;
-            fa = f;
-        } else {
-            b = t;
-            fb = f;
-        }
+        const double next = t - v.f / v.slope;
+        if (!(v.slope * way < 0) || !((to - next) * way >= 0))
+            return false;
+        if (next == t)
+            return true;
+        t = next;
     }
-    return false;
+    return true; // a graze, where steps only halve
 }
 
 static void convex(const struct line *l, double a, double b, struct boundary_list *out)
 {
-    double m;
-    if (!find_inside(l, a, b, &m))
+    double first, last, slope_a, slope_b;
+    if (!approach(l, a, b, &first, &slope_a))
         return;
-    add(l, root_between(l, a, m), CROSS_ENTER, out);
-    add(l, root_between(l, b, m), CROSS_EXIT, out);
+    if (!approach(l, b, first, &last, &slope_b))
+        last = first;
+    add(l, first, slope_a, CROSS_ENTER, out);
+    add(l, last, slope_b, CROSS_EXIT, out);
 }
 
 // Where the line meets the planes x = 0, x = y, x = -y and so on, sorted, ends included.
@@ -179,7 +180,7 @@ static void sampled(const struct line *l, double a, double b, struct boundary_li
             const bool now = at(l, t).f < 0 && !(i == n - 1 && k == PIECES);
             if (now != in) {
                 const double root = now ? root_between(l, last, t) : root_between(l, t, last);
-                add(l, root, now ? CROSS_ENTER : CROSS_EXIT, out);
+                add(l, root, at(l, root).slope, now ? CROSS_ENTER : CROSS_EXIT, out);
             }
             in = now;
             last = t;
@@ -190,6 +191,8 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     struct line l = {.s = shape, .length = vec3_length(ray->d)};
     l.u = vec3_scale(1 / l.length, ray->d);
+    // w^p is known to 3 |log w^p| + 4 roundings, and w^p |log w^p| < 1.
+    l.noise = GAMMA(64);
     l.shift = -vec3_dot(ray->o, l.u);
     l.o = vec3_mad(ray->o, l.shift, l.u);
     double a, b;
