@@ -141,6 +141,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     if (s->empty)
         return;
     const struct slabs slabs = slabs_of(&p->bounds, ray);
+    const struct patch_ray r = patch_ray_of(ray);
     const uint32_t from = out->count;
     uint32_t stack[STACK], depth = 0;
     stack[depth++] = 0;
@@ -156,7 +157,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
             stack[depth++] = at + 1;
             continue;
         }
-        const int count = patch_meet_leaf(&p->leaf[n->leaf], ray, hit);
+        const int count = patch_meet_leaf(&p->leaf[n->leaf], &r, hit);
         for (int i = 0; i < count; i++) {
             uint32_t k = from;
             while (k < out->count && !is_same(&out->at[k], &hit[i]))
@@ -177,6 +178,7 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
     if (s->empty)
         return false;
     const struct slabs slabs = slabs_of(&p->bounds, ray);
+    const struct patch_ray r = patch_ray_of(ray);
     uint32_t stack[STACK], depth = 0;
     double t_max = ray->t_max;
     bool found = false;
@@ -202,7 +204,7 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
                 stack[depth++] = at + 1;
             continue;
         }
-        const int count = patch_meet_leaf(&p->leaf[n->leaf], ray, hit);
+        const int count = patch_meet_leaf(&p->leaf[n->leaf], &r, hit);
         for (int i = 0; i < count; i++)
             if (hit[i].t > ray->t_min && hit[i].t < t_max) {
                 fill(out, &hit[i]);

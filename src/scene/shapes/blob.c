@@ -34,6 +34,7 @@ struct blob {
 // A component on a line: q(t) = 1 - d^2/r^2 = q0 + q1 t + q2 t^2 for lo < t < hi.
 struct stretch {
     double lo, hi, s, q0, q1, q2;
+    double peak; // the field is never above
 };
 
 // The ray in the component's space, t unchanged.
@@ -52,7 +53,7 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
     }
     const double r2 = c->r * c->r, a = vec3_dot(d, d), b = vec3_dot(v, d);
     *out = (struct stretch){-HUGE_VAL, HUGE_VAL, c->s, 1 - vec3_dot(v, v) / r2,
-                            -2 * b / r2, -a / r2};
+                            -2 * b / r2, -a / r2, fmax(0, c->s)};
     if (a > 0) {
         const double shift = -b / a;
         const struct vec3 near = vec3_mad(v, shift, d);
@@ -62,6 +63,8 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
         const double reach = sqrt(rest / a);
         out->lo = shift - reach;
         out->hi = shift + reach;
+        const double q = rest / r2;
+        out->peak = c->s > 0 ? c->s * q * q : 0;
     } else if (!(out->q0 > 0)) {
         return false;
     }
@@ -111,7 +114,14 @@ static void cross(struct walk *w, double t, double dt)
 static void walk_between(struct walk *w, double lo, double hi)
 {
     const double m = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
-    double c[5] = {-w->blob->threshold};
+    double c[5] = {-w->blob->threshold}, most = 0;
+    if (!w->in) { // mostly the components around are too weak to reach the threshold
+        for (uint32_t i = 0; i < w->count; i++)
+            if (w->at[i].lo <= lo && w->at[i].hi >= hi)
+                most += w->at[i].peak;
+        if (most < w->blob->threshold * (1 - 0x1p-30))
+            return;
+    }
     for (uint32_t i = 0; i < w->count; i++)
         if (w->at[i].lo <= lo && w->at[i].hi >= hi)
             add_quartic(&w->at[i], m, c);

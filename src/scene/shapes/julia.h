@@ -32,7 +32,9 @@ struct julia {
 // The number of the first iterate that leaves the ball; j->iterations: none, p is inside.
 // Else *step, if not NULL, is how far the surface is at least along the unit direction d,
 // as estimated (0: no idea).
-int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step);
+// *norm is that iterate's squared length, or the last one's.
+int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step,
+                 double *norm);
 // The gradient of iterate k's length, up to a factor.
 struct vec3 julia_gradient(const struct julia *j, struct vec3 p, int k);
 

@@ -3,8 +3,8 @@
 //
 // A three-dimensional slice of a Julia set. No formula gives its surface on a line: the line
 // is sampled at steps of the estimated distance, at least 1/precision, so thinner parts are
-// met or not as in POV-Ray; where the state changes the place is found by bisection to the
-// last bit.
+// met or not as in POV-Ray; where the state changes the place is found to its rounding
+// error.
 #include <math.h>
 
 #include "math/gamma.h"
@@ -111,35 +111,65 @@ static struct aabb bounds(const void *shape)
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct julia *j = shape;
+    double norm;
     return vec3_dot(p, p) <= j->radius * j->radius &&
-           julia_escape(j, p, vec3(0, 0, 1), NULL) == j->iterations;
+           julia_escape(j, p, vec3(0, 0, 1), NULL, &norm) == j->iterations;
 }
 
 struct march {
     const struct julia *j;
     struct vec3 o, d; // unit direction
+    double shift, length;
 };
 
-static bool in_at(const struct march *m, double t, double *step)
+// A sample of the line. While none but the last iterate leaves the ball, `over` is a smooth
+// function, how far it is beyond the ball's radius.
+struct sample {
+    bool in, smooth;
+    double over, step;
+};
+
+static struct sample sample_at(const struct march *m, double t, bool want_step)
 {
-    return julia_escape(m->j, vec3_mad(m->o, t, m->d), m->d, step) == m->j->iterations;
+    struct sample s = {.step = 0};
+    double norm;
+    const int k = julia_escape(m->j, vec3_mad(m->o, t, m->d), m->d,
+                               want_step ? &s.step : NULL, &norm);
+    s.in = k == m->j->iterations;
+    s.smooth = k >= m->j->iterations - 1;
+    s.over = norm - m->j->escape;
+    return s;
 }
 
-// Where the state changes between lo, of state `in`, and hi: the inner one of two neighbours;
-// *outer is the other.
-static double bisect(const struct march *m, double lo, double hi, bool in, double *outer)
+// Where the state changes between lo and hi: a stretch no longer than `enough`, found by
+// bisection, and by the Illinois method while the function is smooth.
+static void narrow(const struct march *m, double *lo, double *hi, struct sample a,
+                   struct sample b, double enough)
 {
-    for (int i = 0; i < 60; i++) {
-        const double t = 0.5 * (lo + hi);
-        if (!(t > lo && t < hi))
+    int side = 0;
+    for (int i = 0; i < 100 && *hi - *lo > enough; i++) {
+        double t = 0.5 * (*lo + *hi);
+        if (a.smooth && b.smooth && i % 8 != 7) {
+            t = *lo + (*hi - *lo) * (a.over / (a.over - b.over));
+            t = fmax(*lo + 0.5 * enough, fmin(*hi - 0.5 * enough, t));
+        }
+        if (!(t > *lo && t < *hi))
             break;
-        if (in_at(m, t, NULL) == in)
-            lo = t;
-        else
-            hi = t;
+        const struct sample s = sample_at(m, t, false);
+        if (s.in == a.in) {
+            if (side == 1)
+                b.over *= 0.5;
+            *lo = t;
+            a = s;
+            side = 1;
+        } else {
+            if (side == 2)
+                a.over *= 0.5;
+            *hi = t;
+            b = s;
+            side = 2;
+        }
     }
-    *outer = in ? hi : lo;
-    return in ? lo : hi;
 }
 
 // Which iterate's gradient is the normal at t: the last, as POV-Ray has it, unless it points
@@ -150,7 +180,15 @@ static uint32_t normal_of(const struct march *m, double t, bool in, double outsi
     const struct vec3 g = julia_gradient(m->j, vec3_mad(m->o, t, m->d), n);
     if ((vec3_dot(g, m->d) > 0) == in)
         return (uint32_t)n;
-    return (uint32_t)julia_escape(m->j, vec3_mad(m->o, outside, m->d), m->d, NULL);
+    double norm;
+    return (uint32_t)julia_escape(m->j, vec3_mad(m->o, outside, m->d), m->d, NULL, &norm);
+}
+
+static void add(const struct march *m, double inner, double outer, bool exits, double error,
+                struct boundary_list *out)
+{
+    boundary_list_add(out, (inner + m->shift) / m->length, error / m->length,
+                      exits ? CROSS_EXIT : CROSS_ENTER, normal_of(m, inner, exits, outer));
 }
 
 // Crossings with t > ray->t_min, up to `limit` of them. The ball is left at its surface.
@@ -160,31 +198,33 @@ static void march(const struct julia *j, const struct ray *ray, uint32_t limit,
     const double length = vec3_length(ray->d), least = 1 / j->precision;
     const struct vec3 u = vec3_scale(1 / length, ray->d);
     const double shift = -vec3_dot(ray->o, u);
-    const struct march m = {j, vec3_mad(ray->o, shift, u), u};
+    const struct march m = {j, vec3_mad(ray->o, shift, u), u, shift, length};
     const double reach2 = j->radius * j->radius - vec3_dot(m.o, m.o);
     if (!(reach2 > 0))
         return;
     const double end = sqrt(reach2), error = GAMMA(32) * (fabs(shift) + j->radius);
-    double t = fmax(-end, ray->t_min * length - shift), step = 0;
+    double t = fmax(-end, ray->t_min * length - shift);
     if (!(t < end))
         return;
-    bool in = in_at(&m, t, &step) && t > -end;
+    struct sample here = sample_at(&m, t, true);
+    here.in = here.in && t > -end;
     while (t < end && limit > 0) {
-        const double next = fmin(end, t + fmax(step, least));
-        bool now = false;
-        double ahead = 0;
-        if (next < end)
-            now = in_at(&m, next, &ahead);
-        if (now != in) {
-            double outer = next;
-            const double at = next < end ? bisect(&m, t, next, in, &outer) : next;
-            boundary_list_add(out, (at + shift) / length, error / length,
-                              in ? CROSS_EXIT : CROSS_ENTER, normal_of(&m, at, in, outer));
+        const double next = fmin(end, t + fmax(here.in ? 0 : here.step, least));
+        struct sample now = sample_at(&m, next, true);
+        const bool leaves = next == end; // the ball, whatever the iterates say
+        if (here.in && leaves && now.in) {
+            add(&m, next, next, true, error, out);
+            return;
+        }
+        now.in = now.in && !leaves;
+        if (now.in != here.in) {
+            double lo = t, hi = next;
+            narrow(&m, &lo, &hi, here, now, 0.25 * error);
+            add(&m, here.in ? lo : hi, here.in ? hi : lo, here.in, error, out);
             limit--;
         }
-        in = now;
+        here = now;
         t = next;
-        step = now ? 0 : ahead;
     }
 }
 

@@ -1,7 +1,9 @@
 // The iterations of julia_fractal, their escape and its gradient.
+#include <float.h>
 #include <math.h>
 
 #include "math/elementary.h"
+#include "math/quick.h"
 #include "scene/shapes/julia.h"
 
 // ---- complex numbers ----------------------------------------------------
@@ -37,31 +39,48 @@ static struct complex c_sqrt(struct complex a)
     const double big = sqrt(0.5 * (m + fabs(a.re))), small = 0.5 * a.im / big;
     return a.re >= 0 ? cx(big, small) : cx(fabs(small), copysign(big, a.im));
 }
+// Iterates within the ball have small arguments; beyond it any may come.
+static double exp_of(double x) { return x > -700 && x < 700 ? quick_exp(x) : det_exp(x); }
+
+static void sincos_of(double x, double *s, double *c)
+{
+    if (x > -1e5 && x < 1e5) {
+        quick_sincos(x, s, c);
+    } else {
+        *s = det_sin(x);
+        *c = det_cos(x);
+    }
+}
+
 static struct complex c_exp(struct complex a)
 {
-    const double r = det_exp(a.re);
-    return cx(r * det_cos(a.im), r * det_sin(a.im));
+    double s, c;
+    const double r = exp_of(a.re);
+    sincos_of(a.im, &s, &c);
+    return cx(r * c, r * s);
 }
 static struct complex c_ln(struct complex a)
 {
     const double n = c_norm(a);
-    return n > 0 ? cx(0.5 * det_log(n), det_atan2(a.im, a.re)) : cx(0, 0);
+    const bool plain = n > DBL_MIN && n <= DBL_MAX;
+    return n > 0 ? cx(0.5 * (plain ? quick_log(n) : det_log(n)), det_atan2(a.im, a.re))
+                 : cx(0, 0);
 }
-static struct complex c_sin(struct complex a)
+static void c_sincos(struct complex a, struct complex *sine, struct complex *cosine)
 {
-    return cx(det_sin(a.re) * det_cosh(a.im), det_cos(a.re) * det_sinh(a.im));
+    double s, c;
+    const double e = exp_of(a.im), ch = 0.5 * (e + 1 / e), sh = 0.5 * (e - 1 / e);
+    sincos_of(a.re, &s, &c);
+    *sine = cx(s * ch, c * sh);
+    *cosine = cx(c * ch, -s * sh);
 }
-static struct complex c_cos(struct complex a)
+static void c_sinhcosh(struct complex a, struct complex *sine, struct complex *cosine)
 {
-    return cx(det_cos(a.re) * det_cosh(a.im), -det_sin(a.re) * det_sinh(a.im));
-}
-static struct complex c_sinh(struct complex a)
-{
-    return cx(det_sinh(a.re) * det_cos(a.im), det_cosh(a.re) * det_sin(a.im));
-}
-static struct complex c_cosh(struct complex a)
-{
-    return cx(det_cosh(a.re) * det_cos(a.im), det_sinh(a.re) * det_sin(a.im));
+    double s, c;
+    const double e = exp_of(a.re), ch = 0.5 * (e + 1 / e), sh = 0.5 * (e - 1 / e);
+    sincos_of(a.im, &s, &c);
+    *sine = cx(sh * c, ch * s);
+    *cosine = cx(ch * c, sh * s);
 }
 
 // ln(z + root), whose derivative is 1/root.
@@ -98,25 +117,28 @@ static struct complex apply(const struct julia *j, struct complex z, struct comp
         *d = c_scale(-1, c_mul(f, f));
         return f;
     case JULIA_SIN:
-        *d = c_cos(z);
-        return c_sin(z);
+        c_sincos(z, &f, d);
+        return f;
     case JULIA_COS:
-        *d = c_scale(-1, c_sin(z));
-        return c_cos(z);
+        c_sincos(z, &g, &f);
+        *d = c_scale(-1, g);
+        return f;
     case JULIA_SINH:
-        *d = c_cosh(z);
-        return c_sinh(z);
+        c_sinhcosh(z, &f, d);
+        return f;
     case JULIA_COSH:
-        *d = c_sinh(z);
-        return c_cosh(z);
+        c_sinhcosh(z, d, &f);
+        return f;
     case JULIA_TAN:
-        g = c_inverse(c_cos(z));
+        c_sincos(z, &f, &g);
+        g = c_inverse(g);
         *d = c_mul(g, g);
-        return c_mul(c_sin(z), g);
+        return c_mul(f, g);
     case JULIA_TANH:
-        g = c_inverse(c_cosh(z));
+        c_sinhcosh(z, &f, &g);
+        g = c_inverse(g);
         *d = c_mul(g, g);
-        return c_mul(c_sinh(z), g);
+        return c_mul(f, g);
     case JULIA_ASINH: return log_of_sum(z, c_sqrt(c_add(z2, one)), d);
     case JULIA_ACOSH: return log_of_sum(z, c_sqrt(c_add(z2, cx(-1, 0))), d);
     case JULIA_ASIN: // -i ln(iz + sqrt(1 - z^2))
@@ -167,6 +189,15 @@ static double growth(const struct pair *h, const struct pair *slope, struct pair
 static void pair_step(const struct julia *j, struct pair *h, struct pair *slope)
 {
     struct complex da, db;
+    // Inlined squares: most julia_fractals are of them.
+    if (j->function == JULIA_SQR) {
+        const double ca = j->c[0] - j->c[3], cb = j->c[0] + j->c[3];
+        slope->a = c_scale(2, c_mul(slope->a, h->a));
+        slope->b = c_scale(2, c_mul(slope->b, h->b));
+        h->a = c_add(c_mul(h->a, h->a), cx(ca, j->c[1] + j->c[2]));
+        h->b = c_add(c_mul(h->b, h->b), cx(cb, j->c[1] - j->c[2]));
+        return;
+    }
     const struct pair c = pair_of(j->c[0], j->c[1], j->c[2], j->c[3]);
     h->a = c_add(apply(j, h->a, &da), c.a);
     h->b = c_add(apply(j, h->b, &db), c.b);
@@ -185,11 +216,12 @@ static struct pair pair_axis(const struct julia *j, int axis)
     return pair_of(axis == 0, axis == 1, axis == 2, j->start[axis]);
 }
 
-static int hyper_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step)
+static int hyper_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step,
+                        double *length)
 {
     struct pair h = pair_of(p.x, p.y, p.z, w_at(j, p)), slope = {{1, 0}, {1, 0}};
     for (int k = 0; k < j->iterations; k++) {
-        const double norm = pair_norm(&h);
+        const double norm = *length = pair_norm(&h);
         if (!(norm <= j->escape)) {
             const double w = vec3_dot(vec3(j->start[0], j->start[1], j->start[2]), d);
             const double fall = -2 * growth(&h, &slope, pair_of(d.x, d.y, d.z, w));
@@ -245,16 +277,17 @@ static double norm4(const double h[4])
     return h[0] * h[0] + h[1] * h[1] + h[2] * h[2] + h[3] * h[3];
 }
 
-static int quaternion_escape(const struct julia *j, struct vec3 p, double *step)
+static int quaternion_escape(const struct julia *j, struct vec3 p, double *step,
+                             double *length)
 {
     double h[4] = {p.x, p.y, p.z, w_at(j, p)}, product = 1;
     double power = j->function == JULIA_CUBE ? 3 : 2, scale = 1;
     for (int k = 0; k < j->iterations; k++) {
-        const double norm = norm4(h);
+        const double norm = *length = norm4(h);
         scale *= power;
         if (!(norm <= j->escape)) {
             if (step)
-                *step = det_log(norm) / (scale * sqrt(product));
+                *step = quick_log(norm) / (scale * sqrt(product));
             return k;
         }
         product *= norm;
@@ -280,9 +313,11 @@ static struct vec3 quaternion_gradient(const struct julia *j, struct vec3 p, int
     return vec3(g[0], g[1], g[2]);
 }
 
-int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step)
+int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step,
+                 double *norm)
 {
-    return j->hypercomplex ? hyper_escape(j, p, d, step) : quaternion_escape(j, p, step);
+    return j->hypercomplex ? hyper_escape(j, p, d, step, norm)
+                           : quaternion_escape(j, p, step, norm);
 }
 
 struct vec3 julia_gradient(const struct julia *j, struct vec3 p, int k)

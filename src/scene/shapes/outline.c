@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/gamma.h"
 
 void outline_init(struct outline *o, struct arena *arena)
 {
@@ -150,6 +151,16 @@ static int extrema(const struct cubic *f, double w[2])
     return kept;
 }
 
+// Whether all Bernstein coefficients have one sign, clear of rounding: then there is no
+// root (Farouki & Rajan 1987). `end` is f(1).
+static bool beside(const struct cubic *f, double end)
+{
+    const double a = f->c[0], b = a + f->c[1] / 3, c = b + (f->c[1] + f->c[2]) / 3;
+    const double noise = GAMMA(16) * (fabs(a) + fabs(f->c[1]) + fabs(f->c[2]) + fabs(end));
+    return (a > noise && b > noise && c > noise && end > noise) ||
+           (a < -noise && b < -noise && c < -noise && end < -noise);
+}
+
 int outline_roots(const struct outline_segment *s, const double k[3],
                   double w[OUTLINE_ROOTS])
 {
@@ -164,6 +175,8 @@ int outline_roots(const struct outline_segment *s, const double k[3],
     const struct cubic f = {{side(k, s->a), k[0] * s->c1.u + k[1] * s->c1.v,
                              k[0] * s->c2.u + k[1] * s->c2.v,
                              k[0] * s->c3.u + k[1] * s->c3.v}};
+    if (above_a == above_b && beside(&f, side(k, s->b)))
+        return 0;
     double stop[3] = {0};
     int n = 1 + extrema(&f, stop + 1), roots = 0;
     bool above = above_a;

@@ -13,6 +13,7 @@ struct arena;
 struct patch_leaf {
     struct vec3 p[4][4];
     double u[2], v[2]; // the part of the whole it is
+    double size;       // largest coordinate
 };
 
 struct patch_node {
@@ -37,9 +38,16 @@ void patch_build(struct patch *p, struct arena *arena);
 void patch_derivatives(const struct patch *p, double u, double v, struct vec3 *at,
                        struct vec3 *du, struct vec3 *dv);
 
-// Where a line meets one leaf. At most `max` are stored; returns their number.
+// A ray with a frame across it.
+struct patch_ray {
+    struct vec3 o, d, e1, e2; // unit
+    double length, size;
+};
+struct patch_ray patch_ray_of(const struct ray *ray);
+
+// Where the line meets one leaf; returns how often.
 enum { PATCH_HITS = 18 }; // a line meets a bicubic patch no more often
-int patch_meet_leaf(const struct patch_leaf *leaf, const struct ray *ray,
+int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *ray,
                     struct patch_hit hit[PATCH_HITS]);
 
 #endif

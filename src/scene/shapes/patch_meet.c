@@ -14,6 +14,8 @@
 enum { AXES = 3, STEPS_MAX = 12, DEPTH_MAX = 110, SPLITS_MAX = 4000 };
 static const double IDENTITY = 0.5;
 
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
 struct net {
     double p[4][4][AXES]; // across, across, along the line
     double u[2], v[2];
@@ -73,7 +75,7 @@ static bool excludes(const struct net *n, double noise, double *extent)
         }
         if (lo > noise || hi < -noise)
             return true;
-        *extent = fmax(*extent, hi - lo);
+        *extent = larger(*extent, hi - lo);
     }
     return false;
 }
@@ -100,7 +102,7 @@ static bool invert(struct frame *f)
     f->inverse[0][1] = -f->dv[0] / det;
     f->inverse[1][0] = -f->du[1] / det;
     f->inverse[1][1] = f->du[0] / det;
-    f->norm = fmax(fabs(f->inverse[0][0]) + fabs(f->inverse[0][1]),
+    f->norm = larger(fabs(f->inverse[0][0]) + fabs(f->inverse[0][1]),
                    fabs(f->inverse[1][0]) + fabs(f->inverse[1][1]));
     return true;
 }
@@ -118,23 +120,34 @@ static void mean(const struct net *n, struct frame *f)
     }
 }
 
-// The derivatives' control vectors are three times the differences of the net.
-static void measure(const struct net *n, struct frame *f)
+// Looks at the net through the inverse of its mean derivative: whether it then lies beside
+// the line, else how far its derivative is from the identity. The derivatives' control
+// vectors are three times the differences of the net.
+static bool measure(const struct net *n, struct frame *f, double noise)
 {
+    double q[4][4][2], lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < 16; i++) {
+        double *to = q[i / 4][i % 4];
+        apply(f, n->p[i / 4][i % 4][0], n->p[i / 4][i % 4][1], to);
+        for (int k = 0; k < 2; k++) {
+            lo[k] = to[k] < lo[k] ? to[k] : lo[k];
+            hi[k] = larger(to[k], hi[k]);
+        }
+    }
+    const double slack = 2 * f->norm * noise;
+    if (lo[0] > slack || lo[1] > slack || hi[0] < -slack || hi[1] < -slack)
+        return false;
     double worst[2][2] = {{0, 0}, {0, 0}};
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++) {
-            double a[2], b[2];
-            apply(f, 3 * (n->p[i + 1][j][0] - n->p[i][j][0]),
-                  3 * (n->p[i + 1][j][1] - n->p[i][j][1]), a);
-            apply(f, 3 * (n->p[j][i + 1][0] - n->p[j][i][0]),
-                  3 * (n->p[j][i + 1][1] - n->p[j][i][1]), b);
-            worst[0][0] = fmax(worst[0][0], fabs(a[0] - 1));
-            worst[1][0] = fmax(worst[1][0], fabs(a[1]));
-            worst[0][1] = fmax(worst[0][1], fabs(b[0]));
-            worst[1][1] = fmax(worst[1][1], fabs(b[1] - 1));
-        }
-    f->off = fmax(worst[0][0] + worst[0][1], worst[1][0] + worst[1][1]);
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 2; k++) {
+                const double a = 3 * (q[i + 1][j][k] - q[i][j][k]) - (k == 0);
+                const double b = 3 * (q[j][i + 1][k] - q[j][i][k]) - (k == 1);
+                worst[k][0] = larger(worst[k][0], fabs(a));
+                worst[k][1] = larger(worst[k][1], fabs(b));
+            }
+    f->off = larger(worst[0][0] + worst[0][1], worst[1][0] + worst[1][1]);
+    return true;
 }
 
 static void basis(double w, double b[4], double d[4])
@@ -150,13 +163,14 @@ static void basis(double w, double b[4], double d[4])
     d[3] = 3 * w * w;
 }
 
-static void evaluate(const struct net *n, const double st[2], double at[AXES],
-                     double du[AXES], double dv[AXES])
+// The axes from `from` to before `to`.
+static inline void evaluate(const struct net *n, const double st[2], int from, int to,
+                            double at[AXES], double du[AXES], double dv[AXES])
 {
     double bu[4], bv[4], cu[4], cv[4];
     basis(st[0], bu, cu);
     basis(st[1], bv, cv);
-    for (int k = 0; k < AXES; k++) {
+    for (int k = from; k < to; k++) {
         at[k] = du[k] = dv[k] = 0;
         for (int i = 0; i < 4; i++) {
             double row = 0, slope = 0;
@@ -182,7 +196,7 @@ static void keep(struct search *s, double t, double dt, double u, double v, doub
         s->hit[s->count++] = (struct patch_hit){t, dt, u, v};
 }
 
-static double within(double w) { return fmax(0, fmin(1, w)); }
+static double within(double w) { return w < 0 ? 0 : w > 1 ? 1 : w; }
 
 static void keep_at(struct search *s, const struct net *n, const double st[2], double slack,
                     double dt, double along)
@@ -198,10 +212,10 @@ static bool newton(struct search *s, const struct net *n, const struct frame *f)
     double st[2] = {0.5, 0.5}, at[AXES], du[AXES], dv[AXES], step[2], last = HUGE_VAL;
     struct frame here = *f;
     for (int i = 0; i < STEPS_MAX; i++) {
-        evaluate(n, st, at, du, dv);
+        evaluate(n, st, 0, 2, at, du, dv);
         if (i == 0) {
             apply(f, at[0], at[1], step);
-            if (fmax(fabs(step[0]), fabs(step[1])) >
+            if (larger(fabs(step[0]), fabs(step[1])) >
                 0.5 * (1 + f->off) + f->norm * s->noise + 0x1p-40)
                 return true; // outside
         }
@@ -212,13 +226,15 @@ static bool newton(struct search *s, const struct net *n, const struct frame *f)
         if (!invert(&here))
             return false;
         apply(&here, at[0], at[1], step);
-        const double size = fmax(fabs(step[0]), fabs(step[1]));
+        const double size = larger(fabs(step[0]), fabs(step[1]));
         const double slack = 2 * here.norm * s->noise + 0x1p-44;
+        const double here_st[2] = {st[0], st[1]};
         st[0] -= step[0];
         st[1] -= step[1];
         if (size <= slack || (size >= last && size < 0x1p-20)) {
             if (st[0] < -slack || st[0] > 1 + slack || st[1] < -slack || st[1] > 1 + slack)
                 return true;
+            evaluate(n, here_st, 2, 3, at, du, dv);
             const double along = at[2] - step[0] * du[2] - step[1] * dv[2];
             const double slant =
                 here.norm * (fabs(du[2]) + fabs(dv[2])); // along per across
@@ -262,7 +278,7 @@ static double length_along(const struct net *n, bool along_u)
             double sum = 0;
             for (int k = 0; k < AXES; k++)
                 sum += (b[k] - a[k]) * (b[k] - a[k]);
-            most = fmax(most, sum);
+            most = larger(most, sum);
         }
     return most;
 }
@@ -275,8 +291,7 @@ static void solve(struct search *s, const struct net *n, int depth)
         return;
     mean(n, &f);
     if (invert(&f)) {
-        measure(n, &f);
-        if (f.off < IDENTITY && newton(s, n, &f))
+        if (!measure(n, &f, s->noise) || (f.off < IDENTITY && newton(s, n, &f)))
             return;
     }
     if (extent <= 4 * s->noise || depth == DEPTH_MAX) {
@@ -294,30 +309,37 @@ static void solve(struct search *s, const struct net *n, int depth)
     solve(s, &high, depth + 1);
 }
 
-int patch_meet_leaf(const struct patch_leaf *leaf, const struct ray *ray,
+struct patch_ray patch_ray_of(const struct ray *ray)
+{
+    struct patch_ray r = {.o = ray->o, .length = vec3_length(ray->d)};
+    const struct vec3 d = r.d = vec3_scale(1 / r.length, ray->d);
+    // Across d: Frisvad's frame, improved by Duff et al. 2017.
+    const double sign = copysign(1, d.z), a = -1 / (sign + d.z), b = d.x * d.y * a;
+    r.e1 = vec3(1 + sign * d.x * d.x * a, sign * b, -sign * d.x);
+    r.e2 = vec3(b, sign + d.y * d.y * a, -d.y);
+    r.size = vec3_max_abs(ray->o);
+    return r;
+}
+
+int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *r,
                     struct patch_hit hit[PATCH_HITS])
 {
     struct net n = {.u = {leaf->u[0], leaf->u[1]}, .v = {leaf->v[0], leaf->v[1]}};
-    const double length = vec3_length(ray->d);
-    const struct vec3 d = vec3_scale(1 / length, ray->d);
-    // Across d: Frisvad's frame, improved by Duff et al. 2017.
-    const double sign = copysign(1, d.z), a = -1 / (sign + d.z), b = d.x * d.y * a;
-    const struct vec3 e1 = vec3(1 + sign * d.x * d.x * a, sign * b, -sign * d.x);
-    const struct vec3 e2 = vec3(b, sign + d.y * d.y * a, -d.y);
-    double size = vec3_max_abs(ray->o);
-    for (int i = 0; i < 16; i++) {
-        const struct vec3 p = leaf->p[i / 4][i % 4], q = vec3_sub(p, ray->o);
-        double *to = n.p[i / 4][i % 4];
-        to[0] = vec3_dot(q, e1);
-        to[1] = vec3_dot(q, e2);
-        to[2] = vec3_dot(q, d);
-        size = fmax(size, vec3_max_abs(p));
-    }
-    struct search s = {.hit = hit, .noise = GAMMA(16) * size};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            const struct vec3 q = vec3_sub(leaf->p[i][j], r->o);
+            n.p[i][j][0] = vec3_dot(q, r->e1);
+            n.p[i][j][1] = vec3_dot(q, r->e2);
+            n.p[i][j][2] = vec3_dot(q, r->d);
+        }
+    struct search s;
+    s.hit = hit;
+    s.count = s.splits = 0;
+    s.noise = GAMMA(16) * larger(r->size, leaf->size);
     solve(&s, &n, 0);
     for (int i = 0; i < s.count; i++) {
-        hit[i].t /= length;
-        hit[i].dt = hit[i].dt / length + GAMMA(4) * fabs(hit[i].t);
+        hit[i].t /= r->length;
+        hit[i].dt = hit[i].dt / r->length + GAMMA(4) * fabs(hit[i].t);
     }
     return s.count;
 }

@@ -7,7 +7,7 @@
 
 // A leaf is where the first derivatives differ from their mean by less than this share: a
 // line then meets it seldom more than once, and Newton's method finds where.
-static const double BEND = 0.25;
+static const double BEND = 0.15;
 enum { DEPTH_MAX = 8 };
 
 static struct vec3 middle(struct vec3 a, struct vec3 b)
@@ -95,7 +95,8 @@ static uint32_t grow(struct patch *p, const struct patch_leaf *l, int depth)
         n->box = aabb_add(n->box, l->p[i / 4][i % 4]);
     n->box = aabb_pad(n->box);
     n->leaf = p->leaves;
-    p->leaf[p->leaves++] = *l;
+    p->leaf[p->leaves] = *l;
+    p->leaf[p->leaves++].size = fmax(vec3_max_abs(n->box.min), vec3_max_abs(n->box.max));
     return at;
 }
 

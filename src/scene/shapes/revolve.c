@@ -16,13 +16,42 @@ static const double FLAT = 0x1p-26; // square root of the roundoff
 
 static const double pi = 3.14159265358979323846;
 
+// Bernstein coefficients of a polynomial on [0, 1], whose hull holds its values.
+static void hull(const double *c, int degree, double *low, double *high)
+{
+    double b[POLYNOMIAL_DEGREE_MAX + 1] = {0}, scale = 1;
+    for (int i = 0; i <= degree; i++) { // over the binomials
+        b[i] = c[i] * scale;
+        scale *= (i + 1.) / fmax(1, degree - i);
+    }
+    for (int i = 0; i < degree; i++)
+        for (int k = degree; k > i; k--)
+            b[k] += b[k - 1];
+    *low = *high = b[0];
+    for (int i = 1; i <= degree; i++) {
+        *low = fmin(*low, b[i]);
+        *high = fmax(*high, b[i]);
+    }
+}
+
+static void bound_segment(struct revolve_segment *s)
+{
+    double least2;
+    hull(s->h, s->h_degree, &s->low, &s->high);
+    hull(s->r2, s->r2_degree, &least2, &s->most2);
+    s->low = fmin(s->low, fmin(s->h_end[0], s->h_end[1]));
+    s->high = fmax(s->high, fmax(s->h_end[0], s->h_end[1]));
+    s->most2 = fmax(s->most2, fmax(s->r2_end[0], s->r2_end[1]));
+}
+
 void revolve_prepare(struct revolve *r)
 {
     double r2 = 0;
     r->h_min = HUGE_VAL;
     r->h_max = -HUGE_VAL;
     for (uint32_t i = 0; i < r->count; i++) {
-        const struct revolve_segment *s = &r->segment[i];
+        struct revolve_segment *s = &r->segment[i];
+        bound_segment(s);
         enum { STEPS = 64 };
         for (int k = 0; k <= STEPS; k++) {
             const double w = k / (double)STEPS;
@@ -90,6 +119,8 @@ struct line {
     const struct ray *ray;
     double q, m, p; // |D_xz|^2, D_xz . O_xz, |O_xz|^2
     double dt;      // the part of the error that all crossings share
+    double nearest, nearest2; // where it is nearest to the axis, and how near, squared
+    double reach;             // error of t at a height
     struct boundary_list *out;
 };
 
@@ -132,10 +163,24 @@ static double conic(const struct line *l, double h, double r2)
     return l->q * s * s + 2 * dy * l->m * s + dy * dy * (l->p - r2);
 }
 
+// Whether the line stays away from the cylinder around a segment.
+static bool passes_by(const struct line *l, const struct revolve_segment *s)
+{
+    const double a = (s->low - l->ray->o.y) / l->ray->d.y;
+    const double b = (s->high - l->ray->o.y) / l->ray->d.y;
+    const double t0 = (a < b ? a : b) - l->reach, t1 = (a < b ? b : a) + l->reach;
+    double t = l->nearest < t0 ? t0 : l->nearest > t1 ? t1 : l->nearest;
+    t -= l->nearest;
+    const double rho2 = l->nearest2 + l->q * t * t;
+    return rho2 > s->most2 + GAMMA(64) * (l->p + rho2 + s->most2);
+}
+
 static void sloped_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
     const double dy = l->ray->d.y;
+    if (passes_by(l, s))
+        return;
     double f[7] = {0}, h[4], w[8];
     for (int k = 0; k <= s->h_degree; k++)
         h[k] = s->h[k];
@@ -204,6 +249,10 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     const bool flat = fabs(d.y) <= FLAT * sqrt(l.q);
     if (flat)
         l.dt += fabs(d.y) * r->r_max / l.q;
+    l.nearest = l.q > 0 ? -l.m / l.q : 0;
+    const double x = o.x + l.nearest * d.x, z = o.z + l.nearest * d.z;
+    l.nearest2 = x * x + z * z;
+    l.reach = GAMMA(16) * size / fabs(d.y);
     const uint32_t from = out->count;
     for (uint32_t i = 0; i < r->count; i++)
         if (flat)

@@ -21,10 +21,11 @@ struct revolve_segment {
     double h[4], r2[7]; // ascending powers of w
     int h_degree, r2_degree;
     double h_end[2], r2_end[2]; // at w = 0 and 1, shared with the neighbours
+    double low, high, most2;    // it lies between these heights, within this radius squared
 };
 
 struct revolve {
-    const struct revolve_segment *segment;
+    struct revolve_segment *segment;
     uint32_t count;
     bool closed;     // the profile ends where it began: no caps
     bool caps_drawn;

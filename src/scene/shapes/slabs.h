@@ -11,43 +11,45 @@
 // tests inside them, which work relative to the origin: a ray that touches a corner must
 // not miss its box.
 struct slabs {
-    struct vec3 o, inv;
-    double widen;
+    double inv[3];
+    double near[3], far[3]; // the origin, moved for the faces on either side
+    int first[3], last[3];  // which numbers of a box those faces are
 };
 
 static inline struct slabs slabs_of(const struct aabb *all, const struct ray *r)
 {
     const double size =
         vec3_max_abs(r->o) + vec3_max_abs(all->min) + vec3_max_abs(all->max);
-    return (struct slabs){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z),
-                          GAMMA(16) * size};
-}
-
-static inline bool slab_meet(double min, double max, double o, double inv, double widen,
-                             double *t_min, double *t_max)
-{
-    min -= widen;
-    max += widen;
-    if (isinf(inv)) // along the faces: all or nothing
-        return o >= min && o <= max;
-    const double a = (min - o) * inv, b = (max - o) * inv;
-    const double near = a < b ? a : b, far = a < b ? b : a;
-    *t_min = near > *t_min ? near : *t_min;
-    *t_max = far < *t_max ? far : *t_max;
-    return *t_min <= *t_max ||
-           *t_min - *t_max <= GAMMA(6) * (fabs(*t_min) + fabs(*t_max));
+    const double widen = GAMMA(16) * size;
+    struct slabs s;
+    for (int i = 0; i < 3; i++) {
+        const double o = vec3_axis(r->o, i);
+        s.inv[i] = 1 / vec3_axis(r->d, i);
+        const int back = signbit(s.inv[i]) ? 1 : 0;
+        s.near[i] = back ? o - widen : o + widen;
+        s.far[i] = back ? o + widen : o - widen;
+        s.first[i] = back ? 3 + i : i;
+        s.last[i] = back ? i : 3 + i;
+    }
+    return s;
 }
 
 // Whether the ray is in the box somewhere between t_min and t_max; *t is where it enters.
-static inline bool slabs_meet(const struct aabb *b, const struct slabs *r, double t_min,
+// Along a zero direction the faces lie at infinity, or at NaN for an origin just in one,
+// which the comparisons let pass.
+static inline bool slabs_meet(const struct aabb *box, const struct slabs *r, double t_min,
                               double t_max, double *t)
 {
-    const bool met =
-        slab_meet(b->min.x, b->max.x, r->o.x, r->inv.x, r->widen, &t_min, &t_max) &&
-        slab_meet(b->min.y, b->max.y, r->o.y, r->inv.y, r->widen, &t_min, &t_max) &&
-        slab_meet(b->min.z, b->max.z, r->o.z, r->inv.z, r->widen, &t_min, &t_max);
+    const double b[6] = {box->min.x, box->min.y, box->min.z,
+                         box->max.x, box->max.y, box->max.z};
+    for (int i = 0; i < 3; i++) {
+        const double near = (b[r->first[i]] - r->near[i]) * r->inv[i];
+        const double far = (b[r->last[i]] - r->far[i]) * r->inv[i];
+        t_min = near > t_min ? near : t_min;
+        t_max = far < t_max ? far : t_max;
+    }
     *t = t_min;
-    return met;
+    return t_min <= t_max || t_min - t_max <= GAMMA(6) * (fabs(t_min) + fabs(t_max));
 }
 
 #endif

@@ -81,12 +81,21 @@ static bool in_cube(const struct line *l, double *a, double *b)
     return *a < *b;
 }
 
-static void add(const struct line *l, double t, double slope, enum crossing c,
-                struct boundary_list *out)
+static struct boundary crossing_at(const struct line *l, double t, double slope,
+                                   enum crossing c)
 {
     double dt = 2 * l->noise / fmax(fabs(slope), 0x1p-26);
     dt += GAMMA(4) * (fabs(l->shift) + fabs(t));
-    boundary_list_add(out, (t + l->shift) / l->length, dt / l->length, c, 0);
+    return (struct boundary){.t = (t + l->shift) / l->length,
+                             .dt = dt / l->length,
+                             .crossing = (uint8_t)c,
+                             .drawn = 1};
+}
+
+static void add(const struct line *l, double t, double slope, enum crossing c,
+                struct boundary_list *out)
+{
+    *boundary_list_add(out, 0, 0, c, 0) = crossing_at(l, t, slope, c);
 }
 
 // The root between outside (F > 0) and inside, Newton kept in the bracket.
@@ -187,7 +196,7 @@ static void sampled(const struct line *l, double a, double b, struct boundary_li
         }
 }
 
-static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
+static struct line line_of(const void *shape, const struct ray *ray)
 {
     struct line l = {.s = shape, .length = vec3_length(ray->d)};
     l.u = vec3_scale(1 / l.length, ray->d);
@@ -195,6 +204,12 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     l.noise = GAMMA(64);
     l.shift = -vec3_dot(ray->o, l.u);
     l.o = vec3_mad(ray->o, l.shift, l.u);
+    return l;
+}
+
+static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
+{
+    const struct line l = line_of(shape, ray);
     double a, b;
     if (!in_cube(&l, &a, &b))
         return;
@@ -202,6 +217,39 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         convex(&l, a, b, out);
     else
         sampled(&l, a, b, out);
+}
+
+// The first crossing that the ray may see, without the second where it is not needed.
+static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
+{
+    const struct line l = line_of(shape, ray);
+    const uint32_t leaf = out->leaf;
+    double a, b, first, last, slope;
+    if (!in_cube(&l, &a, &b))
+        return false;
+    if (l.s->p < 1 || l.s->q < 1) {
+        struct boundary room[STOPS * PIECES];
+        struct boundary_list list = {room, 0, STOPS * PIECES};
+        sampled(&l, a, b, &list);
+        for (uint32_t i = 0; i < list.count; i++)
+            if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
+                *out = room[i];
+                out->leaf = leaf;
+                return true;
+            }
+        return false;
+    }
+    if (!approach(&l, a, b, &first, &slope))
+        return false;
+    *out = crossing_at(&l, first, slope, CROSS_ENTER);
+    out->leaf = leaf;
+    if (out->t > ray->t_min)
+        return out->t < ray->t_max;
+    if (!approach(&l, b, first, &last, &slope))
+        last = first;
+    *out = crossing_at(&l, last, slope, CROSS_EXIT);
+    out->leaf = leaf;
+    return out->t > ray->t_min && out->t < ray->t_max;
 }
 
 static bool build(void *shape, struct args *args)
@@ -262,6 +310,7 @@ const struct shape_ops superellipsoid_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest = closest,
     .surface = surface,
     .print = print,
 };
