@@ -9,7 +9,6 @@
 #include "math/vec.h"
 
 struct arena;
-struct heights;
 struct texels;
 struct texture;
 struct transform;
@@ -56,8 +55,6 @@ void args_warn(struct args *a, const char *message);
 // with the include files; the extension is added when the name has none.
 bool args_find_file(struct args *a, const char *role, const char *name,
                     const char *extension, const char **path);
-// The heights of `[type] "file" [gamma g]` or `function w, h { }`, in the scene's arena.
-bool args_heights(struct args *a, struct heights *out);
 // What follows the arguments of a part that is no object of its own (a blob component):
 // transforms, composed, and its texture in the object's space, NULL if it has none.
 bool args_part(struct args *a, struct transform *out, const struct texture **texture);

@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "base/arena.h"
+#include "image/texels.h"
 #include "math/gamma.h"
 #include "scene/args.h"
 #include "scene/shape.h"
@@ -73,11 +74,33 @@ static void make_levels(struct height_field *f, struct arena *arena)
     f->high = (double)f->level[n].range[0][1] / UNIT;
 }
 
+// The picture's bottom row lies at z = 0.
+static bool read_heights(struct height_field *f, struct args *args)
+{
+    struct transfer decode;
+    const struct texels *t = args_image(args, &decode);
+    if (!t)
+        return false;
+    if (t->width < 2 || t->height < 2) {
+        args_reject(args, "a height_field needs at least two samples along each side");
+        return false;
+    }
+    const size_t w = (size_t)t->width;
+    f->h.width = t->width;
+    f->h.height = t->height;
+    f->h.at = arena_new_array(args_arena(args), float, w * (size_t)t->height);
+    for (int j = 0; j < t->height; j++)
+        for (int i = 0; i < t->width; i++)
+            f->h.at[(size_t)j * w + (size_t)i] =
+                (float)texels_height(t, i, t->height - 1 - j, decode);
+    return true;
+}
+
 static bool build(void *shape, struct args *args)
 {
     struct height_field *f = shape;
     double water = 0;
-    if (!args_heights(args, &f->h))
+    if (!read_heights(f, args))
         return false;
     for (;;) {
         if (args_word(args, "smooth")) {

@@ -5,7 +5,12 @@
 #include <stdint.h>
 
 #include "scene/boundary.h"
-#include "scene/heights.h"
+
+// Samples at x = i/(width - 1) and z = j/(height - 1): at[j * width + i], 65536 for height 1.
+struct heights {
+    int width, height;
+    float *at;
+};
 
 // Lowest and highest value of blocks of 2^level by 2^level cells.
 struct height_level {

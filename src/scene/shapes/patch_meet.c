@@ -248,7 +248,7 @@ static bool newton(struct search *s, const struct net *n, const struct frame *f)
     return false;
 }
 
-// Whether the net is a line as seen along the ray: the ray runs in the surface.
+// Whether the whole net is a line as seen along the ray: the ray runs in the surface.
 static bool edge_on(const struct net *n, double noise, double extent)
 {
     const double *o = n->p[0][0];
@@ -300,7 +300,7 @@ static void solve(struct search *s, const struct net *n, int depth)
         keep_at(s, n, st, 1, s->noise + fabs(far - near), 0.5 * (near + far));
         return;
     }
-    if (edge_on(n, s->noise, extent))
+    if (depth == 0 && edge_on(n, s->noise, extent))
         return;
     struct net low, high;
     s->splits++;

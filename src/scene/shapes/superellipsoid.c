@@ -229,7 +229,7 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
         return false;
     if (l.s->p < 1 || l.s->q < 1) {
         struct boundary room[STOPS * PIECES];
-        struct boundary_list list = {room, 0, STOPS * PIECES};
+        struct boundary_list list = {.at = room, .capacity = STOPS * PIECES};
         sampled(&l, a, b, &list);
         for (uint32_t i = 0; i < list.count; i++)
             if (room[i].t > ray->t_min && room[i].t < ray->t_max) {

@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "image/texels.h"
 #include "eval/formula.h"
 #include "math/transform.h"
 #include "scene/args.h"
-#include "scene/heights.h"
 
 struct args {
     const char *at;
@@ -195,14 +195,16 @@ bool args_find_file(struct args *a, const char *role, const char *name,
 }
 
 // Hills, 9 by 7 samples.
-bool args_heights(struct args *a, struct heights *out)
+const struct texels *args_image(struct args *a, struct transfer *decode)
 {
-    out->width = 9;
-    out->height = 7;
-    out->at = arena_new_array(a->arena, float, 63);
+    struct texels *t = arena_new_struct(a->arena, struct texels);
+    uint16_t *at = arena_new_array(a->arena, uint16_t, 63);
     for (int i = 0; i < 63; i++)
-        out->at[i] = (float)(20000 + (i * 7919) % 40000);
-    return true;
+        at[i] = (uint16_t)(20000 + (i * 7919) % 40000);
+    *t = (struct texels){.width = 9, .height = 7, .channels = 1, .format = TEXEL_U16,
+                         .max = 65535, .data = at};
+    *decode = (struct transfer){TRANSFER_NONE, 1};
+    return t;
 }
 
 bool args_part(struct args *a, struct transform *out, const struct texture **texture)

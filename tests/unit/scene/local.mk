@@ -5,6 +5,10 @@ test_patterns_CPPFLAGS = $(test_cppflags)
 test_patterns_LDADD = $(test_ldadd)
 EXTRA_DIST += tests/data/pattern-values.tsv tests/data/normal-values.tsv \
 	tests/data/t8.df3 tests/data/t16.df3 tests/data/t32.df3
+check_PROGRAMS += test_shape_truths
+test_shape_truths_SOURCES = %D%/test_shape_truths.c %D%/fake_args.c %D%/fake_args.h
+test_shape_truths_CPPFLAGS = $(test_cppflags)
+test_shape_truths_LDADD = $(test_ldadd)
 check_PROGRAMS += test_shapes
 test_shapes_SOURCES = %D%/test_shapes.c %D%/fake_args.c %D%/fake_args.h
 test_shapes_CPPFLAGS = $(test_cppflags)
