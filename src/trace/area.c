@@ -3,8 +3,8 @@
 #include "base/arena.h"
 #include "trace/projected.h"
 
-struct vec3 area_point(const struct lamp *lamp, struct vec3 p, uint32_t hash, int u,
-                       int v)
+struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
+                       uint32_t hash, int u, int v)
 {
     double fu = u, fv = v;
     if (lamp->light->jitter) {
@@ -13,7 +13,7 @@ struct vec3 area_point(const struct lamp *lamp, struct vec3 p, uint32_t hash, in
         fu += hash_unit(hash_mix(h, 1)) - 0.5;
         fv += hash_unit(hash_mix(h, 2)) - 0.5;
     }
-    return lamp_grid_point(lamp, p, fu, fv);
+    return lamp_grid_point(lamp, grid, fu, fv);
 }
 
 // The grid as seen from one point; each of its points is traced when first asked for.
@@ -21,28 +21,54 @@ struct grid {
     const struct shading *s;
     const struct lamp *lamp;
     const struct shadow_request *request;
+    struct lamp_grid place;
     struct rgb *value;
     bool *known;
 };
 
-static struct rgb grid_value(struct grid *g, int u, int v)
+// The shadow ray to a point of the grid.
+static struct shadow_request grid_request(const struct grid *g, int u, int v)
 {
-    const int i = u * g->lamp->light->size2 + v;
-    if (g->known[i])
-        return g->value[i];
     const struct vec3 p = g->s->at.p;
-    const struct vec3 at = area_point(g->lamp, p, g->s->path->hash, u, v);
     struct lamp_view view;
-    lamp_direction(g->lamp, at, p, &view);
+    lamp_direction(g->lamp, area_point(g->lamp, &g->place, g->s->path->hash, u, v), p,
+                   &view);
     struct shadow_request r = *g->request;
     r.d = view.l;
     r.t_max = view.distance;
     r.o = trace_offset(&g->s->at, r.d);
-    g->known[i] = true;
-    g->value[i] = g->lamp->light->projected_through
-                      ? projected_shadow(g->s->t, g->lamp, &r)
-                      : shadow_factor(g->s->t, &r);
-    return g->value[i];
+    return r;
+}
+
+// Finds the values of the corners of `count` cells that are not known, together: rays from
+// one point to one lamp make good packets.
+static void grid_ask(struct grid *g, const int (*cell)[4], int count)
+{
+    struct shadow_request r[16];
+    struct rgb value[16];
+    int at[16];
+    uint32_t n = 0;
+    for (int i = 0; i < 4 * count; i++) {
+        const int u = cell[i / 4][i & 1 ? 2 : 0], v = cell[i / 4][i & 2 ? 3 : 1];
+        const int k = u * g->lamp->light->size2 + v;
+        if (g->known[k])
+            continue;
+        g->known[k] = true;
+        at[n] = k;
+        r[n++] = grid_request(g, u, v);
+    }
+    if (g->lamp->light->projected_through)
+        for (uint32_t i = 0; i < n; i++)
+            value[i] = projected_shadow(g->s->t, g->lamp, &r[i]);
+    else
+        shadow_factors(g->s->t, r, n, value);
+    for (uint32_t i = 0; i < n; i++)
+        g->value[at[i]] = value[i];
+}
+
+static struct rgb grid_value(const struct grid *g, int u, int v)
+{
+    return g->value[u * g->lamp->light->size2 + v];
 }
 
 static float difference(struct rgb a, struct rgb b, struct rgb color)
@@ -51,9 +77,11 @@ static float difference(struct rgb a, struct rgb b, struct rgb color)
            fabsf(color.b * (a.b - b.b));
 }
 
-static struct rgb grid_mean(struct grid *g, int u1, int v1, int u2, int v2, int level)
+// The mean over a cell {u1, v1, u2, v2} whose corners are known.
+static struct rgb grid_mean(struct grid *g, const int cell[4], int level)
 {
     static const float notable = 0.1f; // difference of corners that calls for more
+    const int u1 = cell[0], v1 = cell[1], u2 = cell[2], v2 = cell[3];
     struct rgb a = grid_value(g, u1, v1), b = grid_value(g, u2, v1),
                c = grid_value(g, u1, v2), d = grid_value(g, u2, v2);
     const struct rgb k = g->lamp->light->color;
@@ -63,10 +91,13 @@ static struct rgb grid_mean(struct grid *g, int u1, int v1, int u2, int v2, int 
          difference(b, d, k) > notable)) {
         const int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2;
         const int vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
-        a = grid_mean(g, u1, v1, ul, vl, level + 1);
-        b = grid_mean(g, uh, v1, u2, vl, level + 1);
-        c = grid_mean(g, u1, vh, ul, v2, level + 1);
-        d = grid_mean(g, uh, vh, u2, v2, level + 1);
+        const int part[4][4] = {
+            {u1, v1, ul, vl}, {uh, v1, u2, vl}, {u1, vh, ul, v2}, {uh, vh, u2, v2}};
+        grid_ask(g, part, 4);
+        a = grid_mean(g, part[0], level + 1);
+        b = grid_mean(g, part[1], level + 1);
+        c = grid_mean(g, part[2], level + 1);
+        d = grid_mean(g, part[3], level + 1);
     }
     return rgb_scale(0.25f, rgb_add(rgb_add(a, b), rgb_add(c, d)));
 }
@@ -78,14 +109,16 @@ struct rgb area_shadow(const struct shading *s, const struct lamp *lamp,
     const int u = lamp->light->size1, v = lamp->light->size2;
     struct rgb few[FEW];
     bool few_known[FEW];
-    struct grid g = {s, lamp, r, few, few_known};
+    struct grid g = {s, lamp, r, lamp_grid_of(lamp, s->at.p), few, few_known};
     if (u * v > FEW) {
         g.value = arena_new_array(s->t->arena, struct rgb, (size_t)u * (size_t)v);
         g.known = arena_new_array(s->t->arena, bool, (size_t)u *(size_t)v);
     }
     for (int i = 0; i < u * v; i++)
         g.known[i] = false;
-    return grid_mean(&g, 0, 0, u - 1, v - 1, 0);
+    const int whole[1][4] = {{0, 0, u - 1, v - 1}};
+    grid_ask(&g, whole, 1);
+    return grid_mean(&g, whole[0], 0);
 }
 
 struct rgb projected_shadow(struct tracer *t, const struct lamp *lamp,

@@ -113,12 +113,18 @@ static void orient(const struct light *light, struct vec3 p, struct vec3 *axis1,
     *axis2 = vec3_scale(length, vec3_normalize(vec3_cross(l, *axis1)));
 }
 
-struct vec3 lamp_grid_point(const struct lamp *lamp, struct vec3 p, double u, double v)
+struct lamp_grid lamp_grid_of(const struct lamp *lamp, struct vec3 p)
+{
+    struct lamp_grid g = {lamp->light->axis1, lamp->light->axis2};
+    if (lamp->light->orient)
+        orient(lamp->light, p, &g.axis1, &g.axis2);
+    return g;
+}
+
+struct vec3 lamp_grid_point(const struct lamp *lamp, const struct lamp_grid *g, double u,
+                            double v)
 {
     const struct light *light = lamp->light;
-    struct vec3 axis1 = light->axis1, axis2 = light->axis2;
-    if (light->orient)
-        orient(light, p, &axis1, &axis2);
     double ju = light->size1 > 1 ? u / (light->size1 - 1) - 0.5 : 0;
     double jv = light->size2 > 1 ? v / (light->size2 - 1) - 0.5 : 0;
     if (light->circular) {
@@ -129,5 +135,5 @@ struct vec3 lamp_grid_point(const struct lamp *lamp, struct vec3 p, double u, do
         ju *= squash;
         jv *= squash;
     }
-    return vec3_mad(vec3_mad(light->location, ju, axis1), jv, axis2);
+    return vec3_mad(vec3_mad(light->location, ju, g->axis1), jv, g->axis2);
 }

@@ -37,8 +37,13 @@ void lamp_direction(const struct lamp *lamp, struct vec3 at, struct vec3 p,
 double lamp_attenuation(const struct lamp *lamp, struct vec3 at, struct vec3 p,
                         const struct lamp_view *v);
 
-// Grid point (u, v) of an area light seen from p; a jittered one has fractions
-// (spec/lighting.md 8.4).
-struct vec3 lamp_grid_point(const struct lamp *lamp, struct vec3 p, double u, double v);
+// The grid of an area light as it is turned towards a point.
+struct lamp_grid {
+    struct vec3 axis1, axis2;
+};
+struct lamp_grid lamp_grid_of(const struct lamp *lamp, struct vec3 p);
+// Its point (u, v); a jittered one has fractions (spec/lighting.md 8.4).
+struct vec3 lamp_grid_point(const struct lamp *lamp, const struct lamp_grid *g, double u,
+                            double v);
 
 #endif

@@ -145,11 +145,12 @@ static struct rgb area_lit(const struct shading *s, const struct lamp *lamp,
                            bool side_test)
 {
     const struct light *light = lamp->light;
+    const struct lamp_grid grid = lamp_grid_of(lamp, s->at.p);
     struct rgb sum = {0, 0, 0};
     for (int u = 0; u < light->size1; u++) {
         for (int v = 0; v < light->size2; v++) {
             const struct vec3 at =
-                area_point(lamp, s->at.p, s->path->hash ^ 0x5bd1e995u, u, v);
+                area_point(lamp, &grid, s->path->hash ^ 0x5bd1e995u, u, v);
             struct lamp_view view;
             if (!lamp_view(lamp, at, s->at.p, &view))
                 continue;

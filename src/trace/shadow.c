@@ -210,6 +210,7 @@ void shadow_init(struct tracer *t)
 {
     t->simple.rays = shadow_rays_new();
     t->rest.rays = shadow_rays_new();
+    t->near.rays = shadow_rays_new();
     t->shadow = must_alloc(BATCH_SIZE, sizeof *t->shadow);
     t->shadow_order = must_alloc(BATCH_SIZE, sizeof *t->shadow_order);
     t->lamp_begin = must_alloc(t->job->lamp_count + 1, sizeof *t->lamp_begin);
@@ -217,6 +218,7 @@ void shadow_init(struct tracer *t)
         return;
     t->simple.pass = must_alloc(BATCH_SIZE, sizeof *t->simple.pass);
     t->rest.pass = must_alloc(BATCH_SIZE, sizeof *t->rest.pass);
+    t->near.pass = must_alloc(BATCH_SIZE, sizeof *t->near.pass);
     t->walk = must_alloc(BATCH_SIZE, sizeof *t->walk);
     t->walk_hit = must_alloc(BATCH_SIZE, sizeof *t->walk_hit);
     t->walk_rays = shadow_rays_new();
@@ -226,9 +228,11 @@ void shadow_end(struct tracer *t)
 {
     ray_batch_free(t->simple.rays);
     ray_batch_free(t->rest.rays);
+    ray_batch_free(t->near.rays);
     ray_batch_free(t->walk_rays);
     free(t->simple.pass);
     free(t->rest.pass);
+    free(t->near.pass);
     free(t->walk);
     free(t->walk_hit);
     free(t->shadow);
@@ -282,6 +286,24 @@ static void shadow_put(struct shadow_batch *b, uint32_t i, const struct shadow_r
     b->rays->d[2][i] = r->d.z;
     b->rays->t_max[i] = r->t_max;
     b->slot[i] = (uint16_t)r->slot;
+}
+
+void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
+                    struct rgb *out)
+{
+    struct shadow_batch *b = &t->near;
+    if (!count)
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        shadow_put(b, i, &r[i]);
+    batch_trace(t, b, count);
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = b->occluded[i] ? none : b->pass ? b->pass[i] : all;
+        if (!(r[i].t_max > 0))
+            out[i] = all;
+        else if (!b->occluded[i] && fog_counts(t->job, r[i].lamp, r[i].inside))
+            out[i] = rgb_mul(out[i], fog_filter(t->job, r[i].o, r[i].d, r[i].t_max));
+    }
 }
 
 // Rays to the same lamp side by side, so that packets stay together.

@@ -121,6 +121,7 @@ struct tracer {
     struct shadow_request *shadow;    // what waits for `rest`
     uint32_t shadow_count;
     uint32_t *shadow_order, *lamp_begin;
+    struct shadow_batch near; // rays to one lamp from one point
     struct shadow_walk *walk; // shadow rays among transparent things
     struct ray_batch *walk_rays;
     struct hit *walk_hit;
@@ -186,6 +187,9 @@ void shadow_flush(struct tracer *t);
 void shadow_flush_simple(struct tracer *t, uint32_t count);
 // What passes of light that runs along the request's ray.
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r);
+// The same for at most BATCH_SIZE requests.
+void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
+                    struct rgb *out);
 
 // Adds to the slot of the tracer.
 static inline void tracer_add(struct tracer *t, struct rgb c)

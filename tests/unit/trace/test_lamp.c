@@ -93,8 +93,9 @@ static void grid_spans_the_axes(void **state)
     l.size2 = 1;
     struct lamp lamp;
     lamp_init(&lamp, &l, 0);
-    const struct vec3 a = lamp_grid_point(&lamp, vec3(0, 0, 0), 0, 0);
-    const struct vec3 b = lamp_grid_point(&lamp, vec3(0, 0, 0), 4, 0);
+    const struct lamp_grid grid = lamp_grid_of(&lamp, vec3(0, 0, 0));
+    const struct vec3 a = lamp_grid_point(&lamp, &grid, 0, 0);
+    const struct vec3 b = lamp_grid_point(&lamp, &grid, 4, 0);
     assert_near(a.x, 1, 0);
     assert_near(b.x, 3, 0);
     assert_near(b.y, 3, 0);
