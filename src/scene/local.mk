@@ -4,6 +4,7 @@ liblambert_a_SOURCES += \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shapes.def %D%/texture.h \
 	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
+	%D%/shapes/parametric.c %D%/shapes/parametric.h %D%/shapes/parametric_cells.c \
 	%D%/shapes/container.c %D%/shapes/container.h %D%/shapes/isosurface.c \
 	%D%/shapes/isosurface.h %D%/shapes/isosurface_tree.c %D%/shapes/isosurface_walk.c \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \

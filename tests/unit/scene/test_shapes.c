@@ -85,6 +85,10 @@ static const struct sample samples[] = {
                    "z) * cos(6 * x) } contained_by { sphere { <0, 0, 0>, 1 } }"},
     {"isosurface", "function { larger(fabs(x), larger(fabs(y), fabs(z))) - 0.7 }"},
     {"isosurface", "function { y - 0.25 * sin(4 * x) } open"},
+    {"parametric", "function { cos(x) * cos(y) } function { sin(y) } function { sin(x) * "
+                   "cos(y) } <0, -1.57079632679>, <6.28318530718, 1.57079632679>"},
+    {"parametric", "function { x } function { 0.3 * sin(5 * x) * cos(4 * y) } function { y } "
+                   "<-1, -1>, <1, 1> precompute 18"},
     {"text", NULL}, // needs a font file
 };
 
