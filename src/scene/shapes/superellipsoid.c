@@ -153,7 +153,7 @@ static void convex(const struct line *l, double a, double b, struct boundary_lis
 }
 
 // Where the line meets the planes x = 0, x = y, x = -y and so on, sorted, ends included.
-enum { STOPS = 11, PIECES = 16 };
+enum { STOPS = 11, PIECES = 4, CROSSINGS = 2 * STOPS * PIECES };
 
 static int kinks(const struct line *l, double a, double b, double stop[STOPS])
 {
@@ -177,22 +177,57 @@ static int kinks(const struct line *l, double a, double b, double stop[STOPS])
     return n;
 }
 
-static void sampled(const struct line *l, double a, double b, struct boundary_list *out)
+// A point between a and b on the other side of F than both, where the slopes at the ends
+// say there may be one: F turns between them.
+static bool find_turn(const struct line *l, double a, double b, bool in, double *turn)
 {
-    double stop[STOPS];
+    for (int i = 0; i < 24; i++) {
+        const double t = 0.5 * (a + b);
+        const struct sample v = at(l, t);
+        if ((v.f < 0) != in) {
+            *turn = t;
+            return true;
+        }
+        if ((v.slope > 0) == in)
+            a = t;
+        else
+            b = t;
+    }
+    return false;
+}
+
+static void cross(const struct line *l, double a, double b, bool enters,
+                  struct boundary_list *out)
+{
+    const double root = enters ? root_between(l, a, b) : root_between(l, b, a);
+    add(l, root, at(l, root).slope, enters ? CROSS_ENTER : CROSS_EXIT, out);
+}
+
+// Crossings up to the first behind `enough`.
+static void sampled(const struct line *l, double a, double b, double enough,
+                    struct boundary_list *out)
+{
+    double stop[STOPS], last = a, turn;
     const int n = kinks(l, a, b, stop);
+    struct sample before = at(l, a);
     bool in = false;
-    double last = a;
     for (int i = 1; i < n; i++)
         for (int k = 1; k <= PIECES; k++) {
             const double t = stop[i - 1] + (stop[i] - stop[i - 1]) * k / PIECES;
-            const bool now = at(l, t).f < 0 && !(i == n - 1 && k == PIECES);
+            const struct sample here = at(l, t);
+            const bool now = here.f < 0 && !(i == n - 1 && k == PIECES);
             if (now != in) {
-                const double root = now ? root_between(l, last, t) : root_between(l, t, last);
-                add(l, root, at(l, root).slope, now ? CROSS_ENTER : CROSS_EXIT, out);
+                cross(l, last, t, now, out);
+            } else if ((before.slope > 0) == in && (here.slope > 0) != in &&
+                       find_turn(l, last, t, in, &turn)) {
+                cross(l, last, turn, !in, out);
+                cross(l, turn, t, in, out);
             }
             in = now;
             last = t;
+            before = here;
+            if (out->count && out->at[out->count - 1].t > enough)
+                return;
         }
 }
 
@@ -216,7 +251,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     if (l.s->p >= 1 && l.s->q >= 1)
         convex(&l, a, b, out);
     else
-        sampled(&l, a, b, out);
+        sampled(&l, a, b, HUGE_VAL, out);
 }
 
 // The first crossing that the ray may see, without the second where it is not needed.
@@ -228,9 +263,9 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
     if (!in_cube(&l, &a, &b))
         return false;
     if (l.s->p < 1 || l.s->q < 1) {
-        struct boundary room[STOPS * PIECES];
-        struct boundary_list list = {.at = room, .capacity = STOPS * PIECES};
-        sampled(&l, a, b, &list);
+        struct boundary room[CROSSINGS];
+        struct boundary_list list = {.at = room, .capacity = CROSSINGS};
+        sampled(&l, a, b, ray->t_min, &list);
         for (uint32_t i = 0; i < list.count; i++)
             if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
                 *out = room[i];
