@@ -14,6 +14,8 @@ struct patch_leaf {
     struct vec3 p[4][4];
     double u[2], v[2]; // the part of the whole it is
     double size;       // largest coordinate
+    struct vec3 middle, du, dv, n; // S at the middle, mean derivatives, their cross product
+    double bend; // how far derivatives are from their means, times the longer of these
 };
 
 struct patch_node {

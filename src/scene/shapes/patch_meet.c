@@ -321,9 +321,29 @@ struct patch_ray patch_ray_of(const struct ray *ray)
     return r;
 }
 
+// Where the ray meets the plane of a leaf's mean derivatives, when seen from it the leaf is
+// nearer to that plane than IDENTITY: a deviation e from the mean derivatives counts at most
+// |e| max(|du|, |dv|) / |n.d|. False: that far from the middle that the leaf is not met.
+static bool meets_plane(const struct patch_leaf *l, const struct patch_ray *r, double facing,
+                        double noise)
+{
+    const struct vec3 q = vec3_sub(l->middle, r->o);
+    const double s = vec3_dot(q, vec3_cross(l->dv, r->d)) / facing;
+    const double t = vec3_dot(q, vec3_cross(r->d, l->du)) / facing;
+    const double longer = larger(vec3_max_abs(l->du), vec3_max_abs(l->dv));
+    const double reach = 0.5 * (1 + l->bend / fabs(facing)) +
+                         8 * noise * longer / fabs(facing) + 0x1p-40;
+    return fabs(s) <= reach && fabs(t) <= reach;
+}
+
 int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *r,
                     struct patch_hit hit[PATCH_HITS])
 {
+    const double noise = GAMMA(16) * larger(r->size, leaf->size);
+    const double facing = vec3_dot(leaf->n, r->d);
+    const bool plain = leaf->bend < IDENTITY * fabs(facing);
+    if (plain && !meets_plane(leaf, r, facing, noise))
+        return 0;
     struct net n = {.u = {leaf->u[0], leaf->u[1]}, .v = {leaf->v[0], leaf->v[1]}};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
@@ -335,8 +355,12 @@ int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *r,
     struct search s;
     s.hit = hit;
     s.count = s.splits = 0;
-    s.noise = GAMMA(16) * larger(r->size, leaf->size);
-    solve(&s, &n, 0);
+    s.noise = noise;
+    struct frame f = {.off = leaf->bend / fabs(facing)};
+    if (plain)
+        mean(&n, &f);
+    if (!plain || !invert(&f) || !newton(&s, &n, &f))
+        solve(&s, &n, 0);
     for (int i = 0; i < s.count; i++) {
         hit[i].t /= r->length;
         hit[i].dt = hit[i].dt / r->length + GAMMA(4) * fabs(hit[i].t);

@@ -70,6 +70,25 @@ static double bend(const struct patch_leaf *l, bool along_u, double *length)
     return most;
 }
 
+// What is known of a leaf from all directions.
+static void finish_leaf(struct patch_leaf *l, double bend_u, double bend_v)
+{
+    static const double b[4] = {1. / 8, 3. / 8, 3. / 8, 1. / 8};
+    l->middle = l->du = l->dv = vec3(0, 0, 0);
+    l->size = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            l->middle = vec3_mad(l->middle, b[i] * b[j], l->p[i][j]);
+            l->size = fmax(l->size, vec3_max_abs(l->p[i][j]));
+        }
+    for (int i = 0; i < 4; i++) {
+        l->du = vec3_mad(l->du, 0.25, vec3_sub(l->p[3][i], l->p[0][i]));
+        l->dv = vec3_mad(l->dv, 0.25, vec3_sub(l->p[i][3], l->p[i][0]));
+    }
+    l->n = vec3_cross(l->du, l->dv);
+    l->bend = 3 * (bend_u + bend_v) * fmax(vec3_length(l->du), vec3_length(l->dv));
+}
+
 static uint32_t grow(struct patch *p, const struct patch_leaf *l, int depth)
 {
     const uint32_t at = p->nodes++;
@@ -96,7 +115,7 @@ static uint32_t grow(struct patch *p, const struct patch_leaf *l, int depth)
     n->box = aabb_pad(n->box);
     n->leaf = p->leaves;
     p->leaf[p->leaves] = *l;
-    p->leaf[p->leaves++].size = fmax(vec3_max_abs(n->box.min), vec3_max_abs(n->box.max));
+    finish_leaf(&p->leaf[p->leaves++], bend_u, bend_v);
     return at;
 }
 

@@ -46,11 +46,23 @@ static struct aabb placed_bounds(const void *shape, const struct transform *t)
     return aabb_around(vec3(0, 0, 0), e, t);
 }
 
+// The quartic is the product of the two circles' functions. On a spindle torus (minor above
+// major) the inner sheet, where the far circle's function vanishes, bounds a hollow: there
+// both factors are negative.
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct torus *s = shape;
-    const double rho = sqrt(p.x * p.x + p.z * p.z) - s->major;
-    return rho * rho + p.y * p.y <= s->minor * s->minor;
+    const double rho = sqrt(p.x * p.x + p.z * p.z), r2 = s->minor * s->minor;
+    const double near = rho - s->major, far = rho + s->major, rest = p.y * p.y - r2;
+    return near * near + rest <= 0 && far * far + rest >= 0;
+}
+
+// Whether a point of the surface is on the inner sheet, which ends where both sheets meet on
+// the axis.
+static bool on_inner_sheet(const struct torus *s, double rho, double y)
+{
+    const double half = s->minor * s->minor - y * y;
+    return half > s->major * s->major && rho * rho < half;
 }
 
 // A root of the quartic brought closer by Newton's method on the distance to the tube,
@@ -146,6 +158,8 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     const double rho = sqrt(p.x * p.x + p.z * p.z);
     const double k = rho > 0 ? s->major / rho : 0;
     struct vec3 n = vec3(p.x - k * p.x, p.y, p.z - k * p.z);
+    if (on_inner_sheet(s, rho, p.y)) // outward is into the hollow
+        n = vec3(-p.x - k * p.x, -p.y, -p.z - k * p.z);
     if (vec3_dot(n, n) == 0)
         n = vec3(0, 1, 0);
     out->p = p;
