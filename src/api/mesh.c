@@ -23,7 +23,7 @@ static void one_mesh(struct lambert_context *ctx, struct arena *a, const struct 
     const struct contour_settings settings = {
         .resolution = (int)option_number(ctx, "mesh-resolution"),
         .sharp = option_flag(ctx, "mesh-sharp")};
-    if (sheet_mesh(o, out) || !object_is_solid(o))
+    if (sheet_mesh(o, settings.resolution, out) || !object_is_solid(o))
         return;
     struct tess_solid solid;
     tess_solid_open(&solid, a, o);

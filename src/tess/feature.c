@@ -1,6 +1,7 @@
 // The vertex of a loop, and edges along features (Kobbelt et al. 2001, sections 3.2, 3.3).
 #include <stdlib.h>
 
+#include "math/eigen.h"
 #include "tess/contour.h"
 
 // Normals that stay within this cosine of each other (37 degrees) are one smooth piece.
@@ -12,46 +13,6 @@ static const double flat_share = 0.05;
 static const double feature_error = 0.05;
 // How far, in cells, a vertex may lie out of its own.
 static const double cell_margin = 0.7;
-
-// ---- symmetric 3x3 matrices ----------------------------------------------------------
-
-struct eigen {
-    double value[3];
-    struct vec3 vector[3];
-};
-
-// Cyclic Jacobi (Golub & Van Loan, section 8.5); a handful of sweeps reaches the last bits.
-static struct eigen eigen_of(double a[3][3])
-{
-    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int turn = 0; turn < 24; turn++) {
-        const int p = turn % 3 == 2 ? 1 : 0, q = turn % 3 == 0 ? 1 : 2;
-        if (a[p][q] == 0)
-            continue;
-        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double t = copysign(1, theta) / (fabs(theta) + sqrt(theta * theta + 1));
-        const double cosine = 1 / sqrt(t * t + 1), sine = t * cosine;
-        for (int k = 0; k < 3; k++) {
-            const double x = a[k][p], y = a[k][q];
-            a[k][p] = cosine * x - sine * y;
-            a[k][q] = sine * x + cosine * y;
-        }
-        for (int k = 0; k < 3; k++) {
-            const double x = a[p][k], y = a[q][k];
-            a[p][k] = cosine * x - sine * y;
-            a[q][k] = sine * x + cosine * y;
-            const double vx = v[k][p], vy = v[k][q];
-            v[k][p] = cosine * vx - sine * vy;
-            v[k][q] = sine * vx + cosine * vy;
-        }
-    }
-    struct eigen e;
-    for (int k = 0; k < 3; k++) {
-        e.value[k] = a[k][k];
-        e.vector[k] = vec3(v[0][k], v[1][k], v[2][k]);
-    }
-    return e;
-}
 
 // ---- the vertex of a loop --------------------------------------------------------------
 
@@ -71,7 +32,7 @@ static struct vec3 meet_of_planes(const struct contour *c, const uint32_t *verte
                 a[r][s] += n[r] * n[s];
         right = vec3_mad(right, d, x->n);
     }
-    const struct eigen e = eigen_of(a);
+    const struct eigen e = eigen_of((const double(*)[3])a);
     const double most = fmax(e.value[0], fmax(e.value[1], e.value[2]));
     struct vec3 move = {0, 0, 0};
     for (int k = 0; k < 3; k++)

@@ -4,6 +4,7 @@
 
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/triangle.h"
+#include "tess/map_mesh.h"
 
 static bool is_kind(const struct object *o, const char *keyword)
 {
@@ -20,16 +21,22 @@ static bool is_triangle(const struct object *o)
     return is_kind(o, "triangle") || is_kind(o, "smooth_triangle");
 }
 
-static bool all_triangles(const struct object *o)
+// What is a sheet as the image of squares.
+static bool is_mapped(const struct object *o)
+{
+    return o->ops == &disc_ops || o->ops == &bicubic_patch_ops;
+}
+
+static bool all_sheets(const struct object *o)
 {
     if (o->clip_count || o->flags & OBJECT_INVERSE)
         return false;
     if (o->kind == OBJECT_SHAPE)
-        return is_mesh(o) || is_triangle(o);
+        return is_mesh(o) || is_triangle(o) || is_mapped(o);
     if (o->kind != OBJECT_CSG || o->op != CSG_UNION)
         return false;
     for (uint32_t i = 0; i < o->child_count; i++)
-        if (!all_triangles(o->child[i]))
+        if (!all_sheets(o->child[i]))
             return false;
     return o->child_count > 0;
 }
@@ -55,13 +62,13 @@ static void add_mesh(const struct mesh *m, const struct transform *t,
     }
 }
 
-static void add(const struct object *o, const struct transform *outer,
+static void add(const struct object *o, const struct transform *outer, double step,
                 struct tess_mesh *out)
 {
     const struct transform t = transform_then(&o->transform, outer);
     if (o->kind == OBJECT_CSG) {
         for (uint32_t i = 0; i < o->child_count; i++)
-            add(o->child[i], &t, out);
+            add(o->child[i], &t, step, out);
         return;
     }
     if (is_mesh(o)) {
@@ -77,6 +84,10 @@ static void add(const struct object *o, const struct transform *outer,
         tess_mesh_free(&part);
         return;
     }
+    if (is_mapped(o)) {
+        tess_map_mesh(tess_map_find(o->ops), o->shape, &t, step, out);
+        return;
+    }
     const struct triangle *x = o->shape;
     if (x->degenerate)
         return;
@@ -86,10 +97,23 @@ static void add(const struct object *o, const struct transform *outer,
     tess_mesh_add_triangle(out, v[0], v[1], v[2]);
 }
 
-bool sheet_mesh(const struct object *o, struct tess_mesh *out)
+static struct aabb sheet_bounds(const struct object *o, const struct transform *outer)
 {
-    if (!all_triangles(o))
+    const struct transform t = transform_then(&o->transform, outer);
+    if (o->kind == OBJECT_SHAPE)
+        return aabb_transform(shape_surface_bounds(o->ops, o->shape), &t);
+    struct aabb b = aabb_empty();
+    for (uint32_t i = 0; i < o->child_count; i++)
+        b = aabb_join(b, sheet_bounds(o->child[i], &t));
+    return b;
+}
+
+bool sheet_mesh(const struct object *o, int resolution, struct tess_mesh *out)
+{
+    if (!all_sheets(o))
         return false;
-    add(o, &transform_identity, out);
+    const struct aabb b = sheet_bounds(o, &transform_identity);
+    const double size = vec3_max_abs(vec3_sub(b.max, b.min));
+    add(o, &transform_identity, size / resolution, out);
     return true;
 }

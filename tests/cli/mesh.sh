@@ -71,6 +71,43 @@ check "half a ball: clips are closed" solid 2 "$(f '2 * pi / 3')" "$(f '3 * pi')
 check "tiny and far" solid 2 8e-15 24e-10 0.01 \
   'box {-1e-5, 1e-5 translate <1, 2, 3>}'
 
+# sheet EULER AREA TOLERANCE OBJECT: open, so only what does not need an inside
+sheet()
+{
+  printf '#version 3.7;\n%s\n' "$4" >sheet.pov
+  exits 0 "$lambert" mesh sheet.pov -o x.obj --mesh-resolution=48 -q || return 1
+  awk -v e="$1" -v a="$2" -v t="$3" '
+    $1 == "v" {n++; x[n] = $2; y[n] = $3; z[n] = $4}
+    $1 == "f" {
+      t3++
+      for (k = 2; k <= 4; k++) {
+        i = $k; j = $(k == 4 ? 2 : k + 1)
+        if (edge[i " " j]++) bad++
+        if (!(j " " i in edge)) edges++
+        used[i] = 1
+      }
+      a1 = $2; b = $3; c = $4
+      ux = x[b] - x[a1]; uy = y[b] - y[a1]; uz = z[b] - z[a1]
+      vx = x[c] - x[a1]; vy = y[c] - y[a1]; vz = z[c] - z[a1]
+      nx = uy * vz - uz * vy; ny = uz * vx - ux * vz; nz = ux * vy - uy * vx
+      area += sqrt(nx * nx + ny * ny + nz * nz) / 2
+    }
+    END {
+      for (v in used) vertices++
+      euler = vertices - edges + t3
+      printf "# wrong edges %d, Euler number %d, area %.9g\n", bad, euler, area
+      exit bad || euler != e || area < a * (1 - t) || area > a * (1 + t)
+    }' x.obj
+}
+check "a disc" sheet 1 "$(f '4 * pi')" 0.003 'disc {<1, 2, 3>, <1, 1, 1>, 2}'
+check "a ring, stretched" sheet 0 "$(f '3 * 3 * pi')" 0.003 \
+  'disc {0, z, 2, 1 scale <3, 1, 5>}'
+check "a bicubic patch" sheet 1 9 0.000001 'bicubic_patch {type 1 flatness 0
+  <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,0> <2,1,0> <3,1,0>
+  <0,2,0> <1,2,0> <2,2,0> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>}'
+check "sheets in a union" sheet 3 "$(f '2 * pi + 0.5')" 0.003 'union {disc {0, y, 1}
+  disc {4 * y, y, 1} triangle {<5, 0, 0>, <6, 0, 0>, <5, 1, 0>}}'
+
 cat >mesh.pov <<'EOS'
 #version 3.7;
 global_settings {assumed_gamma 1}

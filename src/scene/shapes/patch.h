@@ -24,6 +24,7 @@ struct patch_node {
     uint32_t leaf;
 };
 
+// What a bicubic_patch begins with.
 struct patch {
     struct vec3 p[4][4];
     struct patch_node *node;

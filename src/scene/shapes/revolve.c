@@ -7,8 +7,6 @@
 #include "math/polynomial.h"
 #include "scene/shapes/extrude.h"
 
-enum { PART_FIRST_CAP, PART_LAST_CAP, PART_SEGMENT };
-
 // A ray this flat (sine of its slope) is taken as horizontal: the two crossings of a
 // height then lie closer in w than the polynomial can tell, and the error made is below
 // the slope times the radius.
@@ -152,7 +150,7 @@ static void flat_segment(const struct line *l, uint32_t i)
     f[0] -= y;
     bool above[2] = {s->h_end[0] >= y, s->h_end[1] >= y};
     for (int n = crossings(f, s->h_degree, above, w); n > 0; n--)
-        add_circle(l, polynomial_value(s->r2, s->r2_degree, w[n - 1]), PART_SEGMENT + i,
+        add_circle(l, polynomial_value(s->r2, s->r2_degree, w[n - 1]), REVOLVE_SEGMENT + i,
                    w[n - 1]);
 }
 
@@ -198,7 +196,7 @@ static void sloped_segment(const struct line *l, uint32_t i)
                      conic(l, s->h_end[1], s->r2_end[1]) >= 0};
     for (int n = crossings(f, degree, above, w); n > 0; n--) {
         const double at = w[n - 1], height = polynomial_value(h, s->h_degree, at);
-        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), PART_SEGMENT + i,
+        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), REVOLVE_SEGMENT + i,
             at);
     }
 }
@@ -218,7 +216,7 @@ static void alternate(const struct line *l, uint32_t from)
     for (uint32_t i = from; i < l->out->count; i++) {
         struct boundary *b = &l->out->at[i];
         b->crossing = in ? CROSS_EXIT : CROSS_ENTER;
-        if (b->part < PART_SEGMENT) {
+        if (b->part < REVOLVE_SEGMENT) {
             b->drawn = l->r->caps_drawn;
             b->u = (l->ray->d.y < 0) == !in ? 1 : -1;
         } else {
@@ -261,8 +259,8 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
             sloped_segment(&l, i);
     if (!flat && !r->closed && r->count) {
         const struct revolve_segment *last = &r->segment[r->count - 1];
-        cap(&l, PART_FIRST_CAP, r->segment[0].h_end[0], r->segment[0].r2_end[0]);
-        cap(&l, PART_LAST_CAP, last->h_end[1], last->r2_end[1]);
+        cap(&l, REVOLVE_FIRST_CAP, r->segment[0].h_end[0], r->segment[0].r2_end[0]);
+        cap(&l, REVOLVE_LAST_CAP, last->h_end[1], last->r2_end[1]);
     }
     boundary_list_sort(out, from);
     alternate(&l, from);
@@ -277,12 +275,12 @@ void revolve_surface(const struct revolve *r, const struct boundary *b, struct v
         const double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
         out->uv.u = turn < 0 ? turn + 1 : turn;
     }
-    if (b->part < PART_SEGMENT) {
+    if (b->part < REVOLVE_SEGMENT) {
         out->ng = out->ns = vec3(0, b->u, 0);
-        out->uv.v = b->part == PART_LAST_CAP;
+        out->uv.v = b->part == REVOLVE_LAST_CAP;
         return;
     }
-    const uint32_t i = b->part - PART_SEGMENT;
+    const uint32_t i = b->part - REVOLVE_SEGMENT;
     const struct revolve_segment *s = &r->segment[i];
     double dh = 0, dr2 = 0;
     for (int k = s->h_degree; k > 0; k--)

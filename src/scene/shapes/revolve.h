@@ -24,6 +24,7 @@ struct revolve_segment {
     double low, high, most2;    // it lies between these heights, within this radius squared
 };
 
+// What a lathe and a sor begin with.
 struct revolve {
     struct revolve_segment *segment;
     uint32_t count;
@@ -31,6 +32,9 @@ struct revolve {
     bool caps_drawn;
     double h_min, h_max, r_max;
 };
+
+// boundary.part; v of a segment is its w.
+enum { REVOLVE_FIRST_CAP, REVOLVE_LAST_CAP, REVOLVE_SEGMENT };
 
 void revolve_prepare(struct revolve *r); // fills bounds from the segments
 struct aabb revolve_bounds(const struct revolve *r);
