@@ -105,7 +105,7 @@ check "a ring, stretched" sheet 0 "$(f '3 * 3 * pi')" 0.003 \
 check "a bicubic patch" sheet 1 9 0.000001 'bicubic_patch {type 1 flatness 0
   <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,0> <2,1,0> <3,1,0>
   <0,2,0> <1,2,0> <2,2,0> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>}'
-check "sheets in a union" sheet 3 "$(f '2 * pi + 0.5')" 0.003 'union {disc {0, y, 1}
+check "sheets in a union" sheet 3 "$(f '2 * pi + 0.5')" 0.006 'union {disc {0, y, 1}
   disc {4 * y, y, 1} triangle {<5, 0, 0>, <6, 0, 0>, <5, 1, 0>}}'
 
 cat >mesh.pov <<'EOS'
