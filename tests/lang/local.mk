@@ -114,6 +114,60 @@ lang_scenes = \
 	%D%/154-error-seed.scn \
 	%D%/156-message-keyword.scn \
 	%D%/157-error-subscript-negative.scn \
-	%D%/160-shapes-trace.scn
+	%D%/160-shapes-trace.scn \
+	%D%/201-spline-linear.scn \
+	%D%/202-spline-quadratic.scn \
+	%D%/203-spline-cubic.scn \
+	%D%/204-spline-natural.scn \
+	%D%/205-spline-five.scn \
+	%D%/206-spline-override.scn \
+	%D%/207-spline-extend.scn \
+	%D%/208-spline-loop.scn \
+	%D%/209-spline-unsorted.scn \
+	%D%/210-eval-pigment.scn \
+	%D%/211-vaxis-rotate.scn \
+	%D%/212-extents.scn \
+	%D%/213-inside.scn \
+	%D%/214-trace.scn \
+	%D%/215-str-widths.scn \
+	%D%/216-vstr-forms.scn \
+	%D%/217-val.scn \
+	%D%/218-chr-asc.scn \
+	%D%/219-substr.scn \
+	%D%/220-case.scn \
+	%D%/221-strcmp.scn \
+	%D%/222-escapes.scn \
+	%D%/223-rand-streams.scn \
+	%D%/224-rand-in-vector.scn \
+	%D%/225-rand-stream-names.scn \
+	%D%/226-bitwise.scn \
+	%D%/227-div-mod.scn \
+	%D%/228-select.scn \
+	%D%/229-trig.scn \
+	%D%/230-powers.scn \
+	%D%/231-array-nested.scn \
+	%D%/232-array-vectors.scn \
+	%D%/233-array-macro.scn \
+	%D%/234-file-numbers.scn \
+	%D%/235-file-append.scn \
+	%D%/236-file-array.scn \
+	%D%/237-file-colours.scn \
+	%D%/238-version-branches.scn \
+	%D%/239-switch-ranges.scn \
+	%D%/240-while-break.scn \
+	%D%/241-macro-recursion-values.scn \
+	%D%/242-macro-scope-more.scn \
+	%D%/243-macro-blocks.scn \
+	%D%/244-transform-functions.scn \
+	%D%/245-functions-pattern.scn \
+	%D%/246-conditional-chains.scn \
+	%D%/247-colour-arithmetic.scn \
+	%D%/248-vector-mixed.scn \
+	%D%/249-local-scope.scn \
+	%D%/250-concat-many.scn \
+	%D%/251-undef-local.scn \
+	%D%/252-kinds-change.scn \
+	%D%/253-loop-names-change.scn \
+	%D%/254-precision.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh
