@@ -159,6 +159,17 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && text_same(text + n - m, end, m);
 }
 
+static void add_file(struct cmd *c, const char *name)
+{
+    if (c->file_count == c->file_capacity) {
+        c->file_capacity = c->file_capacity ? 2 * c->file_capacity : 16;
+        c->file = realloc(c->file, c->file_capacity * sizeof *c->file);
+        if (!c->file)
+            abort();
+    }
+    c->file[c->file_count++] = text_format("%s", name);
+}
+
 int cmdline_file(struct cmd *c, const char *name)
 {
     size_t n = strlen(name);
@@ -175,8 +186,15 @@ int cmdline_file(struct cmd *c, const char *name)
     }
     if (ends_with(name, ".ini"))
         return ini_read(c, name, NULL, 0);
-    c->file[c->file_count++] = name;
+    add_file(c, name);
     return set_named(c, "input", name);
+}
+
+void cmdline_free(struct cmd *c)
+{
+    for (size_t i = 0; i < c->file_count; i++)
+        free(c->file[i]);
+    free(c->file);
 }
 
 static int unknown_long(const char *name, size_t len)

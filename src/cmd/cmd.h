@@ -32,8 +32,8 @@ struct progress {
 struct cmd {
     struct lambert_context *ctx;
     const char *program; // how the command was called, for messages
-    const char **file;   // bare file names that are no INI files, in order
-    size_t file_count;
+    char **file;         // bare file names that are no INI files, in order
+    size_t file_count, file_capacity;
     volatile int stage; // enum stage; what a signal means depends on it
     volatile bool interrupted;
     bool quiet, verbose;
@@ -54,6 +54,7 @@ int cmdline_parse(struct cmd *c, int argc, char **argv);
 int cmdline_switch(struct cmd *c, const char *arg);                         // +X -X
 int cmdline_keyword(struct cmd *c, const char *keyword, const char *value); // INI
 int cmdline_file(struct cmd *c, const char *name);
+void cmdline_free(struct cmd *c); // what these keep
 int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value);
 const struct lambert_option *cmdline_find_keyword(const char *keyword, size_t len);
 bool text_same(const char *a, const char *b, size_t n); // ASCII, case ignored

@@ -164,8 +164,7 @@ static int run(struct cmd *c, int argc, char **argv)
 int main(int argc, char **argv)
 {
     struct cmd c = {.ctx = lambert_context_new(), .program = argv[0]};
-    c.file = calloc((size_t)argc + 64, sizeof *c.file);
-    if (!c.ctx || !c.file)
+    if (!c.ctx)
         return cmd_fail(CMD_FAILED, "out of memory");
     lambert_set_message_function(c.ctx, on_message, &c);
     lambert_set_progress_function(c.ctx, progress_show, &c);
@@ -176,6 +175,6 @@ int main(int argc, char **argv)
         code = CMD_FAILED;
     stop_watch(&c);
     lambert_context_free(c.ctx);
-    free(c.file);
+    cmdline_free(&c);
     return code;
 }

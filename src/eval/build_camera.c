@@ -99,6 +99,37 @@ static void bokeh(struct args *a)
     args_not_rendered(a, WORD_bokeh, block->where);
 }
 
+// Rays from the faces of meshes: read, and what cannot be is said.
+static void mesh_camera(struct args *a)
+{
+    const struct ast *block = args_next(a);
+    struct args in = args_of(a->b, block, a);
+    long rays, method;
+    double distance = 0;
+    unsigned meshes = 0;
+    bool was = true;
+    if (!args_int(&in, "rays per pixel", &rays) ||
+        !args_int(&in, "distribution", &method))
+        return;
+    if (args_at_number(&in))
+        args_float(&in, "largest distance", &distance);
+    if (rays < 1 || method < 0 || method > 3)
+        args_error(
+            &in, block->where,
+            "mesh_camera takes 1 ray or more a pixel and a distribution of 0 to 3");
+    for (;; meshes++) {
+        args_object(&in, &was);
+        if (!was)
+            break;
+    }
+    if (!meshes)
+        args_error(&in, block->where, "mesh_camera needs a mesh");
+    args_take(&in, WORD_smooth);
+    if (in.at)
+        args_unknown(&in, NULL, 0);
+    args_not_rendered(a, WORD_mesh_camera, block->where);
+}
+
 static bool item(struct args *a, struct camera_state *c)
 {
     enum word w = args_at_word(a);
@@ -111,7 +142,7 @@ static bool item(struct args *a, struct camera_state *c)
         return true;
     }
     if (args_at_block(a) == WORD_mesh_camera) {
-        args_not_built(a);
+        mesh_camera(a);
         return true;
     }
     if (w != WORD_up && w != WORD_right && w != WORD_look_at && w != WORD_angle &&

@@ -298,6 +298,20 @@ static void report_unknown_word(struct stream *s, const struct token *t)
     diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
 }
 
+// What people used to other languages write; NULL: something else.
+static const char *habit_hint(int kind, int last)
+{
+    if (kind == '=' && last == '=')
+        return "equality is written with one '='";
+    if ((kind == '&' || kind == '|') && last == kind)
+        return "'and' is one '&', 'or' is one '|'";
+    if (kind == '+' && (last == TOK_STRING || last == TOK_STRING_NAME))
+        return "concat() joins strings";
+    if (kind == '[' && last == TOK_NAME)
+        return "what stands before it is no array";
+    return NULL;
+}
+
 void parse_syntax_error(struct parse *p, const int *expected, int count)
 {
     struct stream *s = p->in;
@@ -317,7 +331,8 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
     }
     char text[256];
     expected_text(text, sizeof text, expected, count);
-    diag_at(s->diags, DIAG_UNEXPECTED, t->where, token_text(p, t), text);
+    diag_hint(s->diags, DIAG_UNEXPECTED, t->where, habit_hint(t->kind, last->kind),
+              token_text(p, t), text);
 }
 
 // After an error: to where the broken statement, right side or list ends.

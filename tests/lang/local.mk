@@ -168,6 +168,22 @@ lang_scenes = \
 	%D%/251-undef-local.scn \
 	%D%/252-kinds-change.scn \
 	%D%/253-loop-names-change.scn \
-	%D%/254-precision.scn
+	%D%/254-precision.scn \
+	%D%/300-error-undeclared.scn \
+	%D%/301-error-close-name.scn \
+	%D%/302-error-double-equals.scn \
+	%D%/303-error-missing-paren.scn \
+	%D%/304-error-vector-six.scn \
+	%D%/305-error-string-plus.scn \
+	%D%/306-error-camera-angle.scn \
+	%D%/307-error-look-at.scn \
+	%D%/308-error-finish-word.scn \
+	%D%/309-error-pigment-texture.scn \
+	%D%/310-error-map-empty.scn \
+	%D%/311-error-cone-equal.scn \
+	%D%/312-error-undefined-macro.scn \
+	%D%/314-error-array-access.scn \
+	%D%/315-error-range.scn \
+	%D%/316-error-double-and.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

@@ -44,7 +44,8 @@ perf_shapes = \
 	%D%/shapes/text.scn \
 	%D%/shapes/torus.scn \
 	%D%/shapes/triangle.scn
-EXTRA_DIST += $(perf_scenes) $(perf_shapes) %D%/run.sh %D%/shapes.sh
+EXTRA_DIST += $(perf_scenes) $(perf_shapes) %D%/run.sh %D%/shapes.sh \
+	%D%/parse/generate.sh %D%/parse/run.sh
 perf: lambert
 	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/run.sh
 .PHONY: perf
