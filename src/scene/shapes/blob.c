@@ -98,8 +98,9 @@ struct walk {
     const struct blob *blob;
     const struct stretch *at;
     uint32_t count;
-    bool in;
+    bool in, known; // the state; whether it is known
     double shift, length, noise;
+    const struct ray *ray;
     struct boundary_list *out;
 };
 
@@ -115,12 +116,15 @@ static void walk_between(struct walk *w, double lo, double hi)
 {
     const double m = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
     double c[5] = {-w->blob->threshold}, most = 0;
-    if (!w->in) { // mostly the components around are too weak to reach the threshold
+    if (!w->known || !w->in) { // mostly the components around are too weak to reach the threshold
         for (uint32_t i = 0; i < w->count; i++)
             if (w->at[i].lo <= lo && w->at[i].hi >= hi)
                 most += w->at[i].peak;
-        if (most < w->blob->threshold * (1 - 0x1p-30))
+        if (most < w->blob->threshold * (1 - 0x1p-30)) {
+            w->known = true;
+            w->in = false;
             return;
+        }
     }
     for (uint32_t i = 0; i < w->count; i++)
         if (w->at[i].lo <= lo && w->at[i].hi >= hi)
@@ -128,6 +132,9 @@ static void walk_between(struct walk *w, double lo, double hi)
     struct polynomial_root root[4];
     const int n = polynomial_roots(c, 4, -half, half, 16, root);
     const bool starts_in = n > 0 ? !root[0].rising : c[0] > 0;
+    if (!w->known)
+        w->in = starts_in;
+    w->known = true;
     if (starts_in != w->in) // the sign changed at the joint itself, by rounding
         cross(w, lo, GAMMA(64) * (fabs(lo) + half));
     for (int i = 0; i < n; i++)
@@ -170,17 +177,35 @@ static void walk_all(struct walk *w, double *end)
         end[n++] = w->at[i].hi;
     }
     sort(end, n);
-    for (uint32_t i = 1; i < n; i++)
-        if (end[i - 1] < end[i])
-            walk_between(w, end[i - 1], end[i]);
-    if (w->in != (0 > w->blob->threshold)) // beyond the last component
+    // The first drawn crossing alone: stretches behind the ray's start, and what follows the
+    // crossing, are left out.
+    const bool first_only = w->out->first_only;
+    const double start = first_only ? w->ray->t_min * w->length - w->shift : -HUGE_VAL;
+    const double stop = first_only ? w->ray->t_max * w->length - w->shift : HUGE_VAL;
+    for (uint32_t i = 1; i < n; i++) {
+        if (!(end[i - 1] < end[i]))
+            continue;
+        if (end[i] < start) {
+            w->known = false;
+            continue;
+        }
+        const uint32_t before = w->out->count;
+        walk_between(w, end[i - 1], end[i]);
+        for (uint32_t k = before; first_only && k < w->out->count; k++)
+            if (w->out->at[k].t > w->ray->t_min)
+                return;
+        if (end[i] > stop)
+            return;
+    }
+    if (w->known && w->in != (0 > w->blob->threshold)) // beyond the last component
         cross(w, end[n - 1], GAMMA(64) * fabs(end[n - 1]));
 }
 
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct blob *b = shape;
-    struct walk w = {.blob = b, .length = vec3_length(ray->d), .out = out};
+    struct walk w = {.blob = b, .length = vec3_length(ray->d), .known = true, .ray = ray,
+                     .out = out};
     const struct vec3 u = vec3_scale(1 / w.length, ray->d);
     // Parameters from the point of the line nearest to the first component.
     const struct vec3 first = transform_point(&b->at[0].transform, b->at[0].c);

@@ -277,6 +277,29 @@ static double norm4(const double h[4])
     return h[0] * h[0] + h[1] * h[1] + h[2] * h[2] + h[3] * h[3];
 }
 
+// The same for squares, which most julia_fractals are of.
+static int square_escape(const struct julia *j, struct vec3 p, double *step, double *length)
+{
+    const double c0 = j->c[0], c1 = j->c[1], c2 = j->c[2], c3 = j->c[3];
+    double x = p.x, y = p.y, z = p.z, w = w_at(j, p), product = 1, scale = 1;
+    for (int k = 0; k < j->iterations; k++) {
+        const double x2 = x * x, q = y * y + z * z + w * w, norm = *length = x2 + q;
+        scale *= 2;
+        if (!(norm <= j->escape)) {
+            if (step)
+                *step = quick_log(norm) / (scale * sqrt(product));
+            return k;
+        }
+        product *= norm;
+        const double twice = 2 * x;
+        x = x2 - q + c0;
+        y = twice * y + c1;
+        z = twice * z + c2;
+        w = twice * w + c3;
+    }
+    return j->iterations;
+}
+
 static int quaternion_escape(const struct julia *j, struct vec3 p, double *step,
                              double *length)
 {
@@ -316,8 +339,10 @@ static struct vec3 quaternion_gradient(const struct julia *j, struct vec3 p, int
 int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *step,
                  double *norm)
 {
-    return j->hypercomplex ? hyper_escape(j, p, d, step, norm)
-                           : quaternion_escape(j, p, step, norm);
+    if (j->hypercomplex)
+        return hyper_escape(j, p, d, step, norm);
+    return j->function == JULIA_SQR ? square_escape(j, p, step, norm)
+                                    : quaternion_escape(j, p, step, norm);
 }
 
 struct vec3 julia_gradient(const struct julia *j, struct vec3 p, int k)

@@ -274,6 +274,12 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
             }
         return false;
     }
+    const double start = ray->t_min * l.length - l.shift;
+    if (start > a) { // a convex F that rises from above zero has no root ahead
+        const struct sample here = at(&l, start);
+        if (start >= b || (here.f > l.noise && here.slope > 0))
+            return false;
+    }
     if (!approach(&l, a, b, &first, &slope))
         return false;
     *out = crossing_at(&l, first, slope, CROSS_ENTER);
