@@ -265,7 +265,6 @@ static bool word_modifier(struct args *a, struct object *o)
     case WORD_cutaway_textures:
         if (!csg || (o->op != CSG_INTERSECTION && o->op != CSG_DIFFERENCE))
             wrong_owner(a, "cutaway_textures");
-        args_not_rendered(a, WORD_cutaway_textures, args_span(a));
         o->flags |= OBJECT_CUTAWAY;
         break;
     case WORD_split_union:

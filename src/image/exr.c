@@ -81,14 +81,15 @@ static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct i
 }
 
 // Into one plane per channel: the library's short cut for three interleaved channels
-// (3.1.5) stores them in the wrong order.
+// (3.1.5) stores them in the wrong order. All other channels share one more plane, since
+// some short cuts write even to those that have none.
 static void bind_decoder(exr_coding_channel_info_t *c, int count, float *planes,
                          int channels, int width, int height, int y)
 {
     for (int i = 0; i < count; i++) {
         int k = channel_index(c[i].channel_name);
         if (k < 0 || k >= channels)
-            continue; // stays unbound: skipped by the library
+            k = channels; // not wanted: into a plane that is thrown away
         size_t at = ((size_t)k * (size_t)height + (size_t)y) * (size_t)width;
         c[i].user_bytes_per_element = 4;
         c[i].user_data_type = EXR_PIXEL_FLOAT;
@@ -281,7 +282,7 @@ static bool read_opened(exr_context_t f, struct image *im, size_t size,
     if (!image_init(im, (int)width, (int)height, l.alpha ? 4 : 3))
         return codec_fail(e, "out of memory");
     float *planes = calloc((size_t)im->width * (size_t)im->height,
-                           (size_t)im->channels * sizeof *planes);
+                           ((size_t)im->channels + 1) * sizeof *planes);
     r = planes ? read_chunks(f, im, planes, box.min.y) : EXR_ERR_OUT_OF_MEMORY;
     if (!r)
         interleave(im, planes, !l.color);

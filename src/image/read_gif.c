@@ -58,9 +58,10 @@ static bool decode(struct byte_reader *in, uint8_t *out, size_t n, struct codec_
     struct lzw l;
     memset(&l, 0, sizeof l);
     struct bits b = {.in = in};
-    const int minimum = (int)read_u8(in), clear = 1 << minimum;
+    const int minimum = (int)read_u8(in);
     if (minimum < 1 || minimum > 8)
         return codec_fail(e, "its codes have %d bits", minimum);
+    const int clear = 1 << minimum;
     for (int i = 0; i < clear; i++) {
         l.last[i] = l.first[i] = (uint8_t)i;
         l.length[i] = 1;

@@ -1,6 +1,7 @@
 #include "trace/layers.h"
 
 #include "base/arena.h"
+#include "trace/cutaway.h"
 
 void surface_view_init(struct surface_view *v, const struct interaction *at,
                        struct vec3 d)
@@ -93,12 +94,21 @@ static void walk_part(void *user, const struct texture *x, double weight)
         walk_from(w, w->v->texture, w->v->transform, weight);
 }
 
+static void walk_cut(void *user, const struct texture *x, const struct transform *place,
+                     double weight)
+{
+    walk_from(user, x, place, weight);
+}
+
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
                   void *user)
 {
     struct walk w = {t, v, plain, user};
     const struct leaf *l = v->at->leaf;
-    if (v->at->surface->parts && v->texture == v->at->surface->texture)
+    const struct surface *s = v->at->surface;
+    if (s->cutaway && v->texture == s->texture)
+        cutaway_textures(s->cutaway, v->at->p, walk_cut, &w);
+    else if (s->parts && v->texture == v->at->surface->texture)
         l->ops->textures_at(l->shape, &v->at->b,
                             transform_inverse_point(&l->transform, v->at->p), walk_part, &w);
     else

@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "trace/accel.h"
 #include "trace/csg_bounds.h"
+#include "trace/cutaway.h"
 
 // What a node takes from the nodes above it, in world space.
 struct context {
@@ -54,6 +55,10 @@ struct build {
     const struct scene *scene;
     struct vector leaf, node, object, surface, light, group, group_parent, pending;
     bool has_transparent;
+    // The top-level object at hand, for cutaway_textures; made when one needs it.
+    const struct object *top;
+    const struct context *top_context;
+    const struct cutaway *cutaway;
 };
 
 static void add_top(struct build *b, const struct object *o, const struct context *c);
@@ -183,6 +188,16 @@ static bool same_surface(const struct surface *a, const struct surface *b)
            same_transform(&a->interior_texture_transform, &b->interior_texture_transform);
 }
 
+static const struct cutaway *cutaway_of(struct build *b)
+{
+    if (!b->cutaway) {
+        struct cutaway *c = arena_new_struct(b->arena, struct cutaway);
+        *c = (struct cutaway){b->top, b->top_context->world, b->top_context->texture};
+        b->cutaway = c;
+    }
+    return b->cutaway;
+}
+
 // Neighbours in the tree mostly share their surface; they are stored once.
 static uint32_t add_surface(struct build *b, const struct object *o,
                             const struct context *c)
@@ -198,6 +213,10 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                         .light_group = c->light_group};
     const uint32_t count = b->surface.count;
     s.parts = o->ops->texture && o->ops->texture(o->shape, 0);
+    if (!c->texture.texture && c->flags & OBJECT_CUTAWAY) {
+        s.parts = true;
+        s.cutaway = cutaway_of(b);
+    }
     if (count && same_surface((struct surface *)b->surface.at + count - 1, &s))
         return count - 1;
     s.opaque = texture_is_opaque(s.texture) &&
@@ -205,7 +224,11 @@ static uint32_t add_surface(struct build *b, const struct object *o,
     s.wants_uv = (s.flags & OBJECT_UV_MAPPING) || texture_wants_uv(s.texture) ||
                  (s.interior_texture && texture_wants_uv(s.interior_texture));
     const struct texture *x;
-    for (uint32_t i = 0; s.parts && (x = o->ops->texture(o->shape, i)); i++) {
+    if (s.cutaway) { // any texture of the object may be seen
+        s.opaque = false;
+        s.wants_uv = true;
+    }
+    for (uint32_t i = 0; s.parts && !s.cutaway && (x = o->ops->texture(o->shape, i)); i++) {
         s.opaque &= texture_is_opaque(x);
         s.wants_uv |= texture_wants_uv(x);
     }
@@ -437,6 +460,9 @@ static void add_top(struct build *b, const struct object *o, const struct contex
         for (uint32_t i = 0; i < o->child_count; i++)
             add_top(b, o->child[i], &in);
     } else {
+        b->top = o;
+        b->top_context = &here;
+        b->cutaway = NULL;
         add_object(b, o, &here);
     }
 }

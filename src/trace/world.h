@@ -10,6 +10,7 @@
 
 struct arena;
 struct accel;
+struct cutaway;
 
 // The material of a leaf with inheritance resolved: what shading needs to know.
 struct surface {
@@ -21,7 +22,8 @@ struct surface {
     unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
     bool opaque;                     // never lets light through
     bool wants_uv;                   // shading may look at uv coordinates
-    bool parts;                      // parts of the shape have textures of their own
+    bool parts;                      // parts of the shape have textures of their own, or
+    const struct cutaway *cutaway;   // those of other parts of the object are seen
     uint32_t light_group;            // index+1 into world light groups; 0: none
 };
 

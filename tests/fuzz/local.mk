@@ -14,3 +14,8 @@ EXTRA_DIST += %D%/replay.sh \
 	%D%/corpus/difference_huge.pov %D%/corpus/if_in_case.pov %D%/corpus/if_in_condition.pov \
 	%D%/corpus/if_in_elseif.pov %D%/corpus/while_at_end.pov \
 	%D%/corpus/subscript_huge.pov %D%/corpus/while_in_macro.pov
+# The image readers, over the small files of tests/data/images.
+noinst_PROGRAMS += fuzz_image
+fuzz_image_SOURCES = %D%/fuzz_image.c %D%/mutate.c
+fuzz_image_CPPFLAGS = -D_DEFAULT_SOURCE $(test_cppflags)
+fuzz_image_LDADD = $(lambert_libs)

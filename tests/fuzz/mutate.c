@@ -1,9 +1,10 @@
 // Mutation fuzzing without a fuzzing engine: makes COUNT mutants of the seed files,
 // feeds each to the fuzz target, and reports crashes and runs over the time limit.
 //
-//   fuzz_parse COUNT [-s SEED] [-t SECONDS] FILE...
+//   fuzz_parse COUNT  (or fuzz_image, for seeds that are no text) [-s SEED] [-t SECONDS] FILE...
 //
-// The seeds themselves come first. Mutants are made of bytes, tokens and splices of two seeds. They run in a child
+// The seeds themselves come first. Mutants are made of bytes, tokens and splices of two seeds;
+// those of binary seeds of bytes and of numbers of 8, 16 and 32 bits. They run in a child
 // process, a batch at a time; a child that dies or hangs names its mutant, which is
 // written to crash-N.scn for the corpus. Exit code 1 when there was any. Built with
 // the sanitizers this is the ten-thousand-mutants run of the test suite's long mode.
@@ -24,6 +25,7 @@ enum { BATCH = 50, SIZE_MAX_MUTANT = 1 << 16 };
 struct seed {
     char *text;
     size_t size;
+    bool binary;
 };
 
 struct random {
@@ -46,6 +48,7 @@ static bool load(const char *path, struct seed *out)
     out->text = malloc(SIZE_MAX_MUTANT);
     out->size = out->text ? fread(out->text, 1, SIZE_MAX_MUTANT / 2, f) : 0;
     fclose(f);
+    out->binary = out->size > 0 && memchr(out->text, 0, out->size);
     if (out->size > 0)
         return true;
     free(out->text);
@@ -92,15 +95,15 @@ static void token_at(const char *text, size_t size, struct random *r, size_t *at
 static void mutate_number(struct buffer *b, struct random *r)
 {
     static const char *const values[] = {
-        "0",     "-1",     "1",     "0.5",   "2",    "1e308", "-1e308", "1e-308", "1e-12",
-        "1e999", "-1e999", "1e30",  "-1e30", "1e10", "1e-5",  "3",      "100",    "-0.001",
-        "255",   "65536",  "1e6",   "4",     "16",
+        "0",     "-1",     "1",      "0.5",   "2",     "1e308", "-1e308", "1e-308",
+        "1e-12", "1e999",  "-1e999", "1e30",  "-1e30", "1e10",  "1e-5",   "3",
+        "100",   "-0.001", "255",    "65536", "1e6",   "4",     "16",
     };
     size_t at = below(r, b->size), n = 0;
     while (at < b->size && !(b->text[at] >= '0' && b->text[at] <= '9'))
         at++;
-    while (at + n < b->size && ((b->text[at + n] >= '0' && b->text[at + n] <= '9') ||
-                                b->text[at + n] == '.'))
+    while (at + n < b->size &&
+           ((b->text[at + n] >= '0' && b->text[at + n] <= '9') || b->text[at + n] == '.'))
         n++;
     const char *with = values[below(r, sizeof values / sizeof values[0])];
     replace(b, at, n, with, strlen(with));
@@ -110,13 +113,57 @@ static void mutate_once(struct buffer *b, const struct seed *seeds, size_t count
                         struct random *r)
 {
     static const char *const spice[] = {
-        "{",      "}",      "(",     ")",       "<",       ">",      "#end",   "#if (1)",
-        "#while (0)", "#macro M()", "#declare A = ", ";",  ",",      "1e308",  "-1e-308",
-        "0",      "1e999",  "\"",    "/*",      "*/",      "//",     "#include \"x.inc\"",
-        "[",      "]",      "#else", "#local A = A + 1;", "rgb", "<1,2,3,4,5,6>", "\xff",
-        "union {", "texture {", "pigment {", "#for (I, 0, 3)", "#break", "#switch (1)",
-        "array[3]", "A[0]", "seed(1)", "rand(0)", "0/0", ".x", "?", ":", "!", "#default {",
-        "#version 3.1;", "matrix", "function { x }", "inverse", "scale 0", "rotate",
+        "{",
+        "}",
+        "(",
+        ")",
+        "<",
+        ">",
+        "#end",
+        "#if (1)",
+        "#while (0)",
+        "#macro M()",
+        "#declare A = ",
+        ";",
+        ",",
+        "1e308",
+        "-1e-308",
+        "0",
+        "1e999",
+        "\"",
+        "/*",
+        "*/",
+        "//",
+        "#include \"x.inc\"",
+        "[",
+        "]",
+        "#else",
+        "#local A = A + 1;",
+        "rgb",
+        "<1,2,3,4,5,6>",
+        "\xff",
+        "union {",
+        "texture {",
+        "pigment {",
+        "#for (I, 0, 3)",
+        "#break",
+        "#switch (1)",
+        "array[3]",
+        "A[0]",
+        "seed(1)",
+        "rand(0)",
+        "0/0",
+        ".x",
+        "?",
+        ":",
+        "!",
+        "#default {",
+        "#version 3.1;",
+        "matrix",
+        "function { x }",
+        "inverse",
+        "scale 0",
+        "rotate",
     };
     const struct seed *other = &seeds[below(r, count)];
     size_t at, len, from, n;
@@ -156,6 +203,51 @@ static void mutate_once(struct buffer *b, const struct seed *seeds, size_t count
     }
 }
 
+// Numbers at the ends of ranges, in either byte order; bytes, stretches, an early end.
+static void mutate_bytes(struct buffer *b, const struct seed *seeds, size_t count,
+                         struct random *r)
+{
+    static const uint32_t values[] = {
+        0,      1,      2,       3,          4,          8,         16,
+        24,     32,     127,     128,        255,        256,       0x7fff,
+        0x8000, 0xffff, 0x10000, 0x7fffffff, 0x80000000, 0xffffffff};
+    const struct seed *other = &seeds[below(r, count)];
+    if (b->size < 2)
+        return;
+    // Headers decide most, and stand first.
+    size_t at = below(r, below(r, 2) && b->size > 64 ? 64 : b->size);
+    const size_t rest = b->size - at;
+    switch (below(r, 8)) {
+    case 0:
+    case 1: b->text[at] ^= (char)(1 << below(r, 8)); break;
+    case 2: b->text[at] = (char)next(r); break;
+    case 3:
+    case 4: {
+        uint32_t v = values[below(r, sizeof values / sizeof values[0])];
+        size_t n = (size_t)1 << below(r, 3);
+        bool big = below(r, 2);
+        for (size_t i = 0; i < n && i < rest; i++)
+            b->text[at + i] = (char)(v >> 8 * (big ? n - 1 - i : i));
+        break;
+    }
+    case 5: { // a stretch of another seed, over or before what is there
+        size_t from = below(r, other->size), n = 1 + below(r, 64);
+        n = n < other->size - from ? n : other->size - from;
+        replace(b, at, below(r, 2) && n < rest ? n : 0, other->text + from, n);
+        break;
+    }
+    case 6: {
+        size_t n = 1 + below(r, 40);
+        replace(b, at, n < rest ? n : rest, "", 0);
+        break;
+    }
+    default:
+        if (below(r, 3) == 0)
+            b->size = at + 1;
+        break;
+    }
+}
+
 static void make_mutant(struct buffer *b, const struct seed *seeds, size_t count,
                         uint64_t number, uint64_t seed)
 {
@@ -167,8 +259,12 @@ static void make_mutant(struct buffer *b, const struct seed *seeds, size_t count
     b->size = s->size;
     if (number < count) // each seed as it is comes first
         return;
-    for (size_t times = 1 + below(&r, 8); times > 0; times--)
-        mutate_once(b, seeds, count, &r);
+    for (size_t times = 1 + below(&r, 8); times > 0; times--) {
+        if (s->binary)
+            mutate_bytes(b, seeds, count, &r);
+        else
+            mutate_once(b, seeds, count, &r);
+    }
 }
 
 struct job {
@@ -253,7 +349,9 @@ int main(int argc, char **argv)
     struct job job = {.seed = 1, .seconds = 10};
     int i = 1;
     if (argc < 3)
-        return fprintf(stderr, "usage: fuzz_parse COUNT [-s SEED] [-t SECONDS] FILE...\n"), 64;
+        return fprintf(stderr,
+                       "usage: fuzz_parse COUNT [-s SEED] [-t SECONDS] FILE...\n"),
+               64;
     job.count = strtoull(argv[i++], NULL, 10);
     for (; i + 1 < argc && argv[i][0] == '-'; i += 2) {
         if (argv[i][1] == 's')

@@ -215,4 +215,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/307-image-gamma-22.pov \
 	%D%/308-image-gamma-missing.pov \
 	%D%/309-image-types.pov \
-	%D%/310-image-internal.pov
+	%D%/310-image-internal.pov \
+	%D%/311-cutaway-textures.pov
