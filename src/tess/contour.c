@@ -190,7 +190,7 @@ static void fill_slab(struct contour *c, int k, const struct layer layer[2])
             fill_cell(c, i, j, k, layer);
 }
 
-void contour_solid(const struct tess_solid *s, const struct contour_settings *settings,
+void contour_solid(struct tess_solid *s, const struct contour_settings *settings,
                    struct tess_mesh *out)
 {
     struct contour c = {.solid = s, .mesh = out, .sharp = settings->sharp};

@@ -12,12 +12,12 @@ enum { CONTOUR_RESOLUTION_MAX = 512 };
 
 // The boundary of a solid with finite bounds as a closed, oriented 2-manifold whose
 // vertices lie on the surface. Whatever is thinner than a cell may be lost.
-void contour_solid(const struct tess_solid *s, const struct contour_settings *settings,
+void contour_solid(struct tess_solid *s, const struct contour_settings *settings,
                    struct tess_mesh *out);
 
 // ---- between the parts ---------------------------------------------------------------
 struct contour {
-    const struct tess_solid *solid;
+    struct tess_solid *solid;
     struct tess_mesh *mesh;
     struct vec3 origin;
     double step; // side of a cell

@@ -6,9 +6,15 @@
 
 // Normals that stay within this cosine of each other (37 degrees) are one smooth piece.
 static const double smooth_cosine = 0.8;
+// Faces of two shapes may meet at less (11 degrees) and still make an edge.
+static const double face_cosine = 0.98;
+// Steps shorter than this part of a cell have found where faces meet.
+static const double found_meet = 1e-9;
 // A direction in which the tangent planes fix the vertex less than this, relative to the
 // best, is left to the mean of the crossings: along an edge, or in a plane.
 static const double flat_share = 0.05;
+// The same once the planes are those at the vertex: 9 degrees between two.
+static const double face_share = 0.006;
 // A vertex farther from the surface than this part of a cell is no feature.
 static const double feature_error = 0.05;
 // How far, in cells, a vertex may lie out of its own.
@@ -16,17 +22,17 @@ static const double cell_margin = 0.7;
 
 // ---- the vertex of a loop --------------------------------------------------------------
 
-// Nearest to the tangent planes at the crossings in the sense of least squares, and to the
-// mean where they leave it free.
-static struct vec3 meet_of_planes(const struct contour *c, const uint32_t *vertex,
-                                  int count, struct vec3 mean)
+// The least move from p to the tangent planes at points of faces, in the sense of least
+// squares.
+static struct vec3 to_planes(const struct tess_crossing *face, int count, double share,
+                             struct vec3 p)
 {
     double a[3][3] = {{0}};
     struct vec3 right = {0, 0, 0};
     for (int i = 0; i < count; i++) {
-        const struct tess_crossing *x = &c->crossing[vertex[i]];
+        const struct tess_crossing *x = &face[i];
         const double n[3] = {x->n.x, x->n.y, x->n.z};
-        const double d = vec3_dot(x->n, vec3_sub(x->p, mean));
+        const double d = vec3_dot(x->n, vec3_sub(x->p, p));
         for (int r = 0; r < 3; r++)
             for (int s = 0; s < 3; s++)
                 a[r][s] += n[r] * n[s];
@@ -36,18 +42,51 @@ static struct vec3 meet_of_planes(const struct contour *c, const uint32_t *verte
     const double most = fmax(e.value[0], fmax(e.value[1], e.value[2]));
     struct vec3 move = {0, 0, 0};
     for (int k = 0; k < 3; k++)
-        if (e.value[k] > flat_share * most)
+        if (e.value[k] > share * most)
             move = vec3_mad(move, vec3_dot(e.vector[k], right) / e.value[k], e.vector[k]);
-    return vec3_add(mean, move);
+    return move;
 }
 
+// Where the faces around a loop meet: nearest to their tangent planes, which are taken
+// anew at the place found until it is on curved faces too (Newton's method).
+static struct vec3 meet_of_faces(const struct contour *c, const uint32_t *vertex,
+                                 int count, struct vec3 mean)
+{
+    enum { LOOP_MOST = 12, STEPS = 6 };
+    struct tess_crossing face[LOOP_MOST];
+    for (int i = 0; i < count; i++)
+        face[i] = c->crossing[vertex[i]];
+    struct vec3 p = mean;
+    for (int step = 0; step < STEPS; step++) {
+        const struct vec3 move =
+            to_planes(face, count, step ? face_share : flat_share, p);
+        p = vec3_add(p, move);
+        if ((step && !(vec3_length(move) > found_meet * c->step)) ||
+            vec3_length(vec3_sub(p, mean)) > 2 * c->step)
+            break;
+        for (int i = 0; i < count; i++) {
+            struct tess_crossing on;
+            if (vec3_dot(face[i].n, face[i].n) > 0 &&
+                tess_solid_project(c->solid, &face[i], p, &on) &&
+                vec3_length(vec3_sub(on.p, p)) < c->step &&
+                vec3_dot(on.n, face[i].n) > smooth_cosine)
+                face[i] = on;
+        }
+    }
+    return p;
+}
+
+// Two faces, or one that is not smooth.
 static bool is_bent(const struct contour *c, const uint32_t *vertex, int count)
 {
     for (int i = 0; i < count; i++)
-        for (int j = i + 1; j < count; j++)
-            if (vec3_dot(c->crossing[vertex[i]].n, c->crossing[vertex[j]].n) <
-                smooth_cosine)
+        for (int j = i + 1; j < count; j++) {
+            const struct tess_crossing *x = &c->crossing[vertex[i]];
+            const struct tess_crossing *y = &c->crossing[vertex[j]];
+            const bool same = x->leaf == y->leaf && x->part == y->part;
+            if (vec3_dot(x->n, y->n) < (same ? smooth_cosine : face_cosine))
                 return true;
+        }
     return false;
 }
 
@@ -87,7 +126,7 @@ struct vec3 contour_centre(const struct contour *c, struct vec3 low,
         return mean;
     n = vec3_normalize(n);
     if (c->sharp && is_bent(c, vertex, count)) {
-        const struct vec3 p = meet_of_planes(c, vertex, count, mean);
+        const struct vec3 p = meet_of_faces(c, vertex, count, mean);
         const struct vec3 on = drop(c, p, n);
         if (in_cell(c, low, p) &&
             vec3_length(vec3_sub(on, p)) < feature_error * c->step) {

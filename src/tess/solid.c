@@ -3,6 +3,7 @@
 #include "base/arena.h"
 #include "scene/scene.h"
 #include "trace/intersect.h"
+#include "trace/scratch.h"
 #include "trace/world.h"
 
 void tess_solid_open(struct tess_solid *s, struct arena *a, const struct object *object)
@@ -29,6 +30,7 @@ void tess_solid_close(struct tess_solid *s)
     if (s->scratch)
         trace_scratch_free(s->scratch);
     s->scratch = NULL;
+    boundary_list_free(&s->crossings);
 }
 
 bool tess_solid_inside(const struct tess_solid *s, struct vec3 p)
@@ -47,8 +49,30 @@ bool tess_solid_first(const struct tess_solid *s, struct vec3 from, struct vec3 
         return false;
     struct interaction i;
     trace_interaction(s->world, &q.ray, &hit, &i);
-    *out = (struct tess_crossing){i.p, i.ng};
+    *out = (struct tess_crossing){i.p, i.ng, hit.b.leaf, hit.b.part};
     return vec3_dot(i.ng, q.ray.d) < 0;
+}
+
+bool tess_solid_project(struct tess_solid *s, const struct tess_crossing *on,
+                        struct vec3 p, struct tess_crossing *out)
+{
+    const struct ray ray = {p, on->n, -INFINITY, INFINITY};
+    struct boundary_list *list = &s->crossings;
+    list->count = 0;
+    leaf_crossings(s->world, on->leaf, &ray, list);
+    const struct boundary *near = NULL;
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct boundary *b = &list->at[i];
+        if (b->drawn && b->part == on->part && (!near || fabs(b->t) < fabs(near->t)))
+            near = b;
+    }
+    if (!near)
+        return false;
+    struct interaction i;
+    const struct hit hit = {*near};
+    trace_interaction(s->world, &ray, &hit, &i);
+    *out = (struct tess_crossing){i.p, i.ng, on->leaf, on->part};
+    return true;
 }
 
 // The surface drawn may lie elsewhere than the boundary of what is inside: clips cut
@@ -72,5 +96,5 @@ struct tess_crossing tess_solid_crossing(const struct tess_solid *s, struct vec3
     struct tess_crossing c;
     if (tess_solid_first(s, outside, inside, &c))
         return c;
-    return (struct tess_crossing){halve(s, outside, inside), {0, 0, 0}};
+    return (struct tess_crossing){halve(s, outside, inside), {0, 0, 0}, 0, 0};
 }

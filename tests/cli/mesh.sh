@@ -71,6 +71,17 @@ check "half a ball: clips are closed" solid 2 "$(f '2 * pi / 3')" "$(f '3 * pi')
 check "tiny and far" solid 2 8e-15 24e-10 0.01 \
   'box {-1e-5, 1e-5 translate <1, 2, 3>}'
 
+# Vertices that stand for the rim of a lens, where two curved faces meet, lie on it: at
+# least 60 around, as there are cells.
+printf '#version 3.7;\nintersection {sphere {-0.4 * z, 1} sphere {0.4 * z, 1}}\n' >rim.pov
+check "a curved edge" exits 0 "$lambert" mesh rim.pov -o x.obj --mesh-resolution=24 -q
+on_rim() {
+  awk '$1 == "v" {r = sqrt($2 ^ 2 + $3 ^ 2) - sqrt(0.84)
+      if ($4 ^ 2 < 1e-14 && r ^ 2 < 1e-14) n++; else if (r > 1e-7) out++}
+    END {print "# on the rim: " n ", beyond it: " out + 0; exit n < 60 || out}' x.obj
+}
+check "its vertices are on it" on_rim
+
 # sheet EULER AREA TOLERANCE OBJECT: open, so only what does not need an inside
 sheet()
 {
