@@ -196,20 +196,24 @@ bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct
     return true;
 }
 
+struct camera_lens camera_lens_of(const struct camera *c)
+{
+    const struct vec3 across = vec3_normalize(vec3_cross(c->up, c->direction));
+    return (struct camera_lens){across, vec3_normalize(vec3_cross(c->direction, across)),
+                                c->focal_distance / vec3_length(c->direction)};
+}
+
 // Spec/lighting.md 1.4. The types with an origin per pixel lose it here, as in
 // POV-Ray: every ray starts on the one lens.
-bool camera_lens_ray(const struct camera *c, double x, double y, int w, int h,
-                     struct vec2 lens, struct ray *out)
+bool camera_lens_ray(const struct camera *c, const struct camera_lens *l, double x,
+                     double y, int w, int h, struct vec2 lens, struct ray *out)
 {
     struct view view;
     if (!view_at(&view, c, x, y, w, h))
         return false;
-    const struct vec3 across = vec3_normalize(vec3_cross(c->up, c->direction));
-    const struct vec3 upright = vec3_normalize(vec3_cross(c->direction, across));
     const struct vec3 shift =
-        vec3_sub(vec3_scale(lens.u, across), vec3_scale(lens.v, upright));
-    const double reach = c->focal_distance / vec3_length(c->direction);
-    const struct vec3 d = vec3_sub(vec3_scale(reach, view.d), shift);
+        vec3_sub(vec3_scale(lens.u, l->across), vec3_scale(lens.v, l->upright));
+    const struct vec3 d = vec3_sub(vec3_scale(l->reach, view.d), shift);
     *out = (struct ray){vec3_add(c->location, shift), bent(&view, vec3_normalize(d)), 0,
                         INFINITY};
     return true;
