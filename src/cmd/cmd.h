@@ -29,6 +29,9 @@ struct progress {
     bool terminal, on;
 };
 
+// Files that get messages besides the console.
+enum stream { STREAM_ALL, STREAM_DEBUG, STREAM_WARNING, STREAM_FATAL, STREAM_COUNT };
+
 struct cmd {
     struct lambert_context *ctx;
     const char *program; // how the command was called, for messages
@@ -38,6 +41,7 @@ struct cmd {
     volatile bool interrupted;
     bool quiet, verbose;
     unsigned warnings;
+    FILE *stream[STREAM_COUNT]; // NULL: none
     struct progress progress;
     pthread_t watch; // the thread that waits for signals
     bool watched;
@@ -69,6 +73,12 @@ int completion_print(FILE *out);
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
 char *scene_base(const char *scene); // without folder and extension, to be freed
 char *text_format(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+
+// streams.c
+int streams_open(struct cmd *c);
+void streams_write(struct cmd *c, const struct lambert_message *m);
+int streams_close(struct cmd *c);
+int settings_write(struct cmd *c); // Create_Ini
 
 // progress.c
 void progress_begin(struct cmd *c);

@@ -32,6 +32,7 @@ void cmd_warn(struct cmd *c, const char *fmt, ...)
 static void on_message(void *user, const struct lambert_message *m)
 {
     struct cmd *c = user;
+    streams_write(c, m);
     if (m->kind == LAMBERT_SCENE_TEXT && c->quiet)
         return;
     if (c->stage == STAGE_RENDER)
@@ -157,8 +158,15 @@ static int run(struct cmd *c, int argc, char **argv)
     settle_color(c);
     c->quiet = lambert_option_number(c->ctx, "quiet") != 0;
     c->verbose = lambert_option_number(c->ctx, "verbose") != 0;
+    code = settings_write(c);
+    if (!code)
+        code = streams_open(c);
+    if (code)
+        return code;
     start_watch(c);
-    return command->run(c);
+    code = command->run(c);
+    int closed = streams_close(c);
+    return code ? code : closed;
 }
 
 int main(int argc, char **argv)

@@ -71,4 +71,23 @@ every_row()
   done <rows
 }
 check "the manual and --help=all hold every row of the table" every_row
+streams() {
+  printf '#debug "said\\n"\n#warning "beware\\n"\nsphere { 0, Q }\n' >talk.pov
+  "$lambert" check talk.pov +GDsaid.txt +GWwarned.txt +GFwrong.txt +GAall.txt >out 2>err
+  test "$(cat said.txt)" = said && has warned.txt beware && has wrong.txt "'Q' is not declared" &&
+    has all.txt said && has all.txt beware && ! grep -q beware wrong.txt
+}
+check "messages to files" streams
+appended() {
+  "$lambert" check talk.pov +GDsaid.txt +GP >out 2>err
+  test "$(grep -c said said.txt)" = 2
+}
+check "Append_File" appended
+settings() {
+  exits 0 "$lambert" sphere.pov +W20 +H10 -q -F +GIkept.ini 'Declare=Name="a b"' Declare=N=3 +A0.2 &&
+    has kept.ini '^Width=20$' && has kept.ini "^Declare='Name=\"a b\"'$" &&
+    has kept.ini '^Antialias_Threshold=0*.2$' &&
+    exits 0 "$lambert" kept.ini +F -o again.ppm +FP && size_ppm again.ppm 20 10
+}
+check "Create_Ini can be read again" settings
 finish

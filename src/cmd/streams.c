@@ -1,0 +1,79 @@
+// Messages that go to files too, and the settings as an INI file.
+#include "cmd/cmd.h"
+
+#include <errno.h>
+#include <string.h>
+
+static const char *const stream_options[STREAM_COUNT] = {
+    [STREAM_ALL] = "file-all",
+    [STREAM_DEBUG] = "file-debug",
+    [STREAM_WARNING] = "file-warning",
+    [STREAM_FATAL] = "file-fatal",
+};
+
+int streams_open(struct cmd *c)
+{
+    const char *mode = lambert_option_number(c->ctx, "append-file") ? "a" : "w";
+    for (int i = 0; i < STREAM_COUNT; i++) {
+        const char *path = lambert_option_text(c->ctx, stream_options[i]);
+        if (path && !(c->stream[i] = fopen(path, mode)))
+            return cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path,
+                            strerror(errno));
+    }
+    return CMD_OK;
+}
+
+void streams_write(struct cmd *c, const struct lambert_message *m)
+{
+    static const enum stream of[] = {[LAMBERT_NOTE] = STREAM_WARNING,
+                                     [LAMBERT_WARNING] = STREAM_WARNING,
+                                     [LAMBERT_ERROR] = STREAM_FATAL,
+                                     [LAMBERT_SCENE_TEXT] = STREAM_DEBUG};
+    FILE *own = c->stream[of[m->kind]];
+    if (own)
+        fputs(m->rendered, own);
+    if (c->stream[STREAM_ALL])
+        fputs(m->rendered, c->stream[STREAM_ALL]);
+}
+
+int streams_close(struct cmd *c)
+{
+    bool ok = true;
+    for (int i = 0; i < STREAM_COUNT; i++) {
+        if (c->stream[i] && (ferror(c->stream[i]) | fclose(c->stream[i])) != 0)
+            ok = false;
+        c->stream[i] = NULL;
+    }
+    return ok ? CMD_OK : cmd_fail(CMD_IO, "cannot write all messages to their files");
+}
+
+static void write_value(FILE *f, const char *keyword, const char *value)
+{
+    bool quoted = strpbrk(value, " \t;#") && !strchr(value, '"');
+    bool text = strchr(value, '"') && !strchr(value, '\'');
+    const char *quote = quoted ? "\"" : text ? "'" : "";
+    fprintf(f, "%s=%s%s%s\n", keyword, quote, value, quote);
+}
+
+int settings_write(struct cmd *c)
+{
+    const char *path = lambert_option_text(c->ctx, "create-ini");
+    const struct lambert_option *o;
+    if (!path)
+        return CMD_OK;
+    FILE *f = fopen(path, "w");
+    for (size_t i = 0; f && (o = lambert_option_at(i)); i++) {
+        const char *const *list;
+        size_t n = lambert_option_list(c->ctx, o->name, &list);
+        if (!o->keyword || !lambert_option_is_set(c->ctx, o->name) ||
+            strcmp(o->name, "create-ini") == 0 || o->kind == LAMBERT_OPTION_ACTION)
+            continue;
+        if (o->kind != LAMBERT_OPTION_LIST)
+            write_value(f, o->keyword, lambert_option_text(c->ctx, o->name));
+        for (size_t k = 0; o->kind == LAMBERT_OPTION_LIST && k < n; k++)
+            write_value(f, o->keyword, list[k]);
+    }
+    if (f && (ferror(f) | fclose(f)) == 0)
+        return CMD_OK;
+    return cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path, strerror(errno));
+}
