@@ -82,10 +82,13 @@ void conic_intersect(const struct outline *o, double low, double high, bool open
         through_apex(o, &slab, open, ray, low, high, out);
         return;
     }
+    const double norm = sqrt(k[0] * k[0] + k[1] * k[1]);
     const uint32_t from = out->count;
     for (uint32_t i = 0; i < o->count; i++) {
         double w[OUTLINE_ROOTS];
         const struct outline_segment *s = &o->segment[i];
+        if (outline_passes_by(s, k, norm, wide))
+            continue;
         for (int n = outline_roots(s, k, w); n > 0; n--)
             wall(&l, s, w[n - 1], EXTRUDE_WALL + i);
     }

@@ -36,15 +36,6 @@ static void plane_line(const struct extrude_ray *r, double k[3])
     k[2] = r->d[0] * r->o[1] - r->d[1] * r->o[0];
 }
 
-static bool misses(const struct outline_segment *s, const double k[3])
-{
-    if (s->degree > 1)
-        return false; // control points may stick out; roots decide
-    const double a = k[0] * s->a.u + k[1] * s->a.v + k[2];
-    const double b = k[0] * s->b.u + k[1] * s->b.v + k[2];
-    return (a >= 0) == (b >= 0);
-}
-
 static void add_walls(const struct outline *o, const struct extrude_ray *r,
                       struct boundary_list *out)
 {
@@ -54,10 +45,11 @@ static void add_walls(const struct outline *o, const struct extrude_ray *r,
     const double size =
         fmax(fmax(fabs(o->min.u), fabs(o->max.u)), fmax(fabs(o->min.v), fabs(o->max.v))) +
         fmax(fabs(r->o[0]), fabs(r->o[1]));
+    const double norm = sqrt(dd);
     for (uint32_t i = 0; i < o->count; i++) {
         const struct outline_segment *s = &o->segment[i];
         double w[OUTLINE_ROOTS];
-        if (misses(s, k))
+        if (outline_passes_by(s, k, norm, size))
             continue;
         const int n = outline_roots(s, k, w);
         for (int j = 0; j < n; j++) {

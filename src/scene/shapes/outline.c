@@ -40,6 +40,24 @@ static struct outline_segment *add(struct outline *o, struct vec2 a, struct vec2
     return s;
 }
 
+// The circle around control points.
+static void enclose(struct outline_segment *s, const struct vec2 *p, int n)
+{
+    struct vec2 lo = p[0], hi = p[0];
+    for (int i = 1; i < n; i++) {
+        lo.u = fmin(lo.u, p[i].u);
+        lo.v = fmin(lo.v, p[i].v);
+        hi.u = fmax(hi.u, p[i].u);
+        hi.v = fmax(hi.v, p[i].v);
+    }
+    s->middle = (struct vec2){0.5 * (lo.u + hi.u), 0.5 * (lo.v + hi.v)};
+    s->radius = 0;
+    for (int i = 0; i < n; i++) {
+        const double u = p[i].u - s->middle.u, v = p[i].v - s->middle.v;
+        s->radius = fmax(s->radius, sqrt(u * u + v * v));
+    }
+}
+
 void outline_line(struct outline *o, struct vec2 a, struct vec2 b)
 {
     if (a.u == b.u && a.v == b.v)
@@ -47,6 +65,7 @@ void outline_line(struct outline *o, struct vec2 a, struct vec2 b)
     struct outline_segment *s = add(o, a, b);
     s->degree = 1;
     s->c1 = (struct vec2){b.u - a.u, b.v - a.v};
+    enclose(s, (const struct vec2[]){a, b}, 2);
 }
 
 void outline_parabola(struct outline *o, struct vec2 a, struct vec2 control,
@@ -57,6 +76,7 @@ void outline_parabola(struct outline *o, struct vec2 a, struct vec2 control,
     s->degree = 2;
     s->c1 = (struct vec2){2 * (control.u - a.u), 2 * (control.v - a.v)};
     s->c2 = (struct vec2){a.u - 2 * control.u + b.u, a.v - 2 * control.v + b.v};
+    enclose(s, (const struct vec2[]){a, control, b}, 3);
 }
 
 void outline_cubic(struct outline *o, struct vec2 a, struct vec2 c1, struct vec2 c2,
@@ -69,6 +89,7 @@ void outline_cubic(struct outline *o, struct vec2 a, struct vec2 c1, struct vec2
     s->c1 = (struct vec2){3 * (c1.u - a.u), 3 * (c1.v - a.v)};
     s->c2 = (struct vec2){3 * (a.u - 2 * c1.u + c2.u), 3 * (a.v - 2 * c1.v + c2.v)};
     s->c3 = (struct vec2){b.u - a.u + 3 * (c1.u - c2.u), b.v - a.v + 3 * (c1.v - c2.v)};
+    enclose(s, (const struct vec2[]){a, c1, c2, b}, 4);
 }
 
 struct vec2 outline_point(const struct outline_segment *s, double w)
@@ -199,6 +220,8 @@ bool outline_inside(const struct outline *o, struct vec2 p)
     for (uint32_t i = 0; i < o->count; i++) {
         double w[OUTLINE_ROOTS];
         const struct outline_segment *s = &o->segment[i];
+        if (fabs(s->middle.v - p.v) > s->radius + GAMMA(32) * (fabs(s->middle.v) + fabs(p.v)))
+            continue;
         for (int n = outline_roots(s, k, w); n > 0; n--)
             in ^= outline_point(s, w[n - 1]).u > p.u;
     }

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "math/gamma.h"
 #include "math/vec.h"
 
 struct arena;
@@ -18,6 +19,8 @@ struct outline_segment {
     struct vec2 a, b;       // end points, shared exactly with the neighbours
     struct vec2 c3, c2, c1; // curve(w) = ((c3 w + c2) w + c1) w + a, 0 <= w <= 1
     int degree;             // 1, 2, 3
+    struct vec2 middle;     // all of it is within `radius` of this point
+    double radius;
 };
 
 struct outline {
@@ -43,6 +46,15 @@ struct vec2 outline_tangent(const struct outline_segment *s, double w);
 enum { OUTLINE_ROOTS = 3 };
 int outline_roots(const struct outline_segment *s, const double k[3],
                   double w[OUTLINE_ROOTS]);
+
+// Whether the line k, norm = |(k0, k1)|, passes by the segment, clear of the rounding of
+// k.(u, v, 1) for points of this size.
+static inline bool outline_passes_by(const struct outline_segment *s, const double k[3],
+                                     double norm, double size)
+{
+    const double off = k[0] * s->middle.u + k[1] * s->middle.v + k[2];
+    return fabs(off) > s->radius * norm + GAMMA(32) * (norm * size + fabs(k[2]));
+}
 
 bool outline_inside(const struct outline *o, struct vec2 p);
 
