@@ -22,6 +22,7 @@ struct ovus {
     double bottom, top; // as written
     struct part part[PARTS];
     double joint[2]; // the heights between the parts
+    struct ball { double y, r; } around; // holds the egg
 };
 
 static const double pi = 3.14159265358979323846;
@@ -53,6 +54,27 @@ static void make_parts(struct ovus *s)
     s->part[PART_ARC] = (struct part){h, v, r};
 }
 
+static struct aabb bounds(const void *shape)
+{
+    const struct ovus *s = shape;
+    const struct part *arc = &s->part[PART_ARC];
+    double r = fmax(s->part[PART_BOTTOM].r, s->top);
+    if (arc->v >= s->joint[0] && arc->v <= s->joint[1]) // the widest place is on the arc
+        r = fmax(r, arc->r - arc->h);
+    const double low = fmin(-s->part[PART_BOTTOM].r + s->part[PART_BOTTOM].v,
+                            s->bottom - s->top);
+    return aabb_pad((struct aabb){vec3(-r, low, -r), vec3(r, s->bottom + s->top, r)});
+}
+
+// The ball over the egg's height, as wide as its widest part needs.
+static void make_ball(struct ovus *s)
+{
+    const struct aabb b = bounds(s);
+    s->around.y = 0.5 * (b.min.y + b.max.y);
+    const double tall = 0.5 * (b.max.y - b.min.y);
+    s->around.r = sqrt(tall * tall + b.max.x * b.max.x) * (1 + 0x1p-40);
+}
+
 static bool build(void *shape, struct args *args)
 {
     struct ovus *s = shape;
@@ -67,24 +89,13 @@ static bool build(void *shape, struct args *args)
         args_warn(args, "the top radius is at least twice the bottom radius: the ovus is a "
                         "sphere");
     make_parts(s);
+    make_ball(s);
     return true;
 }
 
 static int part_at(const struct ovus *s, double y)
 {
     return y < s->joint[0] ? PART_BOTTOM : y > s->joint[1] ? PART_TOP : PART_ARC;
-}
-
-static struct aabb bounds(const void *shape)
-{
-    const struct ovus *s = shape;
-    const struct part *arc = &s->part[PART_ARC];
-    double r = fmax(s->part[PART_BOTTOM].r, s->top);
-    if (arc->v >= s->joint[0] && arc->v <= s->joint[1]) // the widest place is on the arc
-        r = fmax(r, arc->r - arc->h);
-    const double low = fmin(-s->part[PART_BOTTOM].r + s->part[PART_BOTTOM].v,
-                            s->bottom - s->top);
-    return aabb_pad((struct aabb){vec3(-r, low, -r), vec3(r, s->bottom + s->top, r)});
 }
 
 static bool inside(const void *shape, struct vec3 p)
@@ -172,10 +183,12 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const double size = fmax(s->bottom + s->top, 2 * s->top);
     const double length = vec3_length(ray->d);
     const struct vec3 u = vec3_scale(1 / length, ray->d);
-    const double shift = -vec3_dot(ray->o, u);
+    const struct vec3 middle = vec3(0, s->around.y, 0);
+    const double shift = vec3_dot(vec3_sub(middle, ray->o), u);
     const struct line l = {vec3_mad(ray->o, shift, u), u,
                            GAMMA(8) * (2 * size + fabs(shift))};
-    const double reach2 = 4 * size * size - vec3_dot(l.o, l.o);
+    const struct vec3 off = vec3_sub(l.o, middle);
+    const double reach2 = s->around.r * s->around.r - vec3_dot(off, off);
     if (!(reach2 > 0))
         return;
     const double reach = sqrt(reach2);
