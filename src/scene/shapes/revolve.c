@@ -277,7 +277,12 @@ void revolve_surface(const struct revolve *r, const struct boundary *b, struct v
     }
     if (b->part < REVOLVE_SEGMENT) {
         out->ng = out->ns = vec3(0, b->u, 0);
-        out->uv.v = b->part == REVOLVE_LAST_CAP;
+        // From -1 at the axis to 0 at the first rim, from 1 at the last rim to 2.
+        const bool last = b->part == REVOLVE_LAST_CAP;
+        const double rim2 =
+            last ? r->segment[r->count - 1].r2_end[1] : r->segment[0].r2_end[0];
+        const double share = rim2 > 0 ? fmin(1, sqrt(rho2 / rim2)) : 1;
+        out->uv.v = last ? 2 - share : share - 1;
         return;
     }
     const uint32_t i = b->part - REVOLVE_SEGMENT;

@@ -460,6 +460,30 @@ static void height_field_is_watertight(void **state)
     arena_free(a);
 }
 
+// uv coordinates of a sor's caps: -1 to 0 from the axis to the base's rim, 1 to 2 back from
+// the top's.
+static void caps_of_a_sor_have_uv(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    struct boundary_list l = {0};
+    void *shape;
+    const struct shape_ops *ops =
+        make(a, "sor", "5, <.5,-1>, <.5,0>, <.5,1>, <.5,2>, <.5,3>", &shape);
+    const struct ray r = {vec3(0, 5, -.2), vec3(0, -1, 0), -INFINITY, INFINITY};
+    ops->intersect(shape, &r, &l);
+    assert_int_equal(l.count, 2);
+    const double want[2] = {1.6, -.6};
+    for (uint32_t i = 0; i < 2; i++) {
+        struct surface_point s = {.want_uv = true};
+        ops->surface(shape, &l.at[i], ray_at(&r, l.at[i].t), &s);
+        assert_near(s.uv.u, .75, 1e-12);
+        assert_near(s.uv.v, want[i], 1e-12);
+    }
+    boundary_list_free(&l);
+    arena_free(a);
+}
+
 // ---- closest --------------------------------------------------------------------------
 
 static void closest_is_the_first_crossing(void **state)
@@ -522,6 +546,7 @@ int main(void)
         cmocka_unit_test(sweeps_hold_their_balls),
         cmocka_unit_test(sweep_is_a_capsule),
         cmocka_unit_test(height_field_is_watertight),
+        cmocka_unit_test(caps_of_a_sor_have_uv),
         cmocka_unit_test(closest_is_the_first_crossing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
