@@ -6,6 +6,7 @@
 #include "api/mesh_file.h"
 #include "base/stack.h"
 #include "tess/contour.h"
+#include "tess/parts.h"
 #include "tess/sheet.h"
 
 struct export
@@ -17,29 +18,36 @@ struct export
     bool ok;
 };
 
-static void one_mesh(struct lambert_context *ctx, struct arena *a, const struct object *o,
-                     struct tess_mesh *out)
-{
-    const struct contour_settings settings = {
-        .resolution = (int)option_number(ctx, "mesh-resolution"),
-        .sharp = option_flag(ctx, "mesh-sharp")};
-    if (sheet_mesh(o, settings.resolution, out) || !object_is_solid(o))
-        return;
-    struct tess_solid solid;
-    tess_solid_open(&solid, a, o);
-    if (solid.world && aabb_is_finite(solid.bounds) && !aabb_is_empty(solid.bounds))
-        contour_solid(&solid, &settings, out);
-    tess_solid_close(&solid);
-}
-
 static void left_out(struct export *e, const struct object *o)
 {
     const char *why = !object_is_solid(o) ? "has no inside"
                       : aabb_is_finite(object_bounds(o))
                           ? "is empty, or finer than a cell"
                           : "has no end";
-    e->stats.left_out++;
     diag_at(&e->ctx->diags, DIAG_MESH_LEFT_OUT, o->where, why);
+}
+
+static void one_mesh(struct export *e, struct arena *a, const struct object *o,
+                     struct tess_mesh *out)
+{
+    const struct contour_settings settings = {
+        .resolution = (int)option_number(e->ctx, "mesh-resolution"),
+        .sharp = option_flag(e->ctx, "mesh-sharp")};
+    struct tess_parts parts;
+    tess_parts_of(a, o, &parts);
+    if (parts.solid) {
+        struct tess_solid solid;
+        tess_solid_open(&solid, a, parts.solid);
+        if (solid.world && !aabb_is_empty(solid.bounds))
+            contour_solid(&solid, &settings, out);
+        tess_solid_close(&solid);
+        if (!out->triangle_count)
+            left_out(e, parts.solid);
+    }
+    if (parts.sheet)
+        sheet_mesh(parts.sheet, settings.resolution, out);
+    if (parts.other)
+        left_out(e, parts.other);
 }
 
 // On a large stack: objects may be thousands of levels deep.
@@ -59,11 +67,11 @@ static void write_meshes(void *user)
             continue;
         struct tess_mesh m = {0};
         struct arena *a = arena_new(1 << 16);
-        one_mesh(e->ctx, a, o, &m);
+        one_mesh(e, a, o, &m);
         arena_free(a);
         e->stats.objects++;
         if (!m.triangle_count) {
-            left_out(e, o);
+            e->stats.left_out++;
             tess_mesh_free(&m);
             continue;
         }

@@ -27,7 +27,7 @@ static bool is_mapped(const struct object *o)
     return o->ops == &disc_ops || o->ops == &bicubic_patch_ops;
 }
 
-static bool all_sheets(const struct object *o)
+bool is_sheet(const struct object *o)
 {
     if (o->clip_count || o->flags & OBJECT_INVERSE)
         return false;
@@ -36,7 +36,7 @@ static bool all_sheets(const struct object *o)
     if (o->kind != OBJECT_CSG || o->op != CSG_UNION)
         return false;
     for (uint32_t i = 0; i < o->child_count; i++)
-        if (!all_sheets(o->child[i]))
+        if (!is_sheet(o->child[i]))
             return false;
     return o->child_count > 0;
 }
@@ -108,12 +108,9 @@ static struct aabb sheet_bounds(const struct object *o, const struct transform *
     return b;
 }
 
-bool sheet_mesh(const struct object *o, int resolution, struct tess_mesh *out)
+void sheet_mesh(const struct object *o, int resolution, struct tess_mesh *out)
 {
-    if (!all_sheets(o))
-        return false;
     const struct aabb b = sheet_bounds(o, &transform_identity);
     const double size = vec3_max_abs(vec3_sub(b.max, b.min));
     add(o, &transform_identity, size / resolution, out);
-    return true;
 }

@@ -119,6 +119,14 @@ check "a bicubic patch" sheet 1 9 0.000001 'bicubic_patch {type 1 flatness 0
 check "sheets in a union" sheet 3 "$(f '2 * pi + 0.5')" 0.006 'union {disc {0, y, 1}
   disc {4 * y, y, 1} triangle {<5, 0, 0>, <6, 0, 0>, <5, 1, 0>}}'
 
+# A ball (Euler number 2), a disc (1) and a triangle (1), moved together, areas times 4; the
+# plane is named and left out.
+check "solids and sheets of a union" sheet 4 "$(f '4 * (4 * pi + pi + 0.5)')" 0.02 'union {
+  union {sphere {0, 1} disc {0, y, 1 translate 3 * x}} triangle {<5, 0, 0>, <6, 0, 0>, <5, 1, 0>}
+  plane {y, -200} translate 100 scale 2 rotate 30 * z}'
+exits 0 "$lambert" mesh sheet.pov -o x.obj --mesh-resolution=8
+check "names the part that has no end" has err 'no end.*E0840'
+
 cat >mesh.pov <<'EOS'
 #version 3.7;
 global_settings {assumed_gamma 1}
