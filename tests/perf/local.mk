@@ -44,10 +44,12 @@ perf_shapes = \
 	%D%/shapes/text.scn \
 	%D%/shapes/torus.scn \
 	%D%/shapes/triangle.scn
-EXTRA_DIST += $(perf_scenes) $(perf_shapes) %D%/run.sh %D%/shapes.sh \
+perf_core = %D%/core/csg.scn %D%/core/flake.scn %D%/core/one.scn %D%/core/sponge.scn
+EXTRA_DIST += $(perf_scenes) $(perf_shapes) $(perf_core) %D%/core.sh %D%/run.sh %D%/shapes.sh \
 	%D%/parse/generate.sh %D%/parse/run.sh
 perf: lambert
 	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/run.sh
+	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/core.sh
 .PHONY: perf
 EXTRA_PROGRAMS += trace_bench
 trace_bench_SOURCES = %D%/trace_bench.c
