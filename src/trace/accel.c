@@ -94,7 +94,7 @@ static const struct sphere *lone_sphere(const struct world *w, uint32_t object)
 {
     const struct world_object *o = &w->object[object];
     const struct leaf *l = &w->leaf[o->first_leaf];
-    return o->is_csg || l->ops != &sphere_ops || !l->transform.identity || !l->drawn ||
+    return o->is_csg || l->ops != &sphere_ops || !l->transform->identity || !l->drawn ||
                    o->bound_count
                ? NULL
                : l->shape;
@@ -169,7 +169,7 @@ static bool is_sponge(const struct world *w, const struct world_object *o)
     uint32_t solids = 0;
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
         const struct leaf *l = &w->leaf[i];
-        const bool ball = l->ops == &sphere_ops && l->transform.identity;
+        const bool ball = l->ops == &sphere_ops && l->transform->identity;
         if (l->inverted ? !ball : !l->required || !(l->ops->flags & SHAPE_CONVEX))
             return false;
         solids += !l->inverted;

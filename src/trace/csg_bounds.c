@@ -10,9 +10,9 @@ static struct aabb drawn_bounds(const struct leaf *l)
     if (!l->ops->surface_bounds)
         return l->bounds;
     const struct aabb s = shape_surface_bounds(l->ops, l->shape);
-    return l->transform.identity || aabb_is_empty(s)
+    return l->transform->identity || aabb_is_empty(s)
                ? s
-               : aabb_pad(aabb_transform(s, &l->transform));
+               : aabb_pad(aabb_transform(s, l->transform));
 }
 
 // Bottom up: where the node may be inside, and where it may have drawn surfaces

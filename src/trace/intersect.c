@@ -125,8 +125,8 @@ static bool single_leaf(const struct world *w, struct trace_scratch *s,
         return false;
     if (l->ops->closest) {
         struct ray local = *ray;
-        if (!l->transform.identity)
-            local = transform_inverse_ray(&l->transform, ray);
+        if (!l->transform->identity)
+            local = transform_inverse_ray(l->transform, ray);
         out->leaf = o->first_leaf;
         return l->ops->closest(l->shape, &local, out);
     }
@@ -257,7 +257,7 @@ bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
 static bool leaf_inside(const struct leaf *l, struct vec3 p)
 {
     return l->solid &&
-           l->ops->inside(l->shape, transform_inverse_point(&l->transform, p)) !=
+           l->ops->inside(l->shape, transform_inverse_point(l->transform, p)) !=
                l->inverted;
 }
 
@@ -265,7 +265,10 @@ static bool leaf_inside(const struct leaf *l, struct vec3 p)
 // up as long as a child decides its parent. Deep trees cost no memory.
 bool world_object_inside(const struct world *w, uint32_t object, struct vec3 p)
 {
-    const uint32_t root = w->object[object].root;
+    const struct world_object *o = &w->object[object];
+    const uint32_t root = o->root;
+    if (!o->is_csg)
+        return leaf_inside(&w->leaf[o->first_leaf], p);
     uint32_t n = root;
     for (;;) {
         while (w->node[n].op != NODE_LEAF && w->node[n].child_count)
@@ -333,11 +336,11 @@ static double stretch(const struct mat3 *m)
 // The rounding of coordinates of this size on their way into shape space and back.
 static double position_error(const struct leaf *l, double size)
 {
-    if (l->transform.identity)
+    if (l->transform->identity)
         return GAMMA(32) * size;
-    size += vec3_max_abs(l->transform.offset);
+    size += vec3_max_abs(l->transform->offset);
     return GAMMA(32) * size *
-           fmax(1, stretch(&l->transform.linear) * stretch(&l->transform.inverse));
+           fmax(1, stretch(&l->transform->linear) * stretch(&l->transform->inverse));
 }
 
 void trace_interaction(const struct world *w, const struct ray *ray,
@@ -349,16 +352,16 @@ void trace_interaction(const struct world *w, const struct ray *ray,
     *out = (struct interaction){.leaf = l, .surface = &w->surface[l->surface]};
     if (out->surface->parts)
         out->b = hit->b;
-    if (l->transform.identity) {
+    if (l->transform->identity) {
         l->ops->surface(l->shape, &hit->b, p, &s);
         out->p = s.p;
         out->ng = s.ng;
         out->ns = s.ns;
     } else {
-        l->ops->surface(l->shape, &hit->b, transform_inverse_point(&l->transform, p), &s);
-        out->p = transform_point(&l->transform, s.p);
-        out->ng = vec3_normalize(transform_normal(&l->transform, s.ng));
-        out->ns = vec3_normalize(transform_normal(&l->transform, s.ns));
+        l->ops->surface(l->shape, &hit->b, transform_inverse_point(l->transform, p), &s);
+        out->p = transform_point(l->transform, s.p);
+        out->ng = vec3_normalize(transform_normal(l->transform, s.ng));
+        out->ns = vec3_normalize(transform_normal(l->transform, s.ns));
     }
     if (l->inverted) {
         out->ng = vec3_neg(out->ng);

@@ -89,7 +89,7 @@ static void walk_part(void *user, const struct texture *x, double weight)
 {
     const struct walk *w = user;
     if (x)
-        walk_from(w, x, &w->v->at->leaf->transform, weight);
+        walk_from(w, x, w->v->at->leaf->transform, weight);
     else
         walk_from(w, w->v->texture, w->v->transform, weight);
 }
@@ -110,7 +110,7 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
         cutaway_textures(s->cutaway, v->at->p, walk_cut, &w);
     else if (s->parts && v->texture == v->at->surface->texture)
         l->ops->textures_at(l->shape, &v->at->b,
-                            transform_inverse_point(&l->transform, v->at->p), walk_part, &w);
+                            transform_inverse_point(l->transform, v->at->p), walk_part, &w);
     else
         walk_from(&w, v->texture, v->transform, 1);
 }

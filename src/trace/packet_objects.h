@@ -62,8 +62,8 @@ LANES_INLINE struct real8 transformed(struct vec8 v, const struct mat3 *m, int j
 // The rays in a leaf's own space, as transform_inverse_ray.
 static struct ray8 local_ray(const struct leaf *l, const struct ray8 *ray)
 {
-    const struct mat3 *m = &l->transform.inverse;
-    const struct vec8 o = v8_sub(ray->o, V8_SET(l->transform.offset));
+    const struct mat3 *m = &l->transform->inverse;
+    const struct vec8 o = v8_sub(ray->o, V8_SET(l->transform->offset));
     return ray8_of(
         (struct vec8){transformed(o, m, 0), transformed(o, m, 1), transformed(o, m, 2)},
         (struct vec8){transformed(ray->d, m, 0), transformed(ray->d, m, 1),
@@ -74,7 +74,7 @@ static struct ray8 local_ray(const struct leaf *l, const struct ray8 *ray)
 LANES_INLINE const struct ray8 *leaf_ray(const struct leaf *l, const struct ray8 *ray,
                                          struct ray8 *own)
 {
-    if (l->transform.identity)
+    if (l->transform->identity)
         return ray;
     *own = local_ray(l, ray);
     return own;

@@ -91,7 +91,7 @@ static double place_stretch(const struct mat3 *m)
 
 LANES_INLINE struct real8 place_error(const struct leaf *l, struct real8 size)
 {
-    const struct transform *t = &l->transform;
+    const struct transform *t = l->transform;
     if (t->identity)
         return r8_mul(r8_set(GAMMA(32)), size);
     size = r8_add(size, r8_set(vec3_max_abs(t->offset)));
@@ -104,14 +104,14 @@ LANES_INLINE struct real8 place_error(const struct leaf *l, struct real8 size)
 LANES_INLINE bool place_leaf(const struct leaf *l, const uint32_t part[8],
                              struct place8 *x)
 {
-    const bool moved = !l->transform.identity;
+    const bool moved = !l->transform->identity;
     const struct shape_ops *ops = l->ops;
     if (ops != &sphere_ops && ops != &box_ops && ops != &plane_ops &&
         ops != &cylinder_ops)
         return false;
     if (moved)
-        x->p = v8_row_times(v8_sub(x->p, V8_SET(l->transform.offset)),
-                            &l->transform.inverse);
+        x->p = v8_row_times(v8_sub(x->p, V8_SET(l->transform->offset)),
+                            &l->transform->inverse);
     if (ops == &sphere_ops) {
         const struct sphere *s = l->shape;
         place_sphere(V8_SET(s->centre), r8_set(s->radius), x);
@@ -124,8 +124,8 @@ LANES_INLINE bool place_leaf(const struct leaf *l, const uint32_t part[8],
     }
     if (moved) {
         x->p =
-            v8_add(v8_row_times(x->p, &l->transform.linear), V8_SET(l->transform.offset));
-        x->ng = v8_normalize(v8_times_column(&l->transform.inverse, x->ng));
+            v8_add(v8_row_times(x->p, &l->transform->linear), V8_SET(l->transform->offset));
+        x->ng = v8_normalize(v8_times_column(&l->transform->inverse, x->ng));
     }
     if (l->inverted)
         x->ng = v8_neg(x->ng);
@@ -138,7 +138,7 @@ LANES_INLINE bool place_spheres(const struct leaf *const leaf[8], struct place8 
     double centre[3][8], radius[8];
     unsigned inverted = 0;
     for (int i = 0; i < 8; i++) {
-        if (leaf[i]->ops != &sphere_ops || !leaf[i]->transform.identity)
+        if (leaf[i]->ops != &sphere_ops || !leaf[i]->transform->identity)
             return false;
         const struct sphere *s = leaf[i]->shape;
         centre[0][i] = s->centre.x;

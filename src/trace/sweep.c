@@ -12,10 +12,10 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
 {
     const struct leaf *l = &w->leaf[leaf];
     const uint32_t from = out->count;
-    if (l->transform.identity) {
+    if (l->transform->identity) {
         l->ops->intersect(l->shape, ray, out);
     } else {
-        const struct ray local = transform_inverse_ray(&l->transform, ray);
+        const struct ray local = transform_inverse_ray(l->transform, ray);
         l->ops->intersect(l->shape, &local, out);
     }
     for (uint32_t i = from; i < out->count; i++) {
@@ -204,7 +204,7 @@ static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
     else if (!(l->ops->flags & SHAPE_BOUNDED))
         set_leaf(v, leaf,
                  l->ops->inside(l->shape, transform_inverse_point(
-                                              &l->transform, ray->o)) != l->inverted);
+                                              l->transform, ray->o)) != l->inverted);
 }
 
 // Takes a required leaf and narrows *near, the stretch on which the object may have

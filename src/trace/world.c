@@ -54,6 +54,7 @@ struct build {
     struct arena *arena;
     const struct scene *scene;
     struct vector leaf, node, object, surface, light, group, group_parent, pending;
+    const struct transform *transform; // the last one stored
     bool has_transparent;
     // The top-level object at hand, for cutaway_textures; made when one needs it.
     const struct object *top;
@@ -237,6 +238,17 @@ static uint32_t add_surface(struct build *b, const struct object *o,
     return count;
 }
 
+// Neighbours mostly share their transform, too.
+static const struct transform *shared_transform(struct build *b, const struct transform *t)
+{
+    if (!b->transform || !same_transform(b->transform, t)) {
+        struct transform *copy = arena_new_struct(b->arena, struct transform);
+        *copy = *t;
+        b->transform = copy;
+    }
+    return b->transform;
+}
+
 static uint32_t add_leaf(struct build *b, const struct object *o, const struct context *c)
 {
     const uint32_t index = b->leaf.count;
@@ -244,21 +256,24 @@ static uint32_t add_leaf(struct build *b, const struct object *o, const struct c
     struct leaf *l = vector_add(&b->leaf, 1);
     l->ops = o->ops;
     l->shape = o->shape;
-    l->transform = c->world;
     l->surface = surface;
     l->object = b->object.count;
     l->solid = shape_is_solid(o->ops, o->shape);
     l->inverted = l->solid && c->inverted;
     l->drawn = c->drawn;
-    if (!l->transform.identity && o->ops->absorb) {
+    l->transform = &transform_identity;
+    bool moved = !c->world.identity;
+    if (moved && o->ops->absorb) {
         void *copy = arena_alloc(b->arena, o->ops->size);
         memcpy(copy, o->shape, o->ops->size);
-        if (o->ops->absorb(copy, &l->transform)) {
+        if (o->ops->absorb(copy, &c->world)) {
             l->shape = copy;
-            l->transform = transform_identity;
+            moved = false;
         }
     }
-    l->bounds = shape_placed_bounds(o->ops, l->shape, &l->transform);
+    if (moved)
+        l->transform = shared_transform(b, &c->world);
+    l->bounds = shape_placed_bounds(o->ops, l->shape, l->transform);
     return index;
 }
 
@@ -394,8 +409,10 @@ static void add_object(struct build *b, const struct object *o, const struct con
     w->first_leaf = first_leaf;
     w->leaf_count = b->leaf.count - first_leaf;
     w->root = root;
-    w->node_count = b->node.count - root;
     w->is_csg = node_at(b, root)->op != NODE_LEAF;
+    if (!w->is_csg)
+        b->node.count = root;
+    w->node_count = b->node.count - root;
     w->opaque = true;
     for (uint32_t i = first_leaf; i < b->leaf.count; i++) {
         const struct leaf *l = (struct leaf *)b->leaf.at + i;

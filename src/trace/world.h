@@ -32,11 +32,11 @@ struct surface {
 struct leaf {
     const struct shape_ops *ops;
     const void *shape;
-    struct transform transform; // world from shape space; identity when absorbed
+    const struct transform *transform; // world from shape space; identity when absorbed
     struct aabb bounds;         // world, of the bare shape
     uint32_t surface;           // index into world surfaces
     uint32_t object;            // index into world objects
-    uint32_t node;              // its NODE_LEAF node
+    uint32_t node;              // its NODE_LEAF node, of a CSG object
     bool solid;                 // false: a sheet, never inside, whatever `inverse` says
     bool required; // outside this leaf its object has nothing: it is bounded, and only
                    // intersections lie above it
@@ -71,7 +71,7 @@ struct world_object {
     struct aabb bounds; // world; infinite objects are kept out of the BVH
     uint32_t first_leaf, leaf_count;
     uint32_t root, node_count; // its csg nodes
-    bool is_csg;               // false: the single leaf stands alone
+    bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     unsigned flags;            // visibility of the whole
     const struct object *source;

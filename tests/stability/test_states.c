@@ -76,7 +76,7 @@ static bool is_state_near(const struct leaf *l, struct vec3 p, bool want)
     for (int k = 0; k < 27; k++) {
         const struct vec3 by = vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
         const struct vec3 q = vec3_mad(p, near, by);
-        if (l->ops->inside(l->shape, transform_inverse_point(&l->transform, q)) == want)
+        if (l->ops->inside(l->shape, transform_inverse_point(l->transform, q)) == want)
             return true;
     }
     return false;
@@ -127,9 +127,9 @@ static bool is_solid_sound(const char *text, int rays, bool *met)
     const struct leaf *leaf = &l.world->leaf[0];
     for (int i = 0; i < rays && sound; i++) {
         const struct ray r = random_line(&s);
-        const struct ray local = transform_inverse_ray(&leaf->transform, &r);
+        const struct ray local = transform_inverse_ray(leaf->transform, &r);
         b.count = 0;
-        leaf->ops->intersect(leaf->shape, leaf->transform.identity ? &r : &local, &b);
+        leaf->ops->intersect(leaf->shape, leaf->transform->identity ? &r : &local, &b);
         double where = 0;
         const char *why = fault(leaf, &r, &b, &where);
         if (why) {
