@@ -16,6 +16,7 @@ struct context {
     const struct interior *interior;
     unsigned flags;                   // OR of the flags above
     bool inverted, drawn;
+    bool interior_given; // false: the scene says nothing of an interior
     uint32_t light_group;
 };
 
@@ -55,6 +56,7 @@ struct build {
     const struct scene *scene;
     struct vector leaf, node, object, surface, light, group, group_parent, pending;
     const struct transform *transform; // the last one stored
+    const struct interior *plain[2];   // of opaque surfaces; [1]: hollow
     bool has_transparent;
     // The top-level object at hand, for cutaway_textures; made when one needs it.
     const struct object *top;
@@ -135,20 +137,40 @@ static struct attached_texture attach(const struct attached_texture *own,
     return (struct attached_texture){own->texture, transform_then(&own->transform, world)};
 }
 
-// Every object has an interior of its own, whose identity says which surfaces bound the
-// same medium; children without one share their parent's (spec/lighting.md 4.1).
-static const struct interior *interior_of(struct build *b, const struct object *o,
-                                          const struct context *c, bool hollow)
+static const struct interior *new_interior(struct build *b, const struct interior *given,
+                                           bool hollow)
 {
-    if (!o->interior && c->interior)
-        return c->interior;
     struct interior *i = arena_new_struct(b->arena, struct interior);
-    if (o->interior)
-        *i = *o->interior;
+    if (given)
+        *i = *given;
     else
         *i = (struct interior){.dispersion = 1, .dispersion_samples = 7, .old_refraction = 1};
     i->hollow = hollow;
     return i;
+}
+
+// Every object has an interior of its own, whose identity says which surfaces bound the
+// same medium; children without one share their parent's (spec/lighting.md 4.1). That of a
+// shape nothing is said of waits for its surface: see plain_interior.
+static const struct interior *interior_of(struct build *b, const struct object *o,
+                                          const struct context *c, bool hollow)
+{
+    if (!o->interior && (c->interior || o->kind == OBJECT_SHAPE))
+        return c->interior;
+    return new_interior(b, o->interior, hollow);
+}
+
+// No ray enters through an opaque surface, so nobody asks for the identity of an interior
+// that has no properties: one serves all.
+static const struct interior *plain_interior(struct build *b, const struct context *c,
+                                             bool opaque)
+{
+    const bool hollow = (c->flags & OBJECT_HOLLOW) != 0;
+    if (!opaque)
+        return c->interior ? c->interior : new_interior(b, NULL, hollow);
+    if (!b->plain[hollow])
+        b->plain[hollow] = new_interior(b, NULL, hollow);
+    return b->plain[hollow];
 }
 
 // The context inside node o, for its children or its shape.
@@ -166,6 +188,7 @@ static struct context enter(struct build *b, const struct object *o, const struc
         inherited |= c->flags & OBJECT_UV_MAPPING;
     in.flags = inherited | o->flags;
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
+    in.interior_given = o->interior || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
     in.world = transform_then(&o->transform, &c->world);
     return in;
@@ -212,14 +235,11 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                         .interior = c->interior,
                         .flags = c->flags,
                         .light_group = c->light_group};
-    const uint32_t count = b->surface.count;
     s.parts = o->ops->texture && o->ops->texture(o->shape, 0);
     if (!c->texture.texture && c->flags & OBJECT_CUTAWAY) {
         s.parts = true;
         s.cutaway = cutaway_of(b);
     }
-    if (count && same_surface((struct surface *)b->surface.at + count - 1, &s))
-        return count - 1;
     s.opaque = texture_is_opaque(s.texture) &&
                (!s.interior_texture || texture_is_opaque(s.interior_texture));
     s.wants_uv = (s.flags & OBJECT_UV_MAPPING) || texture_wants_uv(s.texture) ||
@@ -233,6 +253,11 @@ static uint32_t add_surface(struct build *b, const struct object *o,
         s.opaque &= texture_is_opaque(x);
         s.wants_uv |= texture_wants_uv(x);
     }
+    if (!c->interior_given)
+        s.interior = plain_interior(b, c, s.opaque);
+    const uint32_t count = b->surface.count;
+    if (count && same_surface((struct surface *)b->surface.at + count - 1, &s))
+        return count - 1;
     b->has_transparent |= !s.opaque;
     *(struct surface *)vector_add(&b->surface, 1) = s;
     return count;
