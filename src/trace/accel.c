@@ -105,10 +105,13 @@ static void list_lone_spheres(struct arena *a, const struct world *w, struct acc
     const uint32_t n = accel->top.item_count;
     for (int k = 0; k < 4; k++) // a block of eight may begin at the last
         accel->ball[k] = arena_new_array(a, double, n + 8);
+    accel->lone_opaque = true;
     for (uint32_t i = 0; i < n; i++) {
         const struct sphere *s = lone_sphere(w, accel->top.item[i]);
         if (!s)
             continue;
+        accel->lone_flags |= w->object[accel->top.item[i]].flags;
+        accel->lone_opaque &= w->object[accel->top.item[i]].opaque;
         accel->ball[0][i] = s->centre.x;
         accel->ball[1][i] = s->centre.y;
         accel->ball[2][i] = s->centre.z;

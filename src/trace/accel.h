@@ -47,6 +47,8 @@ struct accel {
                            // so that most tests touch nothing else; radius 0: another object
     uint8_t *leaf_shape;   // enum packet_shape, per leaf
     uint8_t *object_shape; // enum packet_shape, per object
+    unsigned lone_flags;   // of all objects that are bare spheres
+    bool lone_opaque;      // all of them are
     const struct packet_kernels *kernels;
     uint32_t *infinite; // objects without finite bounds, in order
     uint32_t infinite_count;

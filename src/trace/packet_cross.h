@@ -43,26 +43,31 @@ LANES_INLINE struct cross8 cross8_none(void)
                            .odd = none};
 }
 
-LANES_INLINE struct cross8 cross8_sphere(const struct sphere *s, const struct ray8 *ray)
+// Each lane its own sphere.
+LANES_INLINE struct cross8 cross8_ball(struct vec8 centre, struct real8 r,
+                                       const struct ray8 *ray)
 {
     struct cross8 x = cross8_none();
-    const struct vec8 oc = v8_sub(ray->o, V8_SET(s->centre));
-    const double r = s->radius;
+    const struct vec8 oc = v8_sub(ray->o, centre);
     const struct real8 at = r8_div(v8_dot(ray->d, oc), ray->dd);
     const struct vec8 near = v8_mad(oc, r8_neg(at), ray->d);
-    const struct real8 rest = r8_sub(r8_set(r * r), v8_dot(near, near));
+    const struct real8 rest = r8_sub(r8_mul(r, r), v8_dot(near, near));
     x.met = r8_lt(r8_set(0), rest);
     const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
-    const struct real8 e_p =
-        r8_mul(r8_set(GAMMA(8)),
-               r8_add(r8_add(v8_max_abs(oc), r8_set(vec3_max_abs(s->centre))), r8_set(r)));
-    const struct real8 e =
-        r8_mul(e_p, r8_add(r8_set(4 * r), r8_mul(r8_set(2), e_p)));
+    const struct real8 e_p = r8_mul(r8_set(GAMMA(8)),
+                                    r8_add(r8_add(v8_max_abs(oc), v8_max_abs(centre)), r));
+    const struct real8 e = r8_mul(
+        e_p, r8_add(r8_mul(r8_set(4), r), r8_mul(r8_set(2), e_p)));
     x.dt[0] = x.dt[1] =
         r8_div(r8_add(e_p, sqrt_error8(rest, e)), r8_sqrt(ray->dd));
     x.t[0] = r8_sub(r8_neg(at), reach);
     x.t[1] = r8_add(r8_neg(at), reach);
     return x;
+}
+
+LANES_INLINE struct cross8 cross8_sphere(const struct sphere *s, const struct ray8 *ray)
+{
+    return cross8_ball(V8_SET(s->centre), r8_set(s->radius), ray);
 }
 
 LANES_INLINE struct cross8 cross8_plane(const struct plane *p, const struct ray8 *ray)

@@ -17,6 +17,12 @@ enum {
 
 // ---- one ray ----------------------------------------------------------------------------
 
+static bool lone_hidden(const struct search *f, uint32_t object)
+{
+    const struct world_object *o = &f->w->object[object];
+    return (o->flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !o->opaque);
+}
+
 // The crossings of the spheres among `count` items of the tree, as spheres8 below; says
 // whether one is the nearest now.
 static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t first,
@@ -43,13 +49,14 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
         return false;
     double all[8];
     bool found = false;
+    const bool ask = (a->lone_flags & f->q->hidden_by) ||
+                     (f->mode == SWEEP_OPAQUE && !a->lone_opaque);
     r8_store(all, t);
     for (; met; met &= met - 1) {
         const uint32_t i = first + (uint32_t)__builtin_ctz(met);
         const uint32_t object = a->top.item[i];
         if (!search_is_nearer(f, all[i - first], object) ||
-            (f->w->object[object].flags & f->q->hidden_by) ||
-            (f->mode == SWEEP_OPAQUE && !f->w->object[object].opaque))
+            (ask && lone_hidden(f, object)))
             continue;
         f->t = all[i - first];
         f->object = object;
@@ -142,10 +149,12 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
     if (!bits)
         return 0;
     const uint32_t object = a->top.item[i];
-    const struct world_object *o = &p->w->object[object];
-    bits = seeing(p, o->flags, bits);
-    if (p->mode == SWEEP_OPAQUE && !o->opaque)
-        return 0;
+    if ((a->lone_flags & p->hidden_any) || (p->mode == SWEEP_OPAQUE && !a->lone_opaque)) {
+        const struct world_object *o = &p->w->object[object];
+        bits = seeing(p, o->flags, bits);
+        if (p->mode == SWEEP_OPAQUE && !o->opaque)
+            return 0;
+    }
     const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
     return take(e, bits, t, object, 0);
 }

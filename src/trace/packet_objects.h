@@ -275,16 +275,42 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
 
 // ---- hits -----------------------------------------------------------------------------------
 
-// The boundaries of the lanes that hit the same leaf become whole; but not of those whose
-// hit is of another making.
-static void complete(struct eight *e, unsigned lanes, uint32_t leaf)
+// Lanes whose t is one of the crossings become whole; not those whose hit is of another
+// making.
+LANES_INLINE void complete(struct packet *p, const struct cross8 *x, unsigned lanes,
+                           bool inverted)
 {
-    const struct cross8 x = leaf_cross(e, leaf);
-    const struct real8 t = r8_load(e->p->t);
-    const struct mask8 first = m8_and(x.drawn[0], r8_eq(t, x.t[0]));
-    const struct mask8 second = m8_and(x.drawn[1], r8_eq(t, x.t[1]));
-    const unsigned met = lanes & m8_bits(m8_and(x.met, m8_or(first, second)));
-    keep(e->p, &x, first, met, e->p->w->leaf[leaf].inverted);
+    const struct real8 t = r8_load(p->t);
+    const struct mask8 first = m8_and(x->drawn[0], r8_eq(t, x->t[0]));
+    const struct mask8 second = m8_and(x->drawn[1], r8_eq(t, x->t[1]));
+    const unsigned met = lanes & m8_bits(m8_and(x->met, m8_or(first, second)));
+    keep(p, x, first, met, inverted);
+}
+
+// Spheres, in each lane another. Returns the lanes that hit something else.
+static unsigned complete_balls(struct eight *e, unsigned lanes)
+{
+    struct packet *p = e->p;
+    double x[8] = {0}, y[8] = {0}, z[8] = {0}, r[8] = {0};
+    unsigned balls = 0;
+    for (unsigned m = lanes; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        const struct leaf *l = &p->w->leaf[p->leaf[lane]];
+        if (l->ops != &sphere_ops || !l->transform->identity || l->inverted)
+            continue;
+        const struct sphere *s = l->shape;
+        x[lane] = s->centre.x;
+        y[lane] = s->centre.y;
+        z[lane] = s->centre.z;
+        r[lane] = s->radius;
+        balls |= m & -m;
+    }
+    if (!(balls & (balls - 1)))
+        return lanes;
+    const struct cross8 c = cross8_ball(
+        (struct vec8){r8_load(x), r8_load(y), r8_load(z)}, r8_load(r), &e->ray);
+    complete(p, &c, balls, false);
+    return lanes & ~balls;
 }
 
 // The simplest shapes' kernels find t and the leaf only. What most rays of a packet hit is
@@ -292,13 +318,15 @@ static void complete(struct eight *e, unsigned lanes, uint32_t leaf)
 static void complete_all(struct eight *e, unsigned lanes)
 {
     struct packet *p = e->p;
+    lanes = lanes ? complete_balls(e, lanes) : 0;
     while (lanes) {
         const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
         unsigned same = 0;
         for (unsigned m = lanes; m; m &= m - 1)
             if (p->leaf[__builtin_ctz(m)] == leaf)
                 same |= m & -m;
-        complete(e, same, leaf);
+        const struct cross8 x = leaf_cross(e, leaf);
+        complete(p, &x, same, p->w->leaf[leaf].inverted);
         lanes &= ~same;
     }
 }
