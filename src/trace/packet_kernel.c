@@ -238,14 +238,13 @@ static void find(struct eight *e, struct packet *p)
 static void trace(struct packet *p, struct hit *out)
 {
     const unsigned lanes = p->alive;
-    struct eight e = {
-        .p = p,
-        .ray = ray8_of(
-            (struct vec8){r8_load(p->o[0]), r8_load(p->o[1]), r8_load(p->o[2])},
-            (struct vec8){r8_load(p->d[0]), r8_load(p->d[1]), r8_load(p->d[2])}),
-        .t_min = r8_load(p->t_min),
-        .t_max = r8_load(p->t_max),
-        .sheared = false};
+    struct eight e; // not set to zero as a whole: it is large
+    e.p = p;
+    e.ray = ray8_of((struct vec8){r8_load(p->o[0]), r8_load(p->o[1]), r8_load(p->o[2])},
+                    (struct vec8){r8_load(p->d[0]), r8_load(p->d[1]), r8_load(p->d[2])});
+    e.t_min = r8_load(p->t_min);
+    e.t_max = r8_load(p->t_max);
+    e.sheared = false;
     e.inverse = (struct vec8){r8_div(r8_set(1), e.ray.d.x), r8_div(r8_set(1), e.ray.d.y),
                               r8_div(r8_set(1), e.ray.d.z)};
     find(&e, p);

@@ -132,7 +132,11 @@ static unsigned mesh8(struct eight *e, unsigned bits, uint32_t object)
     const struct leaf *l = &p->w->leaf[leaf];
     struct ray8 own;
     const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
-    struct mesh8 v = {.m = l->shape, .e = e, .o_max = ray->o_max};
+    struct mesh8 v;
+    v.m = l->shape;
+    v.e = e;
+    v.o_max = ray->o_max;
+    v.found = 0;
     if (!v.m->tree.node)
         return 0;
     const struct real8 one = r8_set(1);

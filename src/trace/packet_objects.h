@@ -244,16 +244,8 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     if (!bits)
         return 0;
     bool complement[PRODUCT_LEAVES];
-    struct product x = {.t_min = e->t_min,
-                        .t_max = e->t_max,
-                        .in = r8_set(-INFINITY),
-                        .out = r8_set(INFINITY),
-                        .in_e = r8_set(0),
-                        .out_e = r8_set(0),
-                        .in_at = r8_set(-1),
-                        .out_at = r8_set(-1),
-                        .bounds = r8_set(0),
-                        .unsure = m8_of(0)};
+    struct product x;
+    product_begin(&x, e->t_min, e->t_max);
     for (uint32_t i = 0; i < o->leaf_count; i++) {
         const struct leaf *l = &w->leaf[o->first_leaf + i];
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];

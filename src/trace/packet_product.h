@@ -30,6 +30,19 @@ struct product {
     struct mask8 unsure; // lanes for the sweep
 };
 
+// Leaves are not set to zero: most products have few of them.
+LANES_INLINE void product_begin(struct product *p, struct real8 t_min, struct real8 t_max)
+{
+    p->count = 0;
+    p->t_min = t_min;
+    p->t_max = t_max;
+    p->in = r8_set(-INFINITY);
+    p->out = r8_set(INFINITY);
+    p->in_e = p->out_e = p->bounds = r8_set(0);
+    p->in_at = p->out_at = r8_set(-1);
+    p->unsure = m8_of(0);
+}
+
 // A leaf's span joins; returns the lanes that can still meet the object.
 LANES_INLINE unsigned product_add(struct product *p, bool complement, bool bounded,
                                   const struct span8 *x)

@@ -144,9 +144,10 @@ static unsigned sponge(struct eight *e, unsigned bits, uint32_t object)
     struct packet *p = e->p;
     const struct world *w = p->w;
     const struct world_object *o = &w->object[object];
-    struct sponge v = {.large = accel_large(w->accel, o, object),
-                       .first_leaf = o->first_leaf,
-                       .unsure = 0};
+    struct sponge v; // what is not set here, sponge_solids sets
+    v.large = accel_large(w->accel, o, object);
+    v.first_leaf = o->first_leaf;
+    v.unsure = 0;
     bits &= box_lanes(e, &o->bounds);
     if (!bits)
         return 0;
