@@ -271,6 +271,11 @@ static bool find_name(struct args *a, const char *name, const char **path)
     return false;
 }
 
+bool args_look_for_file(struct args *a, const char *name, const char **path)
+{
+    return find_name(a, name, path);
+}
+
 bool args_find_file(struct args *a, const char *role, const char *name,
                     const char *extension, const char **path)
 {

@@ -74,6 +74,8 @@ void args_unknown(struct args *a, const enum word *known, size_t count);
 void args_skip(struct args *a);      // to the next word or block
 void args_not_built(struct args *a); // the next item: one error, passed over
 void args_not_rendered(struct args *a, enum word w, struct span where);
+// As args_find_file, but says nothing when there is none.
+bool args_look_for_file(struct args *a, const char *name, const char **path);
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out);
 bool args_rgb(struct args *a, struct rgb *out);
 bool args_at_color(struct args *a);

@@ -87,6 +87,22 @@ static const struct texels *read_file(struct args *a, struct span where, const c
     return f->texels;
 }
 
+// A name without an extension may have that of any type.
+static const char *with_extension(struct args *a, const char *name)
+{
+    static const char *const all[] = {"tga",  "png", "ppm",  "pgm", "gif", "iff", "jpg",
+                                      "jpeg", "tif", "tiff", "bmp", "exr", "hdr"};
+    const char *slash = strrchr(name, '/'), *path;
+    if (strchr(slash ? slash : name, '.'))
+        return name;
+    for (size_t i = 0; i < ARRAY_COUNT(all); i++) {
+        const char *longer = arena_printf(a->b->arena, "%s.%s", name, all[i]);
+        if (args_look_for_file(a, longer, &path))
+            return longer;
+    }
+    return name;
+}
+
 static bool named_file(struct args *a, struct source *s)
 {
     bool pot;
@@ -97,8 +113,11 @@ static bool named_file(struct args *a, struct source *s)
         args_next(a);
     const struct span where = args_span(a);
     const char *extension = type == IMAGE_UNKNOWN ? "png" : pot ? "gif" : word_text(w);
-    if (!args_string(a, "image file", &name) ||
-        !args_find_file(a, "image file", name, extension, &path))
+    if (!args_string(a, "image file", &name))
+        return false;
+    if (type == IMAGE_UNKNOWN)
+        name = with_extension(a, name);
+    if (!args_find_file(a, "image file", name, extension, &path))
         return false;
     s->texels = read_file(a, where, path, type, pot);
     return s->texels;

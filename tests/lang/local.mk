@@ -113,7 +113,8 @@ lang_scenes = \
 	%D%/153-error-sqr.scn \
 	%D%/154-error-seed.scn \
 	%D%/156-message-keyword.scn \
-	%D%/157-error-subscript-negative.scn \
+	%D%/157-error-subscript-negative.scn  \
+	%D%/158-error-image.scn \
 	%D%/160-shapes-trace.scn \
 	%D%/201-spline-linear.scn \
 	%D%/202-spline-quadratic.scn \
