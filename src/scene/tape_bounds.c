@@ -373,15 +373,39 @@ static void step(const struct tape *t, const struct tape_step *s, struct tape_sl
                          &r[s->to]);
 }
 
+static double largest(const struct tape_slope *x, int i)
+{
+    return interval_size(x->d[i]);
+}
+
+// By the derivative of the root, and by the sides: no length grows faster than they do.
+static struct tape_slope length(const struct tape_slope *a, const struct tape_slope *b,
+                                const struct tape_slope *c, const struct tape_slope *d,
+                                int n)
+{
+    struct tape_slope r = unary(TAPE_SQRT, a, n);
+    for (int i = 0; i < n; i++) {
+        const double third = b == d ? 0 : largest(d, i);
+        const double most =
+            (largest(b, i) + largest(c, i) + third) * (1 + 8 * INTERVAL_ROUNDING);
+        r.d[i] = interval(fmax(r.d[i].lo, -most), fmin(r.d[i].hi, most));
+    }
+    return r;
+}
+
 void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
                       const struct tape_slope *b, const struct tape_slope *c,
                       const struct tape_slope *d, int n, struct tape_slope *to)
 {
     switch (op) {
-    case TAPE_MIN: case TAPE_MAX: *to = least(op, a, b, n); break;
+    case TAPE_MIN:
+    case TAPE_MAX: *to = least(op, a, b, n); break;
     case TAPE_SELECT: *to = chosen(a, b, c, d, n); break;
+    case TAPE_LENGTH: *to = length(a, b, c, d, n); break;
 #define UNARY(name, value, derivative)                                                   \
-    case TAPE_##name: *to = unary(op, a, n); break;
+    case TAPE_##name:                                                                    \
+        *to = unary(op, a, n);                                                           \
+        break;
 #define BINARY(name, value, by_a, by_b)
 #include "scene/tape.def"
 #undef UNARY
@@ -402,12 +426,49 @@ static struct tape_slope run(const struct tape *t, const struct tape_slope *argu
     return r[t->result[0]];
 }
 
+static struct interval chosen_value(struct interval a, struct interval b,
+                                    struct interval c, struct interval d)
+{
+    const struct tape_slope s[4] = {{.v = a}, {.v = b}, {.v = c}, {.v = d}};
+    return chosen(&s[0], &s[1], &s[2], &s[3], 0).v;
+}
+
+static void called_values(const struct tape *t, const struct tape_step *s,
+                          struct interval *r)
+{
+    struct tape_slope in[TAPE_LIST_MAX], out[TAPE_WIDTH_MAX] = {0};
+    const int width =
+        s->op == TAPE_EXTERN ? ((const struct tape_extern *)s->callee)->width : 1;
+    for (uint32_t i = 0; i < s->count; i++)
+        in[i] = (struct tape_slope){.v = r[t->list[s->list + i]]};
+    tape_bounds_call(s, in, 0, out);
+    for (int i = 0; i < width; i++)
+        r[s->to + i] = out[i].v;
+}
+
 struct interval tape_bounds(const struct tape *t, const struct interval *argument)
 {
-    struct tape_slope in[TAPE_ARGUMENTS_MAX];
-    for (int i = 0; i < t->arguments; i++)
-        in[i] = (struct tape_slope){.v = argument[i]};
-    return run(t, in, 0).v;
+    struct interval r[TAPE_REGISTERS_MAX];
+    for (uint32_t i = 0; i < t->constant_count; i++)
+        r[i] = interval_point(t->constant[i]);
+    memcpy(r + t->constant_count, argument, (size_t)t->arguments * sizeof *r);
+    for (const struct tape_step *s = t->step, *end = s + t->step_count; s < end; s++) {
+        const struct interval a = r[s->a], b = r[s->b];
+        switch ((enum tape_op)s->op) {
+        case TAPE_ADD: r[s->to] = interval_add(a, b); break;
+        case TAPE_SUBTRACT: r[s->to] = interval_subtract(a, b); break;
+        case TAPE_MULTIPLY: r[s->to] = interval_multiply(a, b); break;
+        case TAPE_SQUARE: r[s->to] = interval_square(a); break;
+        case TAPE_LENGTH: r[s->to] = interval_sqrt(a); break;
+        case TAPE_SELECT: r[s->to] = chosen_value(a, b, r[s->c], r[s->d]); break;
+        case TAPE_EXTERN:
+        case TAPE_CALL:
+        case TAPE_SUM:
+        case TAPE_PRODUCT: called_values(t, s, r); break;
+        default: r[s->to] = value_of((enum tape_op)s->op, a, b);
+        }
+    }
+    return r[t->result[0]];
 }
 
 struct tape_slope tape_bounds_slope(const struct tape *t,

@@ -18,6 +18,7 @@ struct tape_builder *tape_builder_new(struct arena *work)
 {
     struct tape_builder *b = arena_new_struct(work, struct tape_builder);
     b->work = work;
+    tape_constant(b, 0); // node 0 is nobody's side in root_of
     return b;
 }
 
@@ -125,9 +126,44 @@ static double computed(enum tape_op op, double a, double b)
     }
 }
 
+// What x is the square of; 0: of nothing, or of a constant.
+static uint32_t root_of(const struct tape_builder *b, uint32_t x)
+{
+    return b->node[x].op == TAPE_SQUARE ? b->node[x].arg[0] : 0;
+}
+
+// The square root of a sum of two or three squares: a length, whose slope is at most that
+// of its sides also where it is zero.
+static bool is_length(const struct tape_builder *b, uint32_t x, uint32_t side[3])
+{
+    const struct tape_node *n = &b->node[x];
+    if (n->op != TAPE_ADD)
+        return false;
+    uint32_t rest = n->arg[0];
+    side[0] = root_of(b, n->arg[1]);
+    if (!side[0]) {
+        rest = n->arg[1];
+        side[0] = root_of(b, n->arg[0]);
+    }
+    side[2] = side[0];
+    side[1] = root_of(b, rest);
+    if (side[0] && side[1])
+        return true;
+    const struct tape_node *m = &b->node[rest];
+    if (!side[0] || m->op != TAPE_ADD)
+        return false;
+    side[1] = root_of(b, m->arg[0]);
+    side[2] = root_of(b, m->arg[1]);
+    return side[1] && side[2];
+}
+
 uint32_t tape_unary(struct tape_builder *b, enum tape_op op, uint32_t x)
 {
     double k;
+    uint32_t side[3];
+    if (op == TAPE_SQRT && !b->failed && is_length(b, x, side))
+        return add(b, &(struct tape_node){.op = TAPE_LENGTH,
+                                          .arg = {x, side[0], side[1], side[2]}});
     if (tape_is_constant(b, x, &k))
         return tape_constant(b, computed(op, k, 0));
     return add(b, &(struct tape_node){.op = (uint8_t)op, .arg = {x}});
@@ -258,6 +294,7 @@ static uint32_t taken_in(struct tape_builder *b, const struct tape_node *n,
         return tape_loop(b, n->op == TAPE_PRODUCT, n->callee, list[0], list[1], list + 2,
                          (int)n->count - 2);
     case TAPE_DIVIDE: return tape_binary(b, TAPE_DIVIDE, map[a[0]], map[a[1]]);
+    case TAPE_LENGTH: return tape_unary(b, TAPE_SQRT, map[a[0]]);
 #define UNARY(name, value, derivative)                                                   \
     case TAPE_##name:                                                                    \
         return tape_unary(b, (enum tape_op)n->op, map[a[0]]);
@@ -371,7 +408,8 @@ static uint32_t operands(const struct tape_node *n)
     case TAPE_SUM:
     case TAPE_PRODUCT: return 0;
     case TAPE_EXTERN: return n->part > 0;
-    case TAPE_SELECT: return 4;
+    case TAPE_SELECT:
+    case TAPE_LENGTH: return 4;
 #define UNARY(name, value, derivative)                                                   \
     case TAPE_##name:                                                                    \
         return 1;

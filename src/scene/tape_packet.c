@@ -173,6 +173,34 @@ INLINE void scale_twice(const struct range *by_a, const struct reg *a, unsigned 
     }
 }
 
+INLINE void size_of(const struct range *a, real8 *out)
+{
+    real8 p, q;
+    absolute(&a->lo, &p);
+    absolute(&a->hi, &q);
+    greatest(&p, &q, out);
+}
+
+// No length grows faster than its sides.
+INLINE void limit(const struct reg *a, const struct reg *b, const struct reg *c,
+                  struct range *d)
+{
+    for (int i = 0; i < 3; i++) {
+        real8 p, q, most;
+        size_of(&a->d[i], &p);
+        size_of(&b->d[i], &q);
+        most = p + q;
+        if (c) {
+            size_of(&c->d[i], &p);
+            most += p;
+        }
+        most += most * (8 * INTERVAL_ROUNDING);
+        const real8 least_slope = -most;
+        greatest(&d[i].lo, &least_slope, &d[i].lo);
+        least(&d[i].hi, &most, &d[i].hi);
+    }
+}
+
 // The smaller (larger) of two, and the slopes of both where it is not certain which.
 INLINE void extreme(bool max, const struct reg *a, const struct reg *b, struct reg *out)
 {
@@ -289,6 +317,15 @@ INLINE void step(const struct tape *t, const struct tape_step *s, struct reg *r,
         root(&a->v, &v.v);
         divide(&half, &v.v, &by);
         scale(&by, a->d, m, v.d);
+        break;
+    }
+    case TAPE_LENGTH: {
+        const real8 zero = {0};
+        const struct range half = {zero + 0.5, zero + 0.5};
+        root(&a->v, &v.v);
+        divide(&half, &v.v, &by);
+        scale(&by, a->d, m, v.d);
+        limit(b, &r[s->c], s->b == s->d ? NULL : &r[s->d], v.d);
         break;
     }
     case TAPE_ADD:

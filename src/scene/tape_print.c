@@ -88,6 +88,10 @@ static void node(struct printer *p, uint32_t id)
                 n->op == TAPE_EXTERN ? ((const struct tape_extern *)n->callee)->name
                                      : "called function");
         break;
+    case TAPE_LENGTH:
+        fputs("sqrt", p->out);
+        list(p, n->arg, 1, "");
+        break;
     default:
         if (n->op < sizeof signs / sizeof *signs && signs[n->op]) {
             char sign[8];

@@ -58,6 +58,7 @@ void tape_run(const struct tape *t, const double *argument, double *out)
 #include "scene/tape.def"
 #undef UNARY
 #undef BINARY
+        case TAPE_LENGTH: r[s->to] = sqrt(a); break;
         case TAPE_SELECT: r[s->to] = a < 0 ? b : a == 0 ? r[s->c] : r[s->d]; break;
         default: called(t, s, r);
         }
@@ -117,6 +118,11 @@ static void step_packet(const struct tape *t, const struct tape_step *s, lanes *
 #include "scene/tape.def"
 #undef UNARY
 #undef BINARY
+    case TAPE_LENGTH:
+        for (int l = 0; l < TAPE_LANES; l++)
+            v[l] = sqrt(x[l]);
+        memcpy(to, v, sizeof v);
+        break;
     case TAPE_SELECT:
         for (int l = 0; l < TAPE_LANES; l++)
             v[l] = x[l] < 0 ? y[l] : x[l] == 0 ? z[l] : w[l];
@@ -263,6 +269,10 @@ static void step_dual(const struct tape *t, const struct tape_step *s, struct du
 #include "scene/tape.def"
 #undef UNARY
 #undef BINARY
+    case TAPE_LENGTH:
+        v = sqrt(a);
+        r[s->to] = chained(v, 0.5 / v, x, 0, (struct dual){0});
+        break;
     case TAPE_SELECT: r[s->to] = a < 0 ? y : a == 0 ? r[s->c] : r[s->d]; break;
     default: called_dual(t, s, r);
     }

@@ -12,6 +12,7 @@ enum tape_op {
 #include "scene/tape.def"
 #undef UNARY
 #undef BINARY
+    TAPE_LENGTH, // sqrt(a), which is the sum of the squares of b, c and d (b again: of two)
     TAPE_SELECT,   // a < 0 ? b : a == 0 ? c : d
     TAPE_EXTERN,   // registers to.. = the extern of the registers in `list`
     TAPE_CALL,     // a tape of the registers in `list`

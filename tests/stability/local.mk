@@ -21,3 +21,7 @@ check_PROGRAMS += test_states
 test_states_SOURCES = %D%/test_states.c $(stability_sources)
 test_states_CPPFLAGS = $(test_cppflags)
 test_states_LDADD = $(test_ldadd)
+check_PROGRAMS += test_functions
+test_functions_SOURCES = %D%/test_functions.c $(stability_sources)
+test_functions_CPPFLAGS = $(test_cppflags)
+test_functions_LDADD = $(test_ldadd)

@@ -27,6 +27,7 @@ static const double ERROR_GOOD = 0x1p-36;
 struct walk {
     const struct isosurface *s;
     struct vec3 o, d;    // o nearest to the middle of the container
+    double slack;        // o is rounded by no more
     double shift, chord; // t of o; length of the stretch in the container
     double scale;        // length of d
     double t_min, t_max; // first_only: a crossing between them ends the walk
@@ -50,6 +51,20 @@ static double value_at(struct walk *w, double t)
         w->last_f = value(w, t);
     }
     return w->last_f;
+}
+
+// The largest |f| at one point of the ray, with the rounding of its origin's place.
+static double size_at(struct walk *w, double t)
+{
+    struct interval in[3];
+    for (int i = 0; i < 3; i++) {
+        const double o = vec3_axis(w->o, i), d = vec3_axis(w->d, i);
+        in[i] = interval_add(interval(o - w->slack, o + w->slack),
+                             interval_multiply(interval_point(t), interval_point(d)));
+    }
+    w->evaluations++;
+    return interval_size(
+        interval_subtract(tape_bounds(w->s->f, in), interval_point(w->s->threshold)));
 }
 
 // f and its derivative over a..b of the ray.
@@ -93,14 +108,14 @@ static double error_of(struct walk *w, double t, double a, double b, double slop
     double r = b - a + 8 * ROUNDOFF * fabs(t);
     if (tape_is_opaque(w->s->f))
         return r;
-    const double f = interval_size(over(w, t, t, 0).v);
+    const double f = size_at(w, t);
     if (r + f / slope < ERROR_GOOD * w->chord)
         return r + f / slope;
     for (int i = 0; i < ERROR_TRIES; i++) {
         slope = least_size(over(w, t - r, t + r, 1).d[0]);
         if (slope > 0 && f / slope <= r)
             return r;
-        r *= 16;
+        r = slope > 0 ? 2 * (f / slope) : 16 * r;
     }
     return r;
 }
@@ -141,8 +156,10 @@ static double refine(struct walk *w, double *a, double fa, double *b, double fb)
         const double left = near / fabs(x1 - x0);
         *a = fmin(x0, x1);
         *b = fmax(x0, x1);
-        if (left > 0.5 || f0 == 0 || f1 == 0)
-            return f0 == 0 ? x0 : best;
+        if (f0 == 0)
+            return *a = *b = x0;
+        if (left > 0.5 || f1 == 0)
+            return best;
         const double xi = (x0 - x1) / (x2 - x1), phi = (f0 - f1) / (f2 - f1);
         u = 0.5;
         if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)
@@ -406,16 +423,20 @@ void iso_walk(const struct isosurface *s, const struct ray *ray,
     struct walk w = {.s = s, .d = ray->d, .out = out, .first_only = first_only};
     w.shift = vec3_dot(vec3_sub(middle, ray->o), ray->d) / dd;
     w.o = vec3_mad(ray->o, w.shift, ray->d);
+    w.slack = GAMMA(6) * (vec3_max_abs(ray->o) + fabs(w.shift) * vec3_max_abs(ray->d));
     w.scale = sqrt(dd);
     w.chord = leave.t - enter.t;
     w.t_min = ray->t_min;
     w.t_max = ray->t_max;
     w.enter = enter.t;
     w.last_t = NAN;
-    visit(&w, s->root, &s->bounds, 0, enter.t - w.shift, leave.t - w.shift);
+    // What lies before t_min is of no interest to a ray that starts there.
+    const bool late = first_only && ray->t_min > enter.t;
+    visit(&w, s->root, &s->bounds, 0, (late ? ray->t_min : enter.t) - w.shift,
+          leave.t - w.shift);
     const bool began =
         out->count > first ? out->at[first].crossing == CROSS_EXIT : w.inside;
-    if (began)
+    if (began && !late)
         add_entry(&w, first, &enter);
     if (w.inside && !w.done)
         add_face(&w, &leave);
