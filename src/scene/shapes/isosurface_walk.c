@@ -21,6 +21,8 @@ enum {
 
 // A stretch this small a share of the chord, or of its t's rounding, is not halved.
 static const double SHORTEST = 0x1p-40;
+// Where the function jumps or its slope has no bound nothing better is known.
+static const double SHORTEST_JUMP = 0x1p-20;
 // An error bound this small a share of the chord is good enough.
 static const double ERROR_GOOD = 0x1p-36;
 
@@ -238,7 +240,9 @@ static bool is_settled(struct walk *w, struct stretch *s)
             return is_excluded(s);
     }
     const double length = s->b - s->a;
-    const double least = fmax(SHORTEST * w->chord, 8 * ROUNDOFF * fabs(s->b));
+    const bool bounded = s->d.hi - s->d.lo < INFINITY;
+    const double least =
+        fmax((bounded ? SHORTEST : SHORTEST_JUMP) * w->chord, 8 * ROUNDOFF * fabs(s->b));
     const struct tape_slope r = over(w, s->a, s->b, 1);
     if (r.v.lo > 0 || r.v.hi < 0)
         return true;
