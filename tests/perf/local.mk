@@ -14,6 +14,11 @@ perf_shapes = \
 	%D%/shapes/disc.scn \
 	%D%/shapes/height_field.scn \
 	%D%/shapes/height_field_smooth.scn \
+	%D%/shapes/isosurface.scn \
+	%D%/shapes/isosurface_gyroid.scn \
+	%D%/shapes/isosurface_helix.scn \
+	%D%/shapes/isosurface_noise.scn \
+	%D%/shapes/isosurface_polynomial.scn \
 	%D%/shapes/julia_fractal.scn \
 	%D%/shapes/julia_hypercomplex.scn \
 	%D%/shapes/julia_sin.scn \
@@ -24,6 +29,7 @@ perf_shapes = \
 	%D%/shapes/mesh.scn \
 	%D%/shapes/mesh2.scn \
 	%D%/shapes/ovus.scn \
+	%D%/shapes/parametric.scn \
 	%D%/shapes/poly.scn \
 	%D%/shapes/poly_order_12.scn \
 	%D%/shapes/poly_order_35.scn \
