@@ -11,7 +11,11 @@
 #include "math/gamma.h"
 #include "scene/args.h"
 
-enum { NEWTON_MAX = 16, PRECOMPUTE_MAX = 20 };
+enum {
+    NEWTON_MAX = 16,
+    PRECOMPUTE_MAX = 20,
+    EVALUATIONS_MAX = 6000, // of one ray: past this the rest is left out
+};
 static const double ACCURACY = 0.001, MAX_GRADIENT = 1;
 // A root may lie this share of a cell's side outside it; the neighbour finds it as well.
 static const double OVERLAP = 1e-6;
@@ -25,6 +29,7 @@ struct line {
     struct vec3 o, d, n[2]; // o nearest to the middle of the container; n across the ray
     double shift, from, to; // t of o; stretch in the container, from o
     uint32_t first;
+    uint64_t last_evaluation;
     struct boundary_list *out;
 };
 
@@ -203,7 +208,7 @@ static bool box_misses(const struct line *l, float box[3][2])
 
 static void visit(struct line *l, struct uv_cell *c, int depth)
 {
-    if (box_misses(l, c->box))
+    if (l->out->evaluations > l->last_evaluation || box_misses(l, c->box))
         return;
     if (c->leaf) {
         leaf(l, c, depth);
@@ -242,6 +247,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct vec3 a = fabs(u.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     l.n[0] = vec3_normalize(vec3_cross(u, a));
     l.n[1] = vec3_cross(u, l.n[0]);
+    l.last_evaluation = out->evaluations + EVALUATIONS_MAX;
     visit(&l, p->root, 0);
     sort(out->at + l.first, out->count - l.first);
 }
