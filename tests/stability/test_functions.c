@@ -36,9 +36,9 @@ static void crossings(const struct loaded *l, const struct ray *r,
                       struct boundary_list *b)
 {
     const struct leaf *leaf = &l->world->leaf[0];
-    const struct ray local = transform_inverse_ray(&leaf->transform, r);
+    const struct ray local = transform_inverse_ray(leaf->transform, r);
     b->count = 0;
-    leaf->ops->intersect(leaf->shape, leaf->transform.identity ? r : &local, b);
+    leaf->ops->intersect(leaf->shape, leaf->transform->identity ? r : &local, b);
 }
 
 // Two lists of crossings are one within their error bounds, but for pairs that leave and
