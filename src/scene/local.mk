@@ -21,7 +21,7 @@ liblambert_a_SOURCES += \
 	%D%/tape_packet.c %D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \
-	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
+	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
 	%D%/pattern.c %D%/pattern_math.h %D%/pigment.c %D%/surface_eval.h %D%/texture.c \
 	%D%/warp.c
 liblambert_a_SOURCES += \

@@ -74,10 +74,8 @@ static inline double wave_value(const struct pattern *p, double v)
     return v;
 }
 
-double pattern_value_at(const struct pattern *p, struct vec3 q,
-                        const struct pattern_context *c)
+static inline double finished(const struct pattern *p, double v)
 {
-    double v = p->ops->value(p, q, c);
     if (p->frequency != 0) {
         v = v * p->frequency + p->phase;
         if (fabs(v) >= FREQUENCY_MODULUS)
@@ -86,6 +84,33 @@ double pattern_value_at(const struct pattern *p, struct vec3 q,
     if (v < 0)
         v -= floor(v);
     return wave_value(p, v);
+}
+
+double pattern_value_at(const struct pattern *p, struct vec3 q,
+                        const struct pattern_context *c)
+{
+    return finished(p, p->ops->value(p, q, c));
+}
+
+static struct vec3 lane_of(const double v[3][8], int i)
+{
+    return vec3(v[0][i], v[1][i], v[2][i]);
+}
+
+void pattern_values_at8(const struct pattern *p, const struct pattern_packet *packet,
+                        const double warped[3][8], double out[8])
+{
+    if (p->ops->values)
+        p->ops->values(p, packet->noise, warped, out);
+    for (int i = 0; i < 8; i++) {
+        if (!p->ops->values) {
+            const struct pattern_context c = {.p_world = lane_of(packet->p_world, i),
+                                              .normal = lane_of(packet->normal, i),
+                                              .ray_d = lane_of(packet->ray_d, i)};
+            out[i] = p->ops->value(p, lane_of(warped, i), &c);
+        }
+        out[i] = finished(p, out[i]);
+    }
 }
 
 double pattern_value(const struct pattern *p, struct vec3 at,

@@ -14,6 +14,7 @@ struct pigment;
 struct image_map;
 struct density_grid;
 struct pattern;
+struct noise_kernels;
 
 enum wave { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY };
 
@@ -54,6 +55,13 @@ struct pattern_context {
     struct vec2 uv;      // for pigments inside patterns (pigment_pattern)
 };
 
+// Eight points that patterns are evaluated at together: what compiles their noise, and
+// their contexts in lanes (uv is 0).
+struct pattern_packet {
+    const struct noise_kernels *noise;
+    const double (*p_world)[8], (*normal)[8], (*ray_d)[8];
+};
+
 // A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists
 // it. value is the raw value of spec/textures 5.1, before frequency, phase, wave.
 struct pattern_ops {
@@ -65,12 +73,18 @@ struct pattern_ops {
     void (*init)(struct pattern *p); // defaults of its parameters; NULL: all zero
     double (*value)(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c);
+    // The same at eight points, to the bit. NULL: by value, one after the other.
+    void (*values)(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8]);
     // Told when all parameters are read: settles them, or says what is wrong. NULL: none.
     const char *(*finish)(struct pattern *p);
     // As a normal: n changed by this pattern's own rule (spec/textures 11.3). NULL:
     // by differences of the value (11.2).
     struct vec3 (*perturb)(const struct pattern *p, float amount, struct vec3 n,
                            struct vec3 at);
+    // The same at eight points: n is changed. NULL: one after the other.
+    void (*perturbs)(const struct pattern *p, const struct noise_kernels *k, float amount,
+                     const double at[3][8], double n[3][8]);
 };
 
 // What the whole scene decides, known only at the end of parsing; all patterns of a
@@ -120,6 +134,11 @@ struct vec3 pattern_warp(const struct pattern *p, struct vec3 at);
 // The same at a point that pattern_warp gave.
 double pattern_value_at(const struct pattern *p, struct vec3 warped,
                         const struct pattern_context *c);
+// Both at eight points, with the same bits; pattern_warp8 moves them in place.
+void pattern_warp8(const struct pattern *p, const struct noise_kernels *k,
+                   double at[3][8]);
+void pattern_values_at8(const struct pattern *p, const struct pattern_packet *packet,
+                        const double warped[3][8], double out[8]);
 // A normal on its way to the pattern's space and back: through its transforms alone,
 // normalised as the language does (spec/textures 11.1).
 struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length);

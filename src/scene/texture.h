@@ -152,6 +152,10 @@ struct texture_point {
 // False: the pigment gave no colour here (image_map `once` outside).
 bool pigment_color(const struct pigment *p, const struct texture_point *at,
                    struct rgbft *out);
+// The same of a pigment of kind PIGMENT_COLORS at eight points of the texture's outer
+// space; red, green and blue alone.
+void pigment_colors8(const struct pigment *p, const struct pattern_packet *packet,
+                     const double place[3][8], float out[3][8]);
 // The perturbed unit normal in the texture's outer space (to the world by
 // transform_normal, then normalise).
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at);

@@ -1,6 +1,7 @@
 // From a point outside to the pattern's own space (spec/textures 3.4, 4).
 
 #include "base/arena.h"
+#include "scene/noise_kernel.h"
 #include "scene/pattern.h"
 #include "scene/pattern_math.h"
 
@@ -156,15 +157,53 @@ static inline double clamp_far(double v)
     return v > WARP_FAR ? WARP_FAR : v < -WARP_FAR ? -WARP_FAR : v;
 }
 
+// Whether the classic turbulence moves the point.
+static bool turbulence_is_warp(const struct pattern *p)
+{
+    const struct turbulence *t = p->turbulence;
+    return t && p->ops && !p->ops->own_turbulence &&
+           (t->amount.x != 0 || t->amount.y != 0 || t->amount.z != 0);
+}
+
 struct vec3 pattern_warp(const struct pattern *p, struct vec3 at)
 {
     for (const struct warp *w = p->warps; w; w = w->next)
         at = warp_point(w, at);
-    const struct turbulence *t = p->turbulence;
-    if (t && p->ops && !p->ops->own_turbulence &&
-        (t->amount.x != 0 || t->amount.y != 0 || t->amount.z != 0))
-        at = turbulence_move(t, at);
+    if (turbulence_is_warp(p))
+        at = turbulence_move(p->turbulence, at);
     return vec3(clamp_far(at.x), clamp_far(at.y), clamp_far(at.z));
+}
+
+static void turbulence_move8(const struct turbulence *t, const struct noise_kernels *k,
+                             double at[3][8])
+{
+    double d[3][8];
+    noise_dturbulence8(k, (const double(*)[8])at, t->lambda, t->omega, t->octaves, d);
+    for (int i = 0; i < 8; i++) {
+        at[0][i] += d[0][i] * t->amount.x;
+        at[1][i] += d[1][i] * t->amount.y;
+        at[2][i] += d[2][i] * t->amount.z;
+    }
+}
+
+void pattern_warp8(const struct pattern *p, const struct noise_kernels *k,
+                   double at[3][8])
+{
+    for (const struct warp *w = p->warps; w; w = w->next) {
+        if (w->kind == WARP_TURBULENCE) {
+            turbulence_move8(&w->turbulence, k, at);
+            continue;
+        }
+        for (int i = 0; i < 8; i++) {
+            const struct vec3 q = warp_point(w, vec3(at[0][i], at[1][i], at[2][i]));
+            at[0][i] = q.x, at[1][i] = q.y, at[2][i] = q.z;
+        }
+    }
+    if (turbulence_is_warp(p))
+        turbulence_move8(p->turbulence, k, at);
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < 8; i++)
+            at[a][i] = clamp_far(at[a][i]);
 }
 
 struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length)

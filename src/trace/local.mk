@@ -11,10 +11,11 @@ liblambert_a_SOURCES += \
 	%D%/simple.c %D%/simple.h %D%/simple_bounce.c %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
 	%D%/wave.c %D%/wave.h
 
-# The packet kernels, once per instruction set.
-packet_sources = %D%/packet_kernel.c %D%/packet_product.h \
+# What is compiled once per instruction set.
+packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h \
+	%D%/packet_kernel.c %D%/packet_product.h \
 	%D%/packet.h %D%/packet_cross.h %D%/packet_objects.h %D%/packet_shapes.h \
-	%D%/packet_mesh.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h %D%/lanes.h \
+	%D%/packet_mesh.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \
 	%D%/shade_kernel.c %D%/shade_kernel.h %D%/shade_lanes.h %D%/shade_place.h
 noinst_LIBRARIES += libpacket_base.a
 libpacket_base_a_SOURCES = $(packet_sources)

@@ -1,5 +1,5 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
-// flags choose the width in trace/lanes.h. All give the same bits.
+// flags choose the width in math/lanes.h. All give the same bits.
 #include "trace/packet.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_sponge.h"

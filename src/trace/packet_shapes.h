@@ -8,7 +8,7 @@
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
-#include "trace/lanes.h"
+#include "math/lanes.h"
 
 struct ray8 {
     struct vec8 o, d;

@@ -2,7 +2,7 @@
 #define TRACE_PACKET_TREE_H
 
 // Eight rays and the boxes of a BVH8; one ray and eight boxes.
-#include "trace/lanes.h"
+#include "math/lanes.h"
 #include "trace/packet.h"
 
 // ---- one ray ----------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "trace/shade_kernel.h"
 
 #include "math/elementary.h"
+#include "scene/noise_kernel.h"
 #include "trace/shade.h"
 #include "trace/shade_lanes.h"
 #include "trace/shade_place.h"
@@ -92,6 +93,28 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
     return true;
 }
 
+// The colours of a pattern with its colour map, in the lanes of `bits`.
+LANES_INLINE void pattern8(const struct surface *s, const struct simple_surface *x,
+                           struct simple_group *g, unsigned bits)
+{
+    const struct pattern_packet packet = {
+        &PASTE(noise_kernels_, ISA), (const double(*)[8])g->p, (const double(*)[8])g->n,
+        (const double(*)[8])g->d};
+    const struct transform *m = &s->texture_transform;
+    double place[3][8];
+    float color[3][8];
+    struct vec8 p = v8_load((const double(*)[8])g->p);
+    if (!m->identity)
+        p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+    v8_store(place, p);
+    pigment_colors8(x->pigment, &packet, (const double(*)[8])place, color);
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        for (int c = 0; c < 3; c++)
+            g->color[c][i] = color[c][i];
+    }
+}
+
 // The colours of lanes that share a surface.
 LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_group *g,
                             unsigned bits)
@@ -109,14 +132,15 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
         g->att[__builtin_ctz(m)] = x->att;
     if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
         return;
+    if (x->kind != SIMPLE_SOLID) {
+        pattern8(s, x, g, bits);
+        return;
+    }
     for (; bits; bits &= bits - 1) {
         const int i = __builtin_ctz(bits);
-        struct rgb c = x->color[0];
-        if (x->kind != SIMPLE_SOLID && (g->live >> i & 1))
-            c = simple_color(s, g, i);
-        g->color[0][i] = c.r;
-        g->color[1][i] = c.g;
-        g->color[2][i] = c.b;
+        g->color[0][i] = x->color[0].r;
+        g->color[1][i] = x->color[0].g;
+        g->color[2][i] = x->color[0].b;
     }
 }
 

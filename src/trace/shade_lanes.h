@@ -1,7 +1,7 @@
 #ifndef TRACE_SHADE_LANES_H
 #define TRACE_SHADE_LANES_H
 
-// What shading needs beyond trace/lanes.h: colours are floats, computed in lanes too.
+// What shading needs beyond math/lanes.h: colours are floats, computed in lanes too.
 
 #include <float.h>
 #include <stdint.h>
@@ -11,7 +11,7 @@
 #include "math/elementary.h"
 #include "math/single.h"
 #include "math/transform.h"
-#include "trace/lanes.h"
+#include "math/lanes.h"
 
 #if defined(__AVX__)
 #define Q_SPREAD _mm256_add_ps
@@ -36,22 +36,6 @@ LANES_INLINE struct float8 f8_of(struct real8 x)
     float v[8];
     r8_store_floats(v, x);
     return f8_load(v);
-#endif
-}
-
-LANES_INLINE struct real8 r8_floor(struct real8 x)
-{
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    return (struct real8){
-        _mm512_roundscale_pd(x.a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
-#elif defined(__AVX2__)
-    return (struct real8)R1(_mm256_floor_pd, x);
-#else
-    double v[8];
-    r8_store(v, x);
-    for (int i = 0; i < 8; i++)
-        v[i] = floor(v[i]);
-    return r8_load(v);
 #endif
 }
 

@@ -55,7 +55,7 @@ static enum simple_pigment pigment_kind(const struct pigment *p)
     return p->pattern.ops == &checker_pattern_ops && p->pattern.frequency == 0 &&
                    p->pattern.wave == WAVE_RAMP && two && only_moved(&p->pattern)
                ? SIMPLE_CHECKER
-               : SIMPLE_ANY;
+               : SIMPLE_PATTERN;
 }
 
 static bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
@@ -239,24 +239,6 @@ bool simple_take(struct tracer *t, uint32_t k)
     t->class_tail[class] = (uint16_t)k;
     t->class_link[k] = END;
     return true;
-}
-
-struct rgb simple_color(const struct surface *s, const struct simple_group *g, int lane)
-{
-    const struct vec3 p = vec3(g->p[0][lane], g->p[1][lane], g->p[2][lane]);
-    const struct vec3 n = vec3(g->n[0][lane], g->n[1][lane], g->n[2][lane]);
-    struct texture_point at = {.p = p,
-                               .normal = n,
-                               .ray_d = vec3(g->d[0][lane], g->d[1][lane], g->d[2][lane]),
-                               .p_world = p,
-                               .normal_seen = n};
-    if (!s->texture_transform.identity) {
-        at.p = transform_inverse_point(&s->texture_transform, p);
-        at.normal = transform_inverse_normal(&s->texture_transform, n);
-    }
-    struct rgbft c;
-    pigment_color(s->texture->layer[0].pigment, &at, &c);
-    return rgbft_rgb(c);
 }
 
 static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t first,

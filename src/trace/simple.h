@@ -24,7 +24,7 @@ struct simple_class {
 enum simple_pigment {
     SIMPLE_SOLID,
     SIMPLE_CHECKER, // two colours, moved by transforms alone
-    SIMPLE_ANY,
+    SIMPLE_PATTERN, // any other pattern through a colour map
 };
 
 struct simple_surface {
@@ -70,7 +70,5 @@ void simple_shade(struct tracer *t);
 // The rays that go on from a group (trace/simple_bounce.c).
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g);
-// The colour at lane `lane` by the general rule.
-struct rgb simple_color(const struct surface *s, const struct simple_group *g, int lane);
 
 #endif

@@ -9,5 +9,11 @@ static double value(const struct pattern *p, struct vec3 at,
     return pattern_noise(p, at);
 }
 
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    k->value(at, 1, pattern_noise_generator(p), out);
+}
+
 const struct pattern_ops spotted_pattern_ops = {
-    .keyword = "spotted", .frequency = 1, .value = value};
+    .keyword = "spotted", .frequency = 1, .value = value, .values = values};

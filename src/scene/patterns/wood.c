@@ -2,6 +2,14 @@
 
 #include "scene/pattern_math.h"
 
+static inline double ring(const struct turbulence *t, double x, double y, double dx,
+                          double dy)
+{
+    x += cycloidal_quick((x + dx) * t->amount.x);
+    y += cycloidal_quick((y + dy) * t->amount.y);
+    return sqrt(x * x + y * y);
+}
+
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
@@ -10,13 +18,24 @@ static double value(const struct pattern *p, struct vec3 at,
     if (!t)
         return sqrt(at.x * at.x + at.y * at.y);
     const struct vec3 d = noise_dturbulence(at, t->lambda, t->omega, t->octaves);
-    const double x = at.x + cycloidal((at.x + d.x) * t->amount.x);
-    const double y = at.y + cycloidal((at.y + d.y) * t->amount.y);
-    return sqrt(x * x + y * y);
+    return ring(t, at.x, at.y, d.x, d.y);
+}
+
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    const struct turbulence *t = p->turbulence;
+    double d[3][8];
+    if (t)
+        noise_dturbulence8(k, at, t->lambda, t->omega, t->octaves, d);
+    for (int i = 0; i < 8; i++)
+        out[i] = t ? ring(t, at[0][i], at[1][i], d[0][i], d[1][i])
+                   : sqrt(at[0][i] * at[0][i] + at[1][i] * at[1][i]);
 }
 
 const struct pattern_ops wood_pattern_ops = {.keyword = "wood",
                                              .wave = WAVE_TRIANGLE,
                                              .frequency = 1,
                                              .own_turbulence = true,
-                                             .value = value};
+                                             .value = value,
+                                             .values = values};

@@ -4,6 +4,12 @@
 
 enum { WRINKLES_OCTAVES = 10 };
 
+static inline double stretched(double n, int generator)
+{
+    const bool clamped = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
+    return clamped ? clamp01(2 * n - 0.5) : n;
+}
+
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
@@ -12,9 +18,7 @@ static double value(const struct pattern *p, struct vec3 at,
     double sum = 0, scale = 1;
     for (int i = 0; i < WRINKLES_OCTAVES; i++, scale *= 2) {
         const double n = noise_value(vec3_scale(scale, at), generator);
-        const bool folded =
-            generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
-        sum += (folded ? clamp01(2 * n - 0.5) : n) / scale;
+        sum += stretched(n, generator) / scale;
     }
     return sum / 2;
 }
@@ -33,5 +37,40 @@ static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
     return vec3_mad(n, amount, sum);
 }
 
-const struct pattern_ops wrinkles_pattern_ops = {
-    .keyword = "wrinkles", .frequency = 1, .value = value, .perturb = perturb};
+// Divisions by powers of two are products here: the same bits.
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    const int generator = pattern_noise_generator(p);
+    double n[8], sum[8] = {0}, scale = 1;
+    for (int octave = 0; octave < WRINKLES_OCTAVES; octave++, scale *= 2) {
+        k->value(at, scale, generator, n);
+        for (int i = 0; i < 8; i++)
+            sum[i] += stretched(n[i], generator) * (1 / scale);
+    }
+    for (int i = 0; i < 8; i++)
+        out[i] = sum[i] / 2;
+}
+
+static void perturbs(const struct pattern *p, const struct noise_kernels *k, float amount,
+                     const double at[3][8], double n[3][8])
+{
+    (void)p;
+    double v[3][8], sum[3][8] = {{0}}, scale = 1;
+    for (int octave = 0; octave < WRINKLES_OCTAVES; octave++, scale *= 2) {
+        k->vector(at, scale, v);
+        for (int a = 0; a < 3; a++)
+            for (int i = 0; i < 8; i++)
+                sum[a][i] += fabs(v[a][i]) * (1 / scale);
+    }
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < 8; i++)
+            n[a][i] += amount * sum[a][i];
+}
+
+const struct pattern_ops wrinkles_pattern_ops = {.keyword = "wrinkles",
+                                                 .frequency = 1,
+                                                 .value = value,
+                                                 .values = values,
+                                                 .perturb = perturb,
+                                                 .perturbs = perturbs};

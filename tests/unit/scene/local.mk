@@ -13,3 +13,7 @@ check_PROGRAMS += test_shapes
 test_shapes_SOURCES = %D%/test_shapes.c %D%/fake_args.c %D%/fake_args.h
 test_shapes_CPPFLAGS = $(test_cppflags)
 test_shapes_LDADD = $(test_ldadd)
+check_PROGRAMS += test_pattern_packets
+test_pattern_packets_SOURCES = %D%/test_pattern_packets.c
+test_pattern_packets_CPPFLAGS = $(test_cppflags)
+test_pattern_packets_LDADD = $(test_ldadd)

@@ -1,5 +1,5 @@
-#ifndef TRACE_LANES_H
-#define TRACE_LANES_H
+#ifndef MATH_LANES_H
+#define MATH_LANES_H
 
 // Eight lanes of double or float in as many registers as the instruction set of the
 // translation unit needs, by intrinsics or in plain C. Every operation rounds as the
@@ -238,6 +238,62 @@ LANES_INLINE void r8_store(double *p, struct real8 x) { R_STORE(P_STORE, p, x); 
 LANES_INLINE struct real8 r8_set(double v)
 {
     return (struct real8)R_LOAD(P_SPREAD, &v);
+}
+
+LANES_INLINE struct real8 r8_floor(struct real8 x)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    return (struct real8){
+        _mm512_roundscale_pd(x.a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
+#elif defined(__AVX2__)
+    return (struct real8)R1(_mm256_floor_pd, x);
+#else
+    double v[8];
+    r8_store(v, x);
+    for (int i = 0; i < 8; i++)
+        v[i] = floor(v[i]);
+    return r8_load(v);
+#endif
+}
+
+// Four neighbouring doubles at each of eight places, turned: out[k] holds the k-th of each.
+LANES_INLINE void r8_load_rows(const double *const row[8], struct real8 out[4])
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define R_PAIR(i, j)                                                          \
+    _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[i])),       \
+                       _mm256_loadu_pd(row[j]), 1)
+    const __m512d a = R_PAIR(0, 2), b = R_PAIR(1, 3), c = R_PAIR(4, 6), d = R_PAIR(5, 7);
+#undef R_PAIR
+    const __m512d ab = _mm512_unpacklo_pd(a, b), cd = _mm512_unpacklo_pd(c, d);
+    const __m512d ab1 = _mm512_unpackhi_pd(a, b), cd1 = _mm512_unpackhi_pd(c, d);
+    out[0].a = _mm512_shuffle_f64x2(ab, cd, 0x88);
+    out[1].a = _mm512_shuffle_f64x2(ab1, cd1, 0x88);
+    out[2].a = _mm512_shuffle_f64x2(ab, cd, 0xdd);
+    out[3].a = _mm512_shuffle_f64x2(ab1, cd1, 0xdd);
+#elif defined(__AVX2__)
+#define R_TURN(m, i)                                                                    \
+    do {                                                                                \
+        const __m256d a = _mm256_loadu_pd(row[i]), b = _mm256_loadu_pd(row[(i) + 1]);   \
+        const __m256d c = _mm256_loadu_pd(row[(i) + 2]), d = _mm256_loadu_pd(row[(i) + 3]); \
+        const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d);     \
+        const __m256d ab1 = _mm256_unpackhi_pd(a, b), cd1 = _mm256_unpackhi_pd(c, d);   \
+        out[0].m = _mm256_permute2f128_pd(ab, cd, 0x20);                                \
+        out[1].m = _mm256_permute2f128_pd(ab1, cd1, 0x20);                              \
+        out[2].m = _mm256_permute2f128_pd(ab, cd, 0x31);                                \
+        out[3].m = _mm256_permute2f128_pd(ab1, cd1, 0x31);                              \
+    } while (0)
+    R_TURN(a, 0);
+    R_TURN(b, 4);
+#undef R_TURN
+#else
+    double v[4][8];
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 4; k++)
+            v[k][i] = row[i][k];
+    for (int k = 0; k < 4; k++)
+        out[k] = r8_load(v[k]);
+#endif
 }
 
 // ---- floats -------------------------------------------------------------------------

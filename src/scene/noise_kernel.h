@@ -1,0 +1,32 @@
+#ifndef SCENE_NOISE_KERNEL_H
+#define SCENE_NOISE_KERNEL_H
+
+// Noise at eight points, compiled once per instruction set (math/lanes.h). The bits are
+// those of scene/noise.h.
+struct noise_kernels {
+    const char *name;
+    // noise_value at scale * p.
+    void (*value)(const double p[3][8], double scale, int generator, double out[8]);
+    // noise_vector at scale * p.
+    void (*vector)(const double p[3][8], double scale, double out[3][8]);
+    // The three smallest of the squares (metric 2) or sums (metric 1) of the distances
+    // from points of one cell, those in `lanes`, to the random points of the cells around
+    // (scene/patterns/cellular.h). Those after the first `count` may be too large.
+    void (*nearest)(const double p[3][8], const double cell[3], unsigned lanes,
+                    int metric, int count, double sum[3][8]);
+};
+
+extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,
+    noise_kernels_avx512;
+
+// The kernels of that name, "base", "avx2" or "avx512"; NULL: not of this build, or the
+// machine cannot run them.
+const struct noise_kernels *noise_kernels_find(const char *name);
+
+// noise_turbulence and noise_dturbulence of eight points (scene/noise_packet.c).
+void noise_turbulence8(const struct noise_kernels *k, const double p[3][8], double lambda,
+                       double omega, int octaves, int generator, double out[8]);
+void noise_dturbulence8(const struct noise_kernels *k, const double p[3][8],
+                        double lambda, double omega, int octaves, double out[3][8]);
+
+#endif
