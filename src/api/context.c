@@ -19,6 +19,8 @@ struct lambert_context *lambert_context_new(void)
         return NULL;
     ctx->arena = arena_new(1 << 14);
     ctx->value = arena_new_array(ctx->arena, struct option_value, lambert_option_count());
+    ctx->scene_value =
+        arena_new_array(ctx->arena, struct option_value, lambert_option_count());
     return ctx;
 }
 
@@ -28,6 +30,8 @@ void context_forget_scene(struct lambert_context *ctx)
         arena_free(ctx->scene_arena);
     ctx->scene_arena = NULL;
     ctx->world = NULL;
+    for (size_t i = 0; i < lambert_option_count(); i++)
+        ctx->scene_value[i] = (struct option_value){0};
     ctx->stats = (struct lambert_stats){0};
 }
 

@@ -22,7 +22,8 @@ struct option_value {
 
 struct lambert_context {
     struct arena *arena;        // options
-    struct option_value *value; // one per option
+    struct option_value *value;       // one per option
+    struct option_value *scene_value; // what the scene itself asks for
     char error[1024];
 
     lambert_message_fn message;
@@ -50,6 +51,9 @@ enum lambert_status context_fail(struct lambert_context *ctx, enum lambert_statu
                                  const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
 double context_seconds(void);
+// Takes `lambert_NAME` of a scene as option NAME, unless the user has set that.
+enum lambert_status option_from_scene(struct lambert_context *ctx, const char *name,
+                                      const char *text);
 void context_forget_scene(struct lambert_context *ctx);
 
 // Values that always exist: wrong names are our own mistakes.

@@ -234,6 +234,39 @@ static void print_statement(void *user, const struct ast *item)
     ast_print(item, user, 0);
 }
 
+// Options of the group "radiosity" may stand in the scene, as lambert_NAME.
+static const char *const *scene_settings(struct lambert_context *ctx)
+{
+    const char **names =
+        arena_new_array(ctx->scene_arena, const char *, lambert_option_count() + 1);
+    size_t n = 0;
+    for (size_t i = 0; i < lambert_option_count(); i++) {
+        const struct lambert_option *o = lambert_option_at(i);
+        if (strcmp(o->group, "radiosity") != 0 || o->kind == LAMBERT_OPTION_FILE)
+            continue;
+        char *name = arena_printf(ctx->scene_arena, "lambert_%s", o->name);
+        for (char *p = name; *p; p++)
+            *p = *p == '-' ? '_' : *p;
+        names[n++] = name;
+    }
+    return names;
+}
+
+struct setting_errors {
+    struct lambert_context *ctx;
+    bool any;
+};
+
+static void setting_found(void *user, const char *name, const char *text)
+{
+    struct setting_errors *e = user;
+    char *option = arena_printf(e->ctx->scene_arena, "%s", name + strlen("lambert_"));
+    for (char *p = option; *p; p++)
+        *p = *p == '_' ? '-' : *p;
+    if (!e->any)
+        e->any = option_from_scene(e->ctx, option, text) != LAMBERT_OK;
+}
+
 // What runs on the large stack.
 struct reading {
     struct lambert_context *ctx;
@@ -274,6 +307,10 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
     struct probe *probe = probe_new();
     o.trace = probe_trace;
     o.trace_user = probe;
+    struct setting_errors settings = {ctx, false};
+    o.wanted = scene_settings(ctx);
+    o.found = setting_found;
+    o.found_user = &settings;
     struct reading reading = {ctx, &o, file, false};
     stack_run(read_scene, &reading);
     probe_free(probe);
@@ -286,6 +323,8 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
     if (ctx->diags.warnings && option_flag(ctx, "werror"))
         return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: warnings count as errors",
                             path);
+    if (settings.any)
+        return LAMBERT_ERROR_OPTION;
     settle_gamma(ctx);
     return LAMBERT_OK;
 }

@@ -195,6 +195,21 @@ enum lambert_status lambert_option_set(struct lambert_context *ctx, const char *
     return context_fail(ctx, LAMBERT_ERROR_OPTION, "no option '--%s'", name);
 }
 
+enum lambert_status option_from_scene(struct lambert_context *ctx, const char *name,
+                                      const char *text)
+{
+    const int i = find(name);
+    return set_value(ctx, &options[i], &ctx->scene_value[i], text);
+}
+
+// The user's value, else the scene's; NULL: neither.
+static const struct option_value *given(const struct lambert_context *ctx, int i)
+{
+    return ctx->value[i].text         ? &ctx->value[i]
+           : ctx->scene_value[i].text ? &ctx->scene_value[i]
+                                      : NULL;
+}
+
 bool lambert_option_is_set(const struct lambert_context *ctx, const char *name)
 {
     int i = find(name);
@@ -206,8 +221,8 @@ double lambert_option_number(const struct lambert_context *ctx, const char *name
     int i = find(name);
     if (i < 0)
         return 0;
-    if (ctx->value[i].text)
-        return ctx->value[i].number;
+    if (given(ctx, i))
+        return given(ctx, i)->number;
     double number = 0;
     if (!options[i].initial)
         return 0;
@@ -222,7 +237,7 @@ const char *lambert_option_text(const struct lambert_context *ctx, const char *n
     int i = find(name);
     if (i < 0)
         return NULL;
-    return ctx->value[i].text ? ctx->value[i].text : options[i].initial;
+    return given(ctx, i) ? given(ctx, i)->text : options[i].initial;
 }
 
 size_t lambert_option_list(const struct lambert_context *ctx, const char *name,

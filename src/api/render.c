@@ -1,5 +1,6 @@
 // Tracing what was loaded.
 #include "api/context.h"
+#include "api/gi.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,14 +115,20 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
                             "a picture of %d x %d needs %.1f GiB of memory, there are "
                             "%.1f",
                             settings.width, settings.height, need / GIB, have / GIB);
+    struct gi *gi;
+    const enum lambert_status status = gi_prepare(ctx, &settings, &gi);
+    if (status != LAMBERT_OK)
+        return status;
     struct lambert_image *image = calloc(1, sizeof *image);
     if (!image || !image_init(&image->im, settings.width, settings.height, 4)) {
         free(image);
+        gi_free(gi);
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
     }
     set_working_space(image, &ctx->scene.settings);
     struct render_progress progress = {tile_done, ctx, &ctx->cancel};
     bool whole = render_world(ctx->world, &settings, &progress, &image->im, &stats);
+    gi_free(gi);
     ctx->cancel = false;
     keep_stats(ctx, &stats);
     *out = image;

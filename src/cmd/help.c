@@ -10,6 +10,7 @@ static const struct {
 } groups[] = {
     {"scene", "Scene", true},      {"picture", "Picture", true},
     {"output", "Output", true},    {"quality", "Quality", true},
+    {"radiosity", "Radiosity", false},
     {"run", "Running", true},      {"animation", "Animation", false},
     {"tools", "Tools", false},     {"compare", "lambert compare", false},
     {"fmt", "lambert fmt", false},

@@ -138,6 +138,21 @@ static void predeclare_all(struct eval *e)
     predeclare(e, "input_file_name", value_new_string(e->arena, input, strlen(input)));
 }
 
+// Settings of the renderer that the scene declares.
+static void hand_over(struct eval *e)
+{
+    for (const char *const *name = e->options->wanted; name && *name; name++) {
+        const struct place p = symbols_find(e->symbols, *name, strlen(*name), 1);
+        const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
+        char number[40];
+        if (!v || (v->kind != VALUE_STRING && v->kind != VALUE_NUMBER))
+            continue;
+        snprintf(number, sizeof number, "%.17g", v->n[0]);
+        e->options->found(e->options->found_user, *name,
+                          v->kind == VALUE_STRING ? v->string.text : number);
+    }
+}
+
 bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
                 struct diag_sink *diags, const struct eval_options *options,
                 struct scene *scene)
@@ -165,6 +180,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     }
     if (diags->errors == errors)
         builder_finish(e.builder);
+    hand_over(&e);
     files_close(&e);
     stream_free(in);
     for (size_t i = 0; i < sizeof e.line / sizeof *e.line; i++)

@@ -45,6 +45,11 @@ struct eval_options {
     // The only folder a scene may write in, and where its relative names go; NULL: the
     // working directory.
     const char *output_folder;
+    // Names that are handed over at the end if the scene declared them as a number or a
+    // string; NULL ends the list.
+    const char *const *wanted;
+    void (*found)(void *user, const char *name, const char *text);
+    void *found_user;
 };
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.

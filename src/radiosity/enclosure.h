@@ -22,7 +22,8 @@ struct element {
     uint32_t surface; // elements of one smooth surface share a number
     uint8_t corner_count;
     bool curved;
-    float coverage; // existing part of the polygon, 0..1
+    float coverage; // area over that of the polygon
+    bool partial;   // some points of the square do not exist
 };
 
 // A point of an element from which rays start.
@@ -44,6 +45,8 @@ struct enclosure {
     // this part of the element does not exist.
     bool (*point)(void *state, uint32_t element, double u, double v,
                   struct element_point *out);
+    // Whether anything can come between points of two elements; NULL: it may.
+    bool (*may_hide)(void *state, uint32_t a, uint32_t b);
     // Whether something opaque lies on each ray.
     void (*occluded)(void *state, const struct ray_batch *rays, uint8_t *out);
     // The element each ray meets first, ELEMENT_NONE: it leaves, or meets what takes no

@@ -38,7 +38,7 @@ static bool node_at(const struct factor_state *s, uint32_t element, double u, do
     out->p = polygon_point(e, u, v, jacobian);
     out->normal = e->normal;
     out->error = 0;
-    if (!s->enclosure->point || (!e->curved && e->coverage >= 1))
+    if (!s->enclosure->point || (!e->curved && !e->partial))
         return true;
     return element_at(s, element, u, v, out);
 }
@@ -73,8 +73,6 @@ static struct panel_sum panel_integral(const struct factor_state *s, uint32_t sm
     }
     return sum;
 }
-
-enum { PANEL_DEPTH = 8 };
 
 // Quarters the panel until that changes less than `allowed`.
 static struct panel_sum panel_refine(const struct factor_state *s, uint32_t small,
@@ -115,7 +113,7 @@ double factor_analytic(struct factor_state *s, uint32_t small, uint32_t big)
     struct panel_sum sum = panel_integral(s, small, b, all, near ? k + 1 : k);
     if (near && sum.area > 0) {
         const double allowed = s->settings->tolerance * fmax(sum.factor, 1e-3 * sum.area);
-        sum = panel_refine(s, small, b, all, sum, allowed, PANEL_DEPTH);
+        sum = panel_refine(s, small, b, all, sum, allowed, s->settings->depth);
     }
     return sum.area > 0 ? sum.factor / sum.area * (double)b->coverage : 0;
 }

@@ -64,6 +64,8 @@ double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b)
 {
     if (!s->enclosure->occluded)
         return 1;
+    if (s->enclosure->may_hide && !s->enclosure->may_hide(s->of_enclosure, a, b))
+        return 1;
     const uint32_t few = (uint32_t)s->settings->shadow_rays;
     struct seen seen = {0, 0, 0, 0};
     look(s, a, b, 0, few, &seen);

@@ -13,6 +13,7 @@ const struct form_factor_settings form_factor_defaults = {
     .method = "analytic",
     .points = 3,
     .tolerance = 1e-4,
+    .depth = 8,
     .shadow_rays = 8,
     .rays = 4096,
     .resolution = 128,

@@ -7,6 +7,7 @@ struct form_factor_settings {
     const char *method; // a name of form_factors.def
     int points;         // Gauss points along each side of an element
     double tolerance;   // relative, of pairs close to each other
+    int depth;          // how often such an element is quartered at most
     int shadow_rays;    // of a pair; four times as many where it is partly hidden
     int rays;           // of an element
     int resolution;     // pixels along a side of the hemicube

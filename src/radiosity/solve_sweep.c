@@ -13,9 +13,42 @@ struct sweep {
     double (*source)[3];
     double (*sent)[3]; // sum over i of A_i rho_i F_ij: what is reflected of b_j = 1
     double (*next)[3]; // Jacobi
-    double mode[3];    // sum (A - sent) rho: what the constant mode leaves over
+    uint32_t *room;    // of an element: those that see each other, in any number of steps
+    uint32_t rooms;
+    double (*mode)[3];    // per room: sum (A - sent) rho, what the constant leaves over
+    double (*missing)[3]; // per room: how much of the constant is still to be added
     double change[3], previous[3];
 };
+
+// Rooms that no light passes between have constants of their own.
+static void find_rooms(struct sweep *w)
+{
+    const size_t n = w->s->e->count;
+    uint32_t *queue = solver_alloc(n, sizeof *queue);
+    w->room = solver_alloc(n, sizeof *w->room);
+    for (size_t i = 0; i < n; i++)
+        w->room[i] = UINT32_MAX;
+    for (size_t start = 0; start < n; start++) {
+        if (w->room[start] != UINT32_MAX)
+            continue;
+        uint32_t count = 1;
+        queue[0] = (uint32_t)start;
+        w->room[start] = w->rooms;
+        for (uint32_t k = 0; k < count; k++) {
+            const float *f = w->s->f->f + queue[k] * n;
+            for (size_t j = 0; j < n; j++) {
+                if (f[j] <= 0 || w->room[j] != UINT32_MAX)
+                    continue;
+                w->room[j] = w->rooms;
+                queue[count++] = (uint32_t)j;
+            }
+        }
+        w->rooms++;
+    }
+    free(queue);
+    w->mode = solver_alloc(w->rooms, sizeof *w->mode);
+    w->missing = solver_alloc(w->rooms, sizeof *w->missing);
+}
 
 static void sweep_begin(struct sweep *w, const struct radiosity_system *s,
                         const struct solver_settings *settings,
@@ -37,11 +70,12 @@ static void sweep_begin(struct sweep *w, const struct radiosity_system *s,
                 w->sent[j][c] += af * rho[c];
         }
     }
+    find_rooms(w);
     for (size_t j = 0; j < n; j++) {
         double rho[3];
         element_reflectance(&s->e->element[j], rho);
         for (int c = 0; c < 3; c++)
-            w->mode[c] += (s->e->element[j].area - w->sent[j][c]) * rho[c];
+            w->mode[w->room[j]][c] += (s->e->element[j].area - w->sent[j][c]) * rho[c];
     }
 }
 
@@ -51,32 +85,36 @@ static void sweep_end(struct sweep *w)
     free(w->source);
     free(w->sent);
     free(w->next);
+    free(w->room);
+    free(w->mode);
+    free(w->missing);
 }
 
-// The sum of residuals tells how much of the constant mode rho is missing (a Galerkin
-// step with one basis function). Adds it when asked; returns how much, per channel.
-static void constant_mode(struct sweep *w, bool add, double missing[3])
+// The sum of residuals in a room tells how much of the constant mode rho is missing there
+// (a Galerkin step with one basis function). Adds it when asked.
+static void constant_mode(struct sweep *w, bool add)
 {
     const size_t n = w->s->e->count;
     const struct element *e = w->s->e->element;
-    double residual[3] = {0, 0, 0};
+    memset(w->missing, 0, w->rooms * sizeof *w->missing);
     for (size_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++)
-            residual[c] += e[i].area * (w->source[i][c] - w->out->b[i][c]) +
-                           w->sent[i][c] * w->out->b[i][c];
-    for (int c = 0; c < 3; c++)
-        missing[c] = w->mode[c] > 0 ? residual[c] / w->mode[c] : 0;
+            w->missing[w->room[i]][c] += e[i].area * (w->source[i][c] - w->out->b[i][c]) +
+                                         w->sent[i][c] * w->out->b[i][c];
+    for (uint32_t k = 0; k < w->rooms; k++)
+        for (int c = 0; c < 3; c++)
+            w->missing[k][c] = w->mode[k][c] > 0 ? w->missing[k][c] / w->mode[k][c] : 0;
     for (size_t i = 0; i < n && add; i++) {
         double rho[3];
         element_reflectance(&e[i], rho);
         for (int c = 0; c < 3; c++)
-            w->out->b[i][c] += missing[c] * rho[c];
+            w->out->b[i][c] += w->missing[w->room[i]][c] * rho[c];
     }
 }
 
 // The error left: the constant mode by the energy identity, the rest by the change of the
 // sweep continued as a geometric series.
-static double error_left(const struct sweep *w, const double missing[3])
+static double error_left(const struct sweep *w)
 {
     const size_t n = w->s->e->count;
     const struct element *e = w->s->e->element;
@@ -86,7 +124,7 @@ static double error_left(const struct sweep *w, const double missing[3])
         element_reflectance(&e[i], rho);
         for (int c = 0; c < 3; c++) {
             reflected[c] += e[i].area * (w->out->b[i][c] - w->source[i][c]);
-            mode[c] += e[i].area * rho[c];
+            mode[c] += e[i].area * rho[c] * fabs(w->missing[w->room[i]][c]);
         }
     }
     for (int c = 0; c < 3; c++) {
@@ -94,7 +132,7 @@ static double error_left(const struct sweep *w, const double missing[3])
             continue;
         const double q =
             w->previous[c] > 0 ? fmin(w->change[c] / w->previous[c], .999) : .5;
-        const double rest = w->change[c] * q / (1 - q) + fabs(missing[c]) * mode[c];
+        const double rest = w->change[c] * q / (1 - q) + mode[c];
         worst = fmax(worst, rest / reflected[c]);
     }
     return worst;
@@ -158,13 +196,12 @@ static void sweeps(struct radiosity_solution *out, const struct radiosity_system
     const uint32_t most = settings->steps_max ? settings->steps_max : 100000;
     sweep_begin(&w, s, settings, out);
     while (out->steps < most && !out->converged) {
-        double missing[3];
         memcpy(w.previous, w.change, sizeof w.previous);
         memset(w.change, 0, sizeof w.change);
         sweep(&w);
         out->steps++;
-        constant_mode(&w, correct, missing);
-        out->error = error_left(&w, missing);
+        constant_mode(&w, correct);
+        out->error = error_left(&w);
         out->converged = out->error <= settings->tolerance;
     }
     sweep_end(&w);

@@ -4,7 +4,7 @@ liblambert_a_SOURCES += \
 	%D%/stab.c %D%/sweep.c %D%/world.c %D%/world.h
 liblambert_a_SOURCES += \
 	%D%/antialias.c %D%/antialias.h %D%/area.c %D%/area.h %D%/fog.c \
-	%D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
+	%D%/indirect.h %D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/lens.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/shadow.c %D%/sky.c %D%/sky.h \

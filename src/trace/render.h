@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "image/image.h"
+#include "trace/indirect.h"
 #include "trace/intersect.h"
 #include "trace/world.h"
 
@@ -22,6 +23,7 @@ struct render_settings {
     double aa_jitter_amount; // 1.0
     int quality;           // 9
     bool output_alpha;
+    struct indirect indirect;
 };
 extern const struct render_settings render_settings_default;
 

@@ -81,6 +81,24 @@ static void shade_plain(void *user, const struct surface_view *v, const struct t
     shade_transmit(s, &r);
 }
 
+// Light by way of other surfaces, on what is matt of all layers.
+static void shade_indirect(struct shading *s, const struct hit *hit,
+                           const struct ray *ray)
+{
+    const struct indirect *indirect = &s->t->job->settings.indirect;
+    struct rgb matt = {0, 0, 0};
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        const struct layer *l = &s->layer[i];
+        matt = rgb_add(
+            matt, rgb_scale(l->finish->diffuse * l->att, rgb_mul(l->color, l->filter)));
+    }
+    if (rgb_max(matt) <= 0)
+        return;
+    const struct rgb c = indirect->irradiance(indirect->data, s->t, ray, hit, &s->at,
+                                              s->view.n, s->path->hash);
+    tracer_add(s->t, rgb_mul(s->path->through, rgb_mul(matt, c)));
+}
+
 void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
 {
     struct path here = *path;
@@ -99,6 +117,9 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     trace_interaction(t->job->world, &ray, hit, &s.at);
     surface_view_init(&s.view, &s.at, path->d);
     texture_walk(t, &s.view, shade_plain, &s);
-    if (t->job->lights)
-        shade_lights(&s);
+    if (!t->job->lights)
+        return;
+    if (t->job->settings.indirect.data)
+        shade_indirect(&s, hit, &ray);
+    shade_lights(&s);
 }

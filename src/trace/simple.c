@@ -157,7 +157,7 @@ void simple_compile(struct job *job, struct arena *a)
     job->kernels = kernels_named(w->accel->kernels->name);
     job->quick_camera =
         !general && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
-    if (general || job->has_air || !job->lights || !job->pigments ||
+    if (general || job->settings.indirect.data || job->has_air || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =

@@ -1,0 +1,182 @@
+// Radiosity as options ask for it.
+#include "api/gi.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "radiosity/radiosity.h"
+
+struct gi {
+    struct arena *arena;
+    struct job job;
+    struct radiosity *radiosity;
+};
+
+static const char *text_of(const struct lambert_context *ctx, const char *name)
+{
+    return lambert_option_text(ctx, name);
+}
+
+// A fraction, or a percentage with its sign; < 0: neither.
+static double error_of(const char *text)
+{
+    char *end;
+    if (!text)
+        return 0;
+    const double v = strtod(text, &end);
+    if (end == text || !(v > 0))
+        return -1;
+    if (strcmp(end, "%") == 0)
+        return v / 100;
+    return *end || v >= 1 ? -1 : v;
+}
+
+static uint32_t word_number(const char *word, const char *const *words)
+{
+    uint32_t i = 0;
+    while (words[i] && strcmp(words[i], word) != 0)
+        i++;
+    return i;
+}
+
+static struct radiosity_options options_of(const struct lambert_context *ctx)
+{
+    static const char *const emitters[] = {"auto", "mesh", NULL};
+    static const char *const closures[] = {"auto", "enforce", "report", NULL};
+    struct radiosity_options o = radiosity_defaults;
+    const int threads = (int)option_number(ctx, "threads");
+    const uint32_t seed = (uint32_t)option_number(ctx, "gi-seed");
+    o.patches.count = option_number(ctx, "gi-patches");
+    o.patches.size = option_number(ctx, "gi-patch-size");
+    o.factors.method = text_of(ctx, "gi-method");
+    o.factors.points = (int)option_number(ctx, "gi-points");
+    o.factors.shadow_rays = (int)option_number(ctx, "gi-shadow-rays");
+    o.factors.rays = (int)option_number(ctx, "gi-factor-rays");
+    o.factors.resolution = (int)option_number(ctx, "gi-resolution");
+    o.solver.solver = text_of(ctx, "gi-solver");
+    o.solver.tolerance = option_number(ctx, "gi-tolerance");
+    o.solver.rays = (uint64_t)option_number(ctx, "gi-rays");
+    o.patches.threads = o.factors.threads = o.solver.threads = threads;
+    o.factors.seed = o.solver.seed = seed;
+    o.gather = (uint32_t)option_number(ctx, "gi-gather");
+    o.memory = option_number(ctx, "gi-memory") * 1048576;
+    o.emitters = (enum emitters)word_number(text_of(ctx, "gi-emitters"), emitters);
+    o.closure = (enum closure)word_number(text_of(ctx, "gi-closure"), closures);
+    return o;
+}
+
+static void report(struct lambert_context *ctx, const struct radiosity *r)
+{
+    const struct radiosity_report *p = &r->report;
+    char text[512], more[160] = "";
+    if (!ctx->message)
+        return;
+    if (p->error >= 0)
+        snprintf(more, sizeof more, ", error about %.2g %%%s", 100 * p->error,
+                 p->converged ? "" : " (more than asked for)");
+    if (p->loaded)
+        snprintf(text, sizeof text, "radiosity: %u patches, solution read from a file",
+                 p->elements);
+    else
+        snprintf(text, sizeof text,
+                 "radiosity: %u patches, %s, %s, %u steps, %.3g rays, %.3g MB, %.2f s%s; "
+                 "energy off by %.1g, rows %.4f to %.4f%s",
+                 p->elements, p->method, p->solver, p->steps, (double)p->rays,
+                 p->bytes / 1e6, p->seconds, more, p->defect, p->row_sum_least,
+                 p->row_sum_most, p->balanced ? " (balanced)" : "");
+    struct lambert_message m = {.kind = LAMBERT_NOTE, .text = text, .rendered = NULL};
+    char *line = arena_printf(ctx->scene_arena, "%s\n", text);
+    m.rendered = line;
+    ctx->message(ctx->message_user, &m);
+}
+
+static enum lambert_status write_files(struct lambert_context *ctx, const struct gi *g)
+{
+    const char *save = text_of(ctx, "gi-save"), *ply = text_of(ctx, "gi-ply");
+    char *e = ctx->error;
+    if (save && !radiosity_save(g->radiosity, save, e, sizeof ctx->error))
+        return LAMBERT_ERROR_OUTPUT;
+    if (ply && !radiosity_write_ply(g->radiosity, ply, e, sizeof ctx->error))
+        return LAMBERT_ERROR_OUTPUT;
+    return LAMBERT_OK;
+}
+
+// The radiosity of what each pixel's middle sees, element by element.
+static enum lambert_status write_aov(struct lambert_context *ctx, const struct gi *g,
+                                     const char *path)
+{
+    const struct job *job = &g->job;
+    const int width = job->settings.width, height = job->settings.height;
+    struct image im = {0};
+    if (!image_init(&im, width, height, 3))
+        return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
+    struct trace_scratch *s = trace_scratch_new(job->world);
+    for (int i = 0; i < width * height; i++) {
+        struct ray_query q = {.hidden_by = OBJECT_NO_IMAGE};
+        if (!camera_ray(job->camera, i % width + .5, i / width + .5, width, height,
+                        &q.ray))
+            continue;
+        const struct hit hit = trace_closest_1(job->world, s, &q);
+        if (!(hit.b.t < INFINITY))
+            continue;
+        const struct rgb c = radiosity_of_hit(g->radiosity, &q.ray, &hit);
+        float *pixel = image_at(&im, i % width, i / width);
+        pixel[0] = c.r;
+        pixel[1] = c.g;
+        pixel[2] = c.b;
+    }
+    trace_scratch_free(s);
+    const struct image_write_options o = {.type = IMAGE_EXR, .bits = 32};
+    const bool ok = image_write(&im, path, &o, ctx->error, sizeof ctx->error);
+    image_free(&im);
+    return ok ? LAMBERT_OK : LAMBERT_ERROR_OUTPUT;
+}
+
+enum lambert_status gi_prepare(struct lambert_context *ctx,
+                               struct render_settings *settings, struct gi **out)
+{
+    *out = NULL;
+    if (strcmp(text_of(ctx, "gi"), "radiosity") != 0)
+        return LAMBERT_OK;
+    struct radiosity_options o = options_of(ctx);
+    o.error = error_of(text_of(ctx, "error"));
+    if (o.error < 0)
+        return context_fail(ctx, LAMBERT_ERROR_OPTION,
+                            "'%s' is no value for --error; it takes a percentage such as "
+                            "1%%, or a fraction below 1",
+                            text_of(ctx, "error"));
+    struct gi *g = calloc(1, sizeof *g);
+    if (!g)
+        return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory");
+    g->arena = arena_new(4096);
+    job_init(&g->job, g->arena, ctx->world, settings);
+    g->radiosity = radiosity_new(&g->job, &o, text_of(ctx, "gi-load"), ctx->error,
+                                 sizeof ctx->error);
+    enum lambert_status status = LAMBERT_OK;
+    if (!g->radiosity)
+        status = text_of(ctx, "gi-load") ? LAMBERT_ERROR_INPUT : LAMBERT_ERROR_MEMORY;
+    const char *aov = text_of(ctx, "gi-aov");
+    if (status == LAMBERT_OK) {
+        report(ctx, g->radiosity);
+        status = write_files(ctx, g);
+    }
+    if (status == LAMBERT_OK && aov)
+        status = write_aov(ctx, g, aov);
+    if (status != LAMBERT_OK) {
+        gi_free(g);
+        return status;
+    }
+    settings->indirect = radiosity_indirect(g->radiosity);
+    *out = g;
+    return LAMBERT_OK;
+}
+
+void gi_free(struct gi *g)
+{
+    if (!g)
+        return;
+    radiosity_free(g->radiosity);
+    arena_free(g->arena);
+    free(g);
+}

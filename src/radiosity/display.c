@@ -1,0 +1,121 @@
+// What the picture takes from a solution.
+#include <stdlib.h>
+
+#include "radiosity/polygon.h"
+#include "radiosity/radiosity.h"
+#include "radiosity/sequence.h"
+#include "trace/tracer.h"
+
+enum { EMITTER_RAYS = 16 };
+
+static struct rgb of_double(const double c[3])
+{
+    return rgb((float)c[0], (float)c[1], (float)c[2]);
+}
+
+// Whether a point of an emitting element is seen.
+static bool emitter_seen(const struct radiosity *r, struct tracer *t, uint32_t e,
+                         struct vec3 o, double u, double v)
+{
+    const struct vec3 to = polygon_uniform(&r->patches->element[e], u, v);
+    // Ends short of the emitter, which is no obstacle to itself.
+    const struct ray_query q = {{o, vec3_sub(to, o), 0, 1 - 1e-4}, OBJECT_NO_RADIOSITY};
+    return !trace_occluded_1(t->job->world, t->scratch, &q);
+}
+
+// Irradiance of the emitting elements at a point: Lambert's formula of each, and shadow
+// rays to as many of them, drawn by what they give, for what is open.
+static struct rgb emitters_light(const struct radiosity *r, struct tracer *t,
+                                 struct vec3 o, struct vec3 n, uint32_t hash)
+{
+    double up_to[EMITTERS_MOST], sum = 0;
+    for (uint32_t i = 0; i < r->emitter_count; i++) {
+        const struct element *x = &r->patches->element[r->emitter[i]];
+        sum += lambert_polygon(o, n, x->corner, x->corner_count) * (double)x->coverage *
+               (double)rgb_max(x->emission);
+        up_to[i] = sum;
+    }
+    struct rgb light = {0, 0, 0};
+    if (sum <= 0)
+        return light;
+    double s[4];
+    random_point(0, hash, s);
+    for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
+        const double at = (k + s[0]) / EMITTER_RAYS * sum;
+        while (i + 1 < r->emitter_count && up_to[i] <= at)
+            i++;
+        double x[4];
+        sobol_point(k, hash, x);
+        if (!emitter_seen(r, t, r->emitter[i], o, x[0], x[1]))
+            continue;
+        const struct rgb e = r->patches->element[r->emitter[i]].emission;
+        light = rgb_add(light, rgb_scale((float)(sum / EMITTER_RAYS) / rgb_max(e), e));
+    }
+    return light;
+}
+
+// Irradiance by elements, interpolated.
+static struct rgb mesh_light(const struct radiosity *r, const struct ray *ray,
+                             const struct hit *hit)
+{
+    uint32_t element[4];
+    double weight[4], sum[3] = {0, 0, 0};
+    const uint32_t n = patch_around(r->patches, ray, hit, element, weight);
+    for (uint32_t k = 0; k < n; k++)
+        for (int c = 0; c < 3; c++)
+            sum[c] += weight[k] * r->shown[element[k]][c];
+    return of_double(sum);
+}
+
+// Irradiance by rays to the elements around.
+static struct rgb gathered_light(const struct radiosity *r, struct tracer *t,
+                                 struct vec3 o, struct vec3 n, uint32_t hash)
+{
+    double sum[3] = {0, 0, 0};
+    for (uint32_t k = 0; k < r->settings.gather; k++) {
+        double s[4], own[3];
+        sobol_point(k, hash, s);
+        const struct vec3 d = cosine_direction(n, s[0], s[1]);
+        const struct ray_query q = {{o, d, 0, INFINITY}, OBJECT_NO_RADIOSITY};
+        const struct hit hit = trace_closest_1(t->job->world, t->scratch, &q);
+        if (!(hit.b.t < INFINITY))
+            continue;
+        const uint32_t e = patch_of_hit(r->patches, &q.ray, &hit);
+        if (e == ELEMENT_NONE)
+            continue;
+        element_emission(&r->patches->element[e], own);
+        for (int c = 0; c < 3; c++)
+            sum[c] += r->solution.b[e][c] - (r->emitter_count ? own[c] : 0);
+    }
+    for (int c = 0; c < 3; c++)
+        sum[c] /= r->settings.gather;
+    return of_double(sum);
+}
+
+static struct rgb irradiance(const void *data, struct tracer *t, const struct ray *ray,
+                             const struct hit *hit, const struct interaction *at,
+                             struct vec3 n, uint32_t hash)
+{
+    const struct radiosity *r = data;
+    // The surface itself, not a bump, decides what is seen.
+    const struct vec3 side = vec3_dot(at->ng, ray->d) > 0 ? vec3_neg(at->ng) : at->ng;
+    const struct vec3 o = trace_offset(at, side);
+    (void)n;
+    struct rgb c = r->settings.gather ? gathered_light(r, t, o, side, hash)
+                                      : mesh_light(r, ray, hit);
+    if (r->emitter_count)
+        c = rgb_add(c, emitters_light(r, t, o, side, hash));
+    return c;
+}
+
+struct indirect radiosity_indirect(const struct radiosity *r)
+{
+    return (struct indirect){r, irradiance};
+}
+
+struct rgb radiosity_of_hit(const struct radiosity *r, const struct ray *ray,
+                            const struct hit *hit)
+{
+    const uint32_t e = patch_of_hit(r->patches, ray, hit);
+    return e == ELEMENT_NONE ? rgb(0, 0, 0) : of_double(r->solution.b[e]);
+}

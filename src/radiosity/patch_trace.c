@@ -1,0 +1,353 @@
+// Elements as rays see them.
+#include <stdlib.h>
+
+#include "base/arena.h"
+#include "radiosity/parallel.h"
+#include "radiosity/patches.h"
+#include "radiosity/ray_put.h"
+#include "radiosity/sequence.h"
+#include "trace/layers.h"
+#include "trace/tracer.h"
+
+// ---- colours -----------------------------------------------------------------------
+struct colour {
+    struct tracer *t;
+    struct rgb reflectance, emission;
+};
+
+// The layers from the top, as the picture adds them up (trace/shade.c).
+static void colour_plain(void *user, const struct surface_view *v,
+                         const struct texture *x, const struct texture_point *at,
+                         const struct texture_chain *chain, double weight)
+{
+    struct colour *c = user;
+    const struct job *job = c->t->job;
+    struct rgb filter = rgb_gray((float)weight);
+    for (uint32_t i = x->layer_count; i-- > 0;) {
+        struct layer l;
+        layer_eval(c->t, v, &x->layer[i], at, chain, false, &l);
+        const struct finish *f = l.finish;
+        const struct rgb own =
+            rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission);
+        const struct rgb paint = rgb_mul(l.color, rgb_scale(l.att, filter));
+        c->emission = rgb_add(c->emission, rgb_mul(paint, own));
+        if (!l.found)
+            continue;
+        c->reflectance = rgb_add(c->reflectance, rgb_scale(f->diffuse, paint));
+        filter = rgb_mul(filter, l.pass);
+    }
+}
+
+static float limited(float v, float most) { return v > 0 ? (v < most ? v : most) : 0; }
+
+void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
+                  struct rgb *reflectance, struct rgb *emission)
+{
+    // A surface that gives back more than it gets has no solution.
+    static const float most = 0.999f;
+    struct colour c = {.t = t};
+    struct interaction at;
+    struct surface_view view;
+    arena_reset(t->arena);
+    trace_interaction(t->job->world, ray, hit, &at);
+    surface_view_init(&view, &at, ray->d);
+    texture_walk(t, &view, colour_plain, &c);
+    *reflectance = rgb(limited(c.reflectance.r, most), limited(c.reflectance.g, most),
+                       limited(c.reflectance.b, most));
+    *emission = rgb(limited(c.emission.r, INFINITY), limited(c.emission.g, INFINITY),
+                    limited(c.emission.b, INFINITY));
+}
+
+// ---- lookups -----------------------------------------------------------------------
+static uint32_t cell_at(const struct patches *p, const struct chart *c, double u,
+                        double v)
+{
+    uint32_t iu = (uint32_t)(u * c->nu), iv = (uint32_t)(v * c->nv);
+    iu = iu < c->nu ? iu : c->nu - 1;
+    iv = iv < c->nv ? iv : c->nv - 1;
+    uint32_t i = c->first_cell + iv * c->nu + iu;
+    while (p->cell[i].child) {
+        const struct cell *x = &p->cell[i];
+        i = x->child + (u >= x->u + x->du / 2 ? 1 : 0) + (v >= x->v + x->dv / 2 ? 2 : 0);
+    }
+    return i;
+}
+
+struct place {
+    const struct chart *chart;
+    double u, v;
+    int side;
+};
+
+static bool place_of(const struct patches *p, const struct ray *ray,
+                     const struct hit *hit, struct place *out)
+{
+    const struct world *w = p->job->world;
+    const uint32_t leaf = hit->b.leaf, first = p->leaf_first[leaf];
+    struct interaction at;
+    trace_interaction(w, ray, hit, &at);
+    const uint32_t count = p->leaf_first[leaf + 1] - first;
+    const uint32_t k = leaf_chart_of(w, p->chart + first, count, &hit->b, at.p);
+    if (k >= count)
+        return false;
+    out->chart = &p->chart[first + k];
+    if (!out->chart->nu)
+        return false;
+    chart_locate(out->chart, &w->leaf[leaf], at.p, &out->u, &out->v);
+    out->side = vec3_dot(at.ng, ray->d) > 0;
+    return true;
+}
+
+// Steps to the neighbours, bit by bit of patches->neighbours.
+static const int steps[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
+                                {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
+
+// The element at a place; where sampling missed a sliver of surface, one beside it.
+static uint32_t element_near(const struct patches *p, const struct place *at)
+{
+    const struct cell *c = &p->cell[cell_at(p, at->chart, at->u, at->v)];
+    if (c->element[at->side] != ELEMENT_NONE)
+        return c->element[at->side];
+    for (int k = 0; k < 8; k++) {
+        double u = at->u + steps[k][0] * c->du, v = at->v + steps[k][1] * c->dv;
+        if (at->chart->wrap)
+            u -= floor(u);
+        if (u < 0 || u > 1 || v < 0 || v > 1)
+            continue;
+        const uint32_t e = p->cell[cell_at(p, at->chart, u, v)].element[at->side];
+        if (e != ELEMENT_NONE)
+            return e;
+    }
+    return ELEMENT_NONE;
+}
+
+uint32_t patch_of_hit(const struct patches *p, const struct ray *ray,
+                      const struct hit *hit)
+{
+    struct place at;
+    if (!place_of(p, ray, hit, &at))
+        return ELEMENT_NONE;
+    return element_near(p, &at);
+}
+
+static int step_number(int su, int sv)
+{
+    const int k = (sv + 1) * 3 + su + 1;
+    return k < 4 ? k : k - 1;
+}
+
+static uint32_t neighbour(const struct patches *p, uint32_t element, int su, int sv)
+{
+    const struct cell *c = &p->cell[p->element_cell[element] / 2];
+    const struct chart *chart = &p->chart[c->chart];
+    double u = c->u + c->du * (.5 + su), v = c->v + c->dv * (.5 + sv);
+    if (chart->wrap)
+        u -= floor(u);
+    if (u < 0 || u > 1 || v < 0 || v > 1)
+        return ELEMENT_NONE;
+    return p->cell[cell_at(p, chart, u, v)].element[p->element_cell[element] & 1];
+}
+
+uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k)
+{
+    if (!((p->neighbours[element] >> k) & 1))
+        return ELEMENT_NONE;
+    return neighbour(p, element, steps[k][0], steps[k][1]);
+}
+
+uint32_t patch_around(const struct patches *p, const struct ray *ray,
+                      const struct hit *hit, uint32_t element[4], double weight[4])
+{
+    struct place at;
+    if (!place_of(p, ray, hit, &at))
+        return 0;
+    const uint32_t own = element_near(p, &at);
+    if (own == ELEMENT_NONE)
+        return 0;
+    const struct cell *c = &p->cell[p->element_cell[own] / 2];
+    const double x = (at.u - c->u) / c->du - .5, y = (at.v - c->v) / c->dv - .5;
+    const int su = x < 0 ? -1 : 1, sv = y < 0 ? -1 : 1;
+    const double fx = fabs(x), fy = fabs(y);
+    const int step[4][2] = {{0, 0}, {su, 0}, {0, sv}, {su, sv}};
+    const double share[4] = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
+    uint32_t n = 0;
+    double sum = 0;
+    for (int k = 0; k < 4; k++) {
+        uint32_t e = own;
+        if (k) {
+            if (!((p->neighbours[own] >> step_number(step[k][0], step[k][1])) & 1))
+                continue;
+            e = neighbour(p, own, step[k][0], step[k][1]);
+        }
+        if (e == ELEMENT_NONE)
+            continue;
+        element[n] = e;
+        // Small elements are less sure of their light.
+        weight[n] = share[k] * p->element[e].area;
+        sum += weight[n++];
+    }
+    for (uint32_t k = 0; k < n; k++)
+        weight[k] = sum > 0 ? weight[k] / sum : 1.0 / n;
+    return n;
+}
+
+// ---- the enclosure -----------------------------------------------------------------
+struct of_thread {
+    const struct patches *p;
+    struct trace_scratch *scratch;
+    struct hit *hit;
+};
+
+enum { ENCLOSURE_BATCH = 1024 };
+
+static void *thread_begin(void *user)
+{
+    struct of_thread *t = calloc(1, sizeof *t);
+    if (!t)
+        abort();
+    t->p = user;
+    t->scratch = trace_scratch_new(t->p->job->world);
+    t->hit = calloc(ENCLOSURE_BATCH, sizeof *t->hit);
+    if (!t->hit)
+        abort();
+    return t;
+}
+
+static void thread_end(void *state)
+{
+    struct of_thread *t = state;
+    trace_scratch_free(t->scratch);
+    free(t->hit);
+    free(t);
+}
+
+static bool point(void *state, uint32_t element, double u, double v,
+                  struct element_point *out)
+{
+    const struct of_thread *t = state;
+    const struct patches *p = t->p;
+    const struct cell *c = &p->cell[p->element_cell[element] / 2];
+    const int side = p->element_cell[element] & 1;
+    const struct chart *chart = &p->chart[c->chart];
+    if (p->element[element].partial) {
+        const struct patch_probe probe = {t->scratch, p};
+        struct hit hit;
+        struct ray ray;
+        return patch_point(&probe, c, side, u, v, out, &hit, &ray);
+    }
+    // Whole: no ray is needed to know the point.
+    static const double rounding = 0x1p-42; // above that of any hit
+    const struct leaf *l = &p->job->world->leaf[chart->leaf];
+    if (!chart_point(chart, l, c->u + u * c->du, c->v + v * c->dv, &out->p, &out->normal))
+        return false;
+    if (l->inverted != (side == 1))
+        out->normal = vec3_neg(out->normal);
+    out->error = rounding * (vec3_max_abs(out->p) + vec3_max_abs(l->transform->offset) +
+                             vec3_max_abs(chart->o) + chart->r1 + chart->length +
+                             vec3_max_abs(chart->a) + vec3_max_abs(chart->b));
+    return true;
+}
+
+static bool may_hide(void *state, uint32_t a, uint32_t b)
+{
+    const struct of_thread *t = state;
+    return patches_may_hide(t->p, a, b);
+}
+
+static void occluded(void *state, const struct ray_batch *rays, uint8_t *out)
+{
+    struct of_thread *t = state;
+    for (uint32_t i = 0; i < rays->count; i++)
+        rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
+    trace_occluded(t->p->job->world, t->scratch, rays, out);
+}
+
+static void closest(void *state, const struct ray_batch *rays, uint32_t *out)
+{
+    struct of_thread *t = state;
+    for (uint32_t i = 0; i < rays->count; i++)
+        rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
+    trace_closest(t->p->job->world, t->scratch, rays, t->hit);
+    for (uint32_t i = 0; i < rays->count; i++) {
+        const struct ray ray = {vec3(rays->o[0][i], rays->o[1][i], rays->o[2][i]),
+                                vec3(rays->d[0][i], rays->d[1][i], rays->d[2][i]), 0,
+                                INFINITY};
+        out[i] = t->hit[i].b.t < INFINITY ? patch_of_hit(t->p, &ray, &t->hit[i])
+                                          : ELEMENT_NONE;
+    }
+}
+
+// An existing point of an element near its middle.
+static bool middle(struct of_thread *t, uint32_t element, struct element_point *out)
+{
+    enum { TRIES = 32 };
+    if (point(t, element, .5, .5, out))
+        return true;
+    for (uint32_t k = 0; k < TRIES; k++) {
+        double x[4];
+        sobol_point(k, element, x);
+        if (point(t, element, x[0], x[1], out))
+            return true;
+    }
+    return false;
+}
+
+static void find_neighbours(void *user, void *state, uint32_t begin, uint32_t end)
+{
+    struct patches *p = user;
+    struct of_thread *t = state;
+    for (uint32_t i = begin; i < end; i++) {
+        struct element_point from, to;
+        if (!middle(t, i, &from))
+            continue;
+        // Lifted, so that the way between two points of a hollow surface is free.
+        const double lift = .05 * sqrt(p->element[i].area);
+        from.p = vec3_mad(from.p, lift, from.normal);
+        for (int k = 0; k < 8; k++) {
+            const uint32_t j = neighbour(p, i, steps[k][0], steps[k][1]);
+            if (j == ELEMENT_NONE || !middle(t, j, &to))
+                continue;
+            to.p = vec3_mad(to.p, lift, to.normal);
+            const struct vec3 o = point_lifted(&from);
+            const struct ray_query q = {{o, vec3_sub(point_lifted(&to), o), 0, 1},
+                                        OBJECT_NO_RADIOSITY};
+            if (!trace_occluded_1(p->job->world, t->scratch, &q))
+                p->neighbours[i] |= (uint8_t)(1u << k);
+        }
+    }
+}
+
+static void *neighbours_begin(void *user) { return thread_begin(user); }
+
+static void neighbours_end(void *user, void *state)
+{
+    (void)user;
+    thread_end(state);
+}
+
+void patches_enclosure(struct patches *p)
+{
+    p->enclosure = (struct enclosure){.element = p->element,
+                                      .count = p->element_count,
+                                      .user = p,
+                                      .thread_begin = thread_begin,
+                                      .thread_end = thread_end,
+                                      .point = point,
+                                      .may_hide = may_hide,
+                                      .occluded = occluded,
+                                      .closest = closest};
+}
+
+void patches_neighbours(struct patches *p)
+{
+    p->neighbours = calloc(p->element_count + 1, 1);
+    if (!p->neighbours)
+        abort();
+    const struct parallel run = {.threads = p->settings.threads,
+                                 .piece = 64,
+                                 .user = p,
+                                 .begin = neighbours_begin,
+                                 .end = neighbours_end,
+                                 .work = find_neighbours};
+    parallel_run(&run, p->element_count);
+}

@@ -1,0 +1,91 @@
+#ifndef RADIOSITY_PATCHES_H
+#define RADIOSITY_PATCHES_H
+
+#include "radiosity/chart.h"
+#include "radiosity/enclosure.h"
+#include "trace/job.h"
+
+struct tracer;
+
+// The elements of a scene: cells of charts on the exact surfaces. A point belongs to an
+// element when a ray finds it on the scene's surface and the space before it is one that
+// light can be in.
+struct patch_settings {
+    double size;  // longest side of a cell; 0: from `count`
+    double count; // elements wanted, about
+    int samples;  // along a side of a cell, for area and colour
+    int depth;    // how often cells that exist in part are quartered
+    int threads;
+};
+extern const struct patch_settings patch_defaults;
+
+// A rectangle of a chart's square.
+struct cell {
+    double u, v, du, dv;
+    uint32_t chart;
+    uint32_t child;      // first of four; 0: none
+    uint32_t element[2]; // on the outer and inner side; ELEMENT_NONE: none
+};
+
+// The box of an element, and the objects (bits) that cannot hide anything from it
+// within their hollow.
+enum { SHAFT_OBJECTS = 64 };
+struct shaft {
+    struct vec3 centre, half;
+    uint64_t hollow;
+};
+
+struct patches {
+    const struct job *job;
+    struct patch_settings settings;
+    struct chart *chart;
+    uint32_t chart_count;
+    uint32_t *leaf_first; // charts of leaf l: leaf_first[l] up to leaf_first[l + 1]
+    struct cell *cell;
+    uint32_t cell_count, cell_capacity;
+    struct element *element;
+    uint32_t *element_cell; // cell of an element; the side is the lowest bit
+    uint8_t *neighbours;    // bit k: neighbour k is seen from the element (patch_seen)
+    uint32_t element_count, element_capacity;
+    uint32_t *room; // objects in which light can be
+    uint32_t room_count;
+    struct shaft *shaft; // NULL: too many objects
+    double size;         // of cells
+    struct enclosure enclosure;
+};
+
+// NULL: the scene has no surface that could take part.
+struct patches *patches_build(const struct job *job, const struct patch_settings *s);
+void patches_free(struct patches *p);
+
+// The element a ray ran into; ELEMENT_NONE: none.
+uint32_t patch_of_hit(const struct patches *p, const struct ray *ray,
+                      const struct hit *hit);
+// Elements around a hit and how much each counts there (bilinear within one chart, none
+// that the hit's own element does not see). Returns how many, at most 4; 0: no element.
+uint32_t patch_around(const struct patches *p, const struct ray *ray,
+                      const struct hit *hit, uint32_t element[4], double weight[4]);
+
+// The neighbour of an element in direction k, 0 to 7; ELEMENT_NONE: none that it sees.
+uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k);
+
+// ---- between the parts ---------------------------------------------------
+// Whether the element's point at (u, v) of its cell's square exists, and where.
+struct patch_probe {
+    struct trace_scratch *scratch;
+    const struct patches *p;
+};
+bool patch_point(const struct patch_probe *probe, const struct cell *c, int side,
+                 double u, double v, struct element_point *out, struct hit *hit,
+                 struct ray *ray);
+// Reflectance and emission at a hit, as the picture has them.
+void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
+                  struct rgb *reflectance, struct rgb *emission);
+void patches_enclosure(struct patches *p);
+void patches_neighbours(struct patches *p);
+void patches_shafts(struct patches *p);
+bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b);
+// Drops elements that no light can reach on its way to the camera.
+void patches_prune(struct patches *p);
+
+#endif

@@ -1,0 +1,255 @@
+#include "radiosity/radiosity.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "radiosity/ray_put.h"
+#include "radiosity/sequence.h"
+
+const struct radiosity_options radiosity_defaults = {
+    .patches = {.count = 2000, .samples = 3, .depth = 2},
+    .factors = {.method = "analytic",
+                .points = 3,
+                .tolerance = 1e-3,
+                .depth = 4,
+                .shadow_rays = 8,
+                .rays = 4096,
+                .resolution = 128},
+    .solver = {.solver = "auto",
+               .tolerance = 1e-2,
+               .ambient = true,
+               .overshoot = true,
+               .link_error = 1e-3},
+    .lamp_rays = 4,
+};
+
+enum { DENSE_MOST = 500 }; // elements up to which `auto` stores the matrix
+static const double gib = 1073741824.0;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double memory_limit(const struct radiosity_options *s)
+{
+    if (s->memory > 0)
+        return s->memory;
+    const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    return pages > 0 && size > 0 ? (double)pages * (double)size / 2 : 4 * gib;
+}
+
+// Whether no ray from the elements leaves the scene, of `points`; few may be lost to
+// slivers that are no part of an element.
+static bool is_closed(const struct patches *p, int points)
+{
+    const struct enclosure *e = &p->enclosure;
+    void *state = e->thread_begin(e->user);
+    struct ray_batch *rays = ray_batch_new(1024);
+    uint32_t *met = solver_alloc(1024, sizeof *met), escaped = 0;
+    const uint32_t n = e->count, few = (uint32_t)points / 1000;
+    for (uint32_t k = 0; k < (uint32_t)points && escaped <= few;) {
+        for (rays->count = 0; rays->count < 1024 && k < (uint32_t)points; k++) {
+            struct element_point from;
+            double x[4];
+            random_point(k, 99, x);
+            if (e->point(state, (uint32_t)((uint64_t)k * 2654435761u % n), x[0], x[1],
+                         &from))
+                ray_put(rays, &from, cosine_direction(from.normal, x[2], x[3]), INFINITY);
+        }
+        e->closest(state, rays, met);
+        for (uint32_t i = 0; i < rays->count; i++)
+            escaped += met[i] == ELEMENT_NONE;
+    }
+    free(met);
+    ray_batch_free(rays);
+    e->thread_end(state);
+    return escaped <= few;
+}
+
+static const char *solver_for(const struct radiosity_options *s, uint32_t n)
+{
+    if (strcmp(s->solver.solver, "auto") != 0)
+        return s->solver.solver;
+    return n <= DENSE_MOST && factors_bytes(n) <= memory_limit(s) ? "gauss-seidel"
+                                                                  : "stochastic";
+}
+
+// Bytes a solver takes besides the elements.
+static double bytes_needed(const char *solver, uint32_t n)
+{
+    const enum solver_kind k = solver_find(solver);
+    double bytes = 600.0 * n;
+    if (solver_needs_matrix(k))
+        bytes += factors_bytes(n);
+    if (k == SOLVER_elimination)
+        bytes += (double)n * n * sizeof(double);
+    return bytes;
+}
+
+bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
+{
+    const struct enclosure *e = &r->patches->enclosure;
+    const uint32_t n = e->count;
+    struct solver_settings solver = r->settings.solver;
+    struct radiosity_report *report = &r->report;
+    struct factors f = {0};
+    struct radiosity_system system = {
+        .e = e, .lamps = (const double(*)[3])r->lamps, .factors = &r->settings.factors};
+    solver.solver = solver_for(&r->settings, n);
+    const double need = bytes_needed(solver.solver, n),
+                 limit = memory_limit(&r->settings);
+    if (need > limit) {
+        snprintf(error, error_size,
+                 "solver '%s' needs %.1f GiB for %u patches, %.1f GiB may be taken; "
+                 "'stochastic' needs %.1f GiB",
+                 solver.solver, need / gib, n, limit / gib,
+                 bytes_needed("stochastic", n) / gib);
+        return false;
+    }
+    report->solver = solver.solver;
+    report->method = r->settings.factors.method;
+    report->closed = r->settings.closure != CLOSURE_REPORT && is_closed(r->patches, 4096);
+    if (solver_needs_matrix(solver_find(solver.solver))) {
+        if (!factors_compute(&f, e, &r->settings.factors)) {
+            snprintf(error, error_size, "no memory for %.1f GiB of form factors",
+                     factors_bytes(n) / gib);
+            return false;
+        }
+        report->row_sum_least = f.row_sum_least;
+        report->row_sum_most = f.row_sum_most;
+        report->asymmetry = f.asymmetry;
+        if (r->settings.closure == CLOSURE_ENFORCE ||
+            (r->settings.closure == CLOSURE_AUTO && report->closed))
+            factors_balance(&f, e);
+        else if (!f.symmetric)
+            factors_symmetrize(&f, e);
+        report->balanced = f.balanced;
+        system.f = &f;
+    }
+    const bool ok = radiosity_solve(&r->solution, &system, &solver);
+    report->rays += f.rays + r->solution.rays;
+    report->links = r->solution.links;
+    report->steps = r->solution.steps;
+    report->bytes = need;
+    report->defect = r->solution.defect;
+    report->error = r->solution.error;
+    report->converged = r->solution.converged;
+    factors_free(&f);
+    if (!ok)
+        snprintf(error, error_size, "no memory for %u patches", n);
+    return ok;
+}
+
+// Few emitters are lit exactly per pixel, many by the mesh.
+static void find_emitters(struct radiosity *r)
+{
+    const struct patches *p = r->patches;
+    uint32_t count = 0;
+    r->emitter = solver_alloc(p->element_count, sizeof *r->emitter);
+    for (uint32_t i = 0; i < p->element_count; i++)
+        if (rgb_max(p->element[i].emission) > 0)
+            r->emitter[count++] = i;
+    const bool exact = r->settings.emitters != EMITTERS_MESH && count <= EMITTERS_MOST;
+    r->emitter_count = exact ? count : 0;
+}
+
+// Slivers where surfaces cut each other meet few rays: they are shown as the mean of
+// themselves and the neighbours they see, by area.
+static void find_shown(struct radiosity *r)
+{
+    static const double small = .5; // of a whole cell
+    const struct patches *p = r->patches;
+    const uint32_t n = p->element_count;
+    const double cell = p->size * p->size;
+    double(*h)[3] = solver_alloc(n, sizeof *h);
+    r->shown = solver_alloc(n, sizeof *r->shown);
+    for (uint32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++)
+            h[i][c] = r->solution.h[i][c] -
+                      (r->emitter_count ? r->solution.h_emitted[i][c] : 0);
+    for (uint32_t i = 0; i < n; i++) {
+        double area = p->element[i].area, sum[3];
+        for (int c = 0; c < 3; c++)
+            sum[c] = area * h[i][c];
+        for (int k = 0; k < 8 && p->element[i].area < small * cell; k++) {
+            const uint32_t j = patch_neighbour(p, i, k);
+            if (j == ELEMENT_NONE)
+                continue;
+            area += p->element[j].area;
+            for (int c = 0; c < 3; c++)
+                sum[c] += p->element[j].area * h[j][c];
+        }
+        for (int c = 0; c < 3; c++)
+            r->shown[i][c] = sum[c] > 0 ? sum[c] / area : 0;
+    }
+    free(h);
+}
+
+void radiosity_level_free(struct radiosity *r)
+{
+    solution_free(&r->solution);
+    free(r->lamps);
+    r->lamps = NULL;
+    patches_free(r->patches);
+    r->patches = NULL;
+}
+
+static bool single_level(struct radiosity *r, const struct job *job, const char *saved,
+                         char *error, size_t error_size)
+{
+    r->patches = patches_build(job, &r->settings.patches);
+    if (!r->patches || !r->patches->element_count) {
+        snprintf(error, error_size, "no surface of the scene can be cut into patches");
+        return false;
+    }
+    r->lamps = solver_alloc(r->patches->element_count, sizeof *r->lamps);
+    lamps_gather(r->patches, r->settings.lamp_rays, r->settings.solver.threads, r->lamps);
+    r->key = radiosity_key(r);
+    if (saved) {
+        r->report.loaded = radiosity_load(r, saved, error, error_size);
+        return r->report.loaded;
+    }
+    return radiosity_level(r, error, error_size);
+}
+
+struct radiosity *radiosity_new(const struct job *job,
+                                const struct radiosity_options *settings,
+                                const char *saved, char *error, size_t error_size)
+{
+    struct radiosity *r = calloc(1, sizeof *r);
+    const double start = now();
+    if (!r)
+        abort();
+    r->settings = *settings;
+    r->report.error = -1;
+    const bool ok = settings->error > 0 && !saved
+                        ? radiosity_to_error(r, job, error, error_size)
+                        : single_level(r, job, saved, error, error_size);
+    if (!ok) {
+        radiosity_free(r);
+        return NULL;
+    }
+    if (!r->report.levels)
+        r->report.levels = 1;
+    r->report.elements = r->patches->element_count;
+    r->report.seconds = now() - start;
+    find_emitters(r);
+    find_shown(r);
+    return r;
+}
+
+void radiosity_free(struct radiosity *r)
+{
+    if (!r)
+        return;
+    radiosity_level_free(r);
+    free(r->emitter);
+    free(r->shown);
+    free(r);
+}

@@ -1,0 +1,137 @@
+// Which objects can come between two elements: most pairs of a scene need no ray.
+#include <stdlib.h>
+
+#include "radiosity/parallel.h"
+#include "radiosity/patches.h"
+#include "scene/shape.h"
+
+// A convex leaf that is cut out of its object: between two points inside of it the object
+// is never met.
+static const struct leaf *hollow_of(const struct world *w, const struct world_object *o)
+{
+    if (!o->is_csg || w->node[o->root].op != NODE_INTERSECTION)
+        return NULL;
+    const struct csg_node *root = &w->node[o->root];
+    for (uint32_t i = 0; i < root->child_count; i++) {
+        const struct csg_node *n = &w->node[root->first_child + i];
+        if (n->op != NODE_LEAF)
+            continue;
+        const struct leaf *l = &w->leaf[n->leaf];
+        if (l->inverted && l->solid && (l->ops->flags & SHAPE_CONVEX))
+            return l;
+    }
+    return NULL;
+}
+
+// Inside the closed shape, up to rounding: towards the middle of its bounds.
+static bool inside_closed(const struct leaf *l, struct vec3 p)
+{
+    static const double inwards = 1e-7;
+    const struct vec3 middle = vec3_scale(.5, vec3_add(l->bounds.min, l->bounds.max));
+    if (aabb_is_finite(l->bounds))
+        p = vec3_mad(p, inwards, vec3_sub(middle, p));
+    return l->ops->inside(l->shape, transform_inverse_point(l->transform, p));
+}
+
+static void element_shaft(struct patches *p, uint32_t i)
+{
+    const struct world *w = p->job->world;
+    const struct element *e = &p->element[i];
+    const struct cell *c = &p->cell[p->element_cell[i] / 2];
+    const struct chart *chart = &p->chart[c->chart];
+    const struct leaf *own = &w->leaf[chart->leaf];
+    struct shaft *s = &p->shaft[i];
+    struct aabb box = aabb_empty();
+    for (uint32_t k = 0; k < e->corner_count; k++)
+        box = aabb_add(box, e->corner[k]);
+    if (e->curved) {
+        // Room for what bulges over the corners: measured at the middle, doubled.
+        struct vec3 middle, n;
+        double bulge = 0;
+        if (chart_point(chart, own, c->u + c->du / 2, c->v + c->dv / 2, &middle, &n)) {
+            struct vec3 sum = {0, 0, 0};
+            for (uint32_t k = 0; k < 4; k++)
+                sum = vec3_mad(sum, .25, e->corner[k]);
+            bulge = 2 * vec3_length(vec3_sub(middle, sum));
+        }
+        box.min = vec3_sub(box.min, vec3(bulge, bulge, bulge));
+        box.max = vec3_add(box.max, vec3(bulge, bulge, bulge));
+    }
+    s->centre = vec3_scale(.5, vec3_add(box.min, box.max));
+    s->half = vec3_scale(.5, vec3_sub(box.max, box.min));
+    for (uint32_t o = 0; o < w->object_count; o++) {
+        const struct leaf *l = hollow_of(w, &w->object[o]);
+        if (!l)
+            continue;
+        bool within = true;
+        for (uint32_t k = 0; l != own && within && k < e->corner_count; k++)
+            within = inside_closed(l, e->corner[k]);
+        if (within && (l == own || inside_closed(l, e->centre)))
+            s->hollow |= (uint64_t)1 << o;
+    }
+}
+
+static void shafts(void *user, void *state, uint32_t begin, uint32_t end)
+{
+    (void)state;
+    for (uint32_t i = begin; i < end; i++)
+        element_shaft(user, i);
+}
+
+void patches_shafts(struct patches *p)
+{
+    if (p->job->world->object_count > SHAFT_OBJECTS)
+        return;
+    p->shaft = calloc(p->element_count + 1, sizeof *p->shaft);
+    if (!p->shaft)
+        abort();
+    const struct parallel run = {
+        .threads = p->settings.threads, .piece = 256, .user = p, .work = shafts};
+    parallel_run(&run, p->element_count);
+}
+
+// Cuts [t0, t1] down to where a + t (b - a) < 0; false: nowhere.
+static bool clip(double a, double b, double *t0, double *t1)
+{
+    if (a >= 0 && b >= 0)
+        return false;
+    if (a >= 0)
+        *t0 = fmax(*t0, a / (a - b));
+    else if (b >= 0)
+        *t1 = fmin(*t1, a / (a - b));
+    return *t0 < *t1;
+}
+
+// Whether the box between the boxes of both elements, moved from one to the other, runs
+// into the object's: it holds every way from one to the other.
+static bool sweeps_into(const struct shaft *a, const struct shaft *b,
+                        const struct aabb *o)
+{
+    double t0 = 0, t1 = 1;
+    for (int k = 0; k < 3; k++) {
+        const double ca = vec3_axis(a->centre, k), cb = vec3_axis(b->centre, k);
+        const double ha = vec3_axis(a->half, k), hb = vec3_axis(b->half, k);
+        const double low = vec3_axis(o->min, k), high = vec3_axis(o->max, k);
+        // Bounds are padded; what only touches does not hide.
+        const double pad = 1e-9 * (fabs(low) + fabs(high) + fabs(ca) + fabs(cb));
+        if (!clip(ca - ha - high + pad, cb - hb - high + pad, &t0, &t1) ||
+            !clip(low + pad - ca - ha, low + pad - cb - hb, &t0, &t1))
+            return false;
+    }
+    return true;
+}
+
+bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
+{
+    const struct world *w = p->job->world;
+    if (!p->shaft)
+        return true;
+    const uint64_t free = p->shaft[a].hollow & p->shaft[b].hollow;
+    for (uint32_t o = 0; o < w->object_count; o++) {
+        if ((free >> o) & 1 || (w->object[o].flags & OBJECT_NO_RADIOSITY))
+            continue;
+        if (sweeps_into(&p->shaft[a], &p->shaft[b], &w->object[o].bounds))
+            return true;
+    }
+    return false;
+}

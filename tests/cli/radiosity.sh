@@ -1,0 +1,72 @@
+#!/bin/sh
+# Radiosity from the command line and from the scene: settings, files, messages.
+. "${top_srcdir:-.}/tests/cli/common.sh"
+
+cat >room.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+#macro M(Rho, E) texture { pigment { rgb 1 } finish { ambient 0 diffuse Rho emission E } } #end
+camera { location <.5, .5, .5> look_at <.5, .5, 1> }
+difference { box { -1, 2 } box { 0, 1 } M(.5, .25) }
+END
+sed 's/^global_settings.*/&\n#ifdef(lambert) #declare lambert_gi = "radiosity";\n#declare lambert_gi_patches = 24; #end/' \
+  room.pov >asks.pov
+sed 's/gi_patches = 24/gi_patches = "many"/' asks.pov >wrong.pov
+
+render() { exits 0 "$lambert" "$@" +W8 +H8 +FP --bits=16 File_Gamma=1.0; }
+# The first sample of the picture in 1/65535.
+first() { tail -c 384 "$1" | od -An -N2 -tu1 | awk '{print 256 * $1 + $2}'; }
+dark() { render room.pov -o dark.ppm -q && test "$(first dark.ppm)" = 16384; }
+check "without it the walls have what they give off" dark
+solved() { render room.pov -o lit.ppm --gi=radiosity --gi-patches=24 && has err 'radiosity: .* patches, analytic, gauss-seidel' &&
+  value=$(first lit.ppm) && test "$value" -gt 32440 && test "$value" -lt 33096; }
+check "with it twice as much, and the report says how" solved
+scene() { render asks.pov -o scene.ppm && cmp -s lit.ppm scene.ppm; }
+check "the scene may ask for it" scene
+line() { render asks.pov -o off.ppm --gi=none && cmp -s dark.ppm off.ppm; }
+check "the command line wins over the scene" line
+ini() { printf 'GI=radiosity\nGI_Patches=24\n' >gi.ini && render room.pov gi.ini -o ini.ppm && cmp -s lit.ppm ini.ppm; }
+check "an INI file may ask for it" ini
+wrong() { exits 64 "$lambert" wrong.pov +W8 +H8 && has err "'many' is no value for --gi-patches"; }
+check "a wrong value in the scene is an error" wrong
+threads() { render asks.pov -o one.ppm +WT1 --gi-solver=stochastic --gi-rays=20000 && render asks.pov -o two.ppm +WT3 --gi-solver=stochastic --gi-rays=20000 && cmp -s one.ppm two.ppm; }
+check "the same picture for any number of threads" threads
+
+save() { render asks.pov -o saved.ppm --gi-save=room.rad && cmp -s lit.ppm saved.ppm; }
+check "a solution is saved" save
+load() { render asks.pov -o loaded.ppm --gi-load=room.rad && has err 'read from a file' && cmp -s lit.ppm loaded.ppm; }
+check "and used again" load
+sed 's/look_at <.5, .5, 1>/look_at <.5, 1, .6>/' asks.pov >turned.pov
+turned() { render turned.pov -o turned.ppm --gi-load=room.rad && value=$(first turned.ppm) && test "$value" -gt 32440; }
+check "also by another camera" turned
+sed 's/M(.5, .25)/M(.5, .3)/' asks.pov >brighter.pov
+other() { exits 66 "$lambert" brighter.pov +W8 +H8 --gi-load=room.rad && has err 'another scene'; }
+check "not by another scene" other
+head -c 500 room.rad >cut.rad
+cut_off() { exits 66 "$lambert" asks.pov +W8 +H8 --gi-load=cut.rad && has err 'cut off'; }
+check "a damaged file is refused" cut_off
+echo precious >kept.rad
+nowhere() { exits 73 "$lambert" asks.pov +W8 +H8 --gi-save=no/such/folder/room.rad && has err 'cannot write'; }
+check "a file that cannot be written is said" nowhere
+
+ply() { render asks.pov -o p.ppm --gi-ply=room.ply && has room.ply '^element face' && has room.ply '^property float red'; }
+check "patches as polygons" ply
+aov() { render asks.pov -o p.ppm --gi-aov=room.exr && test -s room.exr; }
+check "patches as a picture" aov
+method() { render asks.pov -o m.ppm --gi-emitters=mesh --gi-method="$1" --gi-solver="$2" --gi-factor-rays=64 --gi-resolution=32 --gi-tolerance=.05 &&
+  value=$(first m.ppm) && test "$value" -gt 30000 && test "$value" -lt 35500; }
+for m in analytic area disc hemicube rays sobol; do
+  check "form factors by $m" method $m gauss-seidel
+done
+for s in elimination jacobi gauss-seidel shooting cg stochastic hierarchical; do
+  check "solved by $s" method analytic $s
+done
+gather() { render asks.pov -o g.ppm --gi-gather=16 && ! cmp -s lit.ppm g.ppm; }
+check "a final gathering" gather
+target() { render asks.pov -o e.ppm --error=10% && has err 'error about'; }
+check "an error target" target
+bad_target() { exits 64 "$lambert" asks.pov +W8 +H8 --error=much && has err "'much' is no value for --error"; }
+check "a bad error target" bad_target
+memory() { exits 1 "$lambert" asks.pov +W8 +H8 --gi-patches=600 --gi-solver=elimination --gi-memory=1 && has err "'stochastic'"; }
+check "what does not fit says what does" memory
+finish

@@ -1,0 +1,419 @@
+// Whole scenes with exact solutions, from the language to radiosities.
+#include "test.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "api/context.h"
+#include "base/arena.h"
+#include "radiosity/radiosity.h"
+
+struct scene_run {
+    struct lambert_context *ctx;
+    struct arena *arena;
+    struct job job;
+    struct radiosity *r;
+};
+
+#define HEAD                                                                             \
+    "#version 3.7; global_settings { assumed_gamma 1 }\n"                                \
+    "#macro M(Rho, E) texture { pigment { rgb 1 }"                                       \
+    " finish { ambient 0 diffuse Rho emission E } } #end\n"
+
+static struct scene_run solve(const char *text, const struct radiosity_options *options)
+{
+    struct scene_run s = {.ctx = lambert_context_new(), .arena = arena_new(4096)};
+    char path[] = "/tmp/lambert-radiosity-XXXXXX", error[512] = "";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_true(write(file, text, strlen(text)) == (ssize_t)strlen(text));
+    close(file);
+    const enum lambert_status status = lambert_load_file(s.ctx, path);
+    unlink(path);
+    if (status != LAMBERT_OK)
+        fail_msg("%s: %s", lambert_error(s.ctx), text);
+    job_init(&s.job, s.arena, s.ctx->world, &render_settings_default);
+    s.r = radiosity_new(&s.job, options, NULL, error, sizeof error);
+    if (!s.r)
+        fail_msg("%s", error);
+    return s;
+}
+
+static void run_free(struct scene_run *s)
+{
+    radiosity_free(s->r);
+    arena_free(s->arena);
+    lambert_context_free(s->ctx);
+}
+
+static struct radiosity_options with(double patches, const char *solver)
+{
+    struct radiosity_options o = radiosity_defaults;
+    o.patches.count = patches;
+    o.solver.solver = solver;
+    return o;
+}
+
+struct mean {
+    double area, b, h, least, most;
+};
+
+// Over the elements for which `which` holds.
+static struct mean mean_of(const struct scene_run *s,
+                           bool (*which)(const struct element *))
+{
+    struct mean m = {.least = INFINITY, .most = -INFINITY};
+    const struct patches *p = s->r->patches;
+    for (uint32_t i = 0; i < p->element_count; i++) {
+        const struct element *e = &p->element[i];
+        if (which && !which(e))
+            continue;
+        const double b = s->r->solution.b[i][1];
+        m.area += e->area;
+        m.b += e->area * b;
+        m.h += e->area * s->r->solution.h[i][1];
+        m.least = fmin(m.least, b);
+        m.most = fmax(m.most, b);
+    }
+    m.b /= m.area;
+    m.h /= m.area;
+    return m;
+}
+
+static bool flat_up(const struct element *e) { return e->normal.z > .999 && !e->curved; }
+static bool curved(const struct element *e) { return e->curved; }
+
+// make check takes the short way; `make check-radiosity` all of it.
+static bool in_full(void) { return getenv("LAMBERT_RADIOSITY_FULL") != NULL; }
+
+// ---- S2: whatever is in a closed scene, B = 1 where E = 1 - rho ------------------------
+static const char *const furnaces[] = {
+    "difference { box { -2, 2 } box { -1, 1 M(.5, .5) } M(.5, .5) }",
+    "difference { sphere { 0, 3 } sphere { 0, 2 M(.7, .3) } M(.5, .5) }",
+    "difference { box { -2, 2 } box { -1, 1 M(.7, .3) } M(.5, .5) }"
+    "sphere { <.2, .1, -.2>, .5 M(.3, .7) }",
+    "difference { cylinder { -2*z, 2*z, 2 } cylinder { -z, z, 1 M(.9, .1) } M(.5, .5) }"
+    "box { <-.3, -.2, -.5>, <.1, .3, .2> rotate 20*x M(.2, .8) }",
+    "difference { box { -2, 2 } sphere { -.3*x, 1 M(.6, .4) } sphere { .5*x, .9 M(.1, "
+    ".9) }"
+    " M(.5, .5) }",
+    "difference { box { -3, 3 } box { -1, 1 M(.8, .2) } M(.5, .5) }"
+    "difference { sphere { <0, 0, -.3>, .6 M(.4, .6) } cylinder { -z, z, .2 M(.9, .1) }"
+    " box { <0, 0, -.3>, 2 M(.5, .5) } }",
+    "difference { box { -3, 3 } cone { -z, 1.2, z, .5 M(.3, .7) } M(.5, .5) }",
+    "difference { box { -3, 3 } box { -1, 1 M(.85, .15) } M(.5, .5) }"
+    "cone { <0, 0, -.9>, .5, <0, 0, .4>, 0 M(.45, .55) } disc { .6*z, z, .4 M(.25, .75) "
+    "}",
+    "difference { box { -3, 3 } box { -1, 1 M(.5, .5) } M(.5, .5) }"
+    "intersection { box { -.4, .4 M(.9, .1) } sphere { 0, .5 M(.2, .8) } rotate 30 }",
+    "difference { box { -3, 3 } box { -1, 1 M(.65, .35) } M(.5, .5) }"
+    "merge { sphere { -.2*x, .3 M(.35, .65) } cylinder { -.5*y, .5*y, .2 M(.75, .25) } }"
+    "triangle { <-.8, -.8, -.5>, <.8, -.8, -.5>, <0, .8, -.6> M(.55, .45) }",
+};
+static const char *const camera = "camera { location <.05, -.15, .75> look_at 0 }\n";
+
+static void furnace(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof furnaces / sizeof furnaces[0]; i++) {
+        if (!in_full() && i % 3 != 0)
+            continue;
+        char text[2048];
+        snprintf(text, sizeof text, HEAD "%s%s\n", camera, furnaces[i]);
+        struct radiosity_options o = with(in_full() ? 300 : 40, "gauss-seidel");
+        o.solver.tolerance = 1e-5;
+        struct scene_run s = solve(text, &o);
+        const struct mean m = mean_of(&s, NULL);
+        print_message("%zu: %u patches, %.6f to %.6f, rows %.3f to %.3f\n", i,
+                      s.r->report.elements, m.least, m.most, s.r->report.row_sum_least,
+                      s.r->report.row_sum_most);
+        assert_true(s.r->report.closed);
+        assert_near(m.least, 1, 1e-3);
+        assert_near(m.most, 1, 1e-3);
+        // Unscaled, by how much rows are off.
+        assert_true(s.r->report.row_sum_least > .6 && s.r->report.row_sum_most < 1.3);
+        run_free(&s);
+        o = with(40, "stochastic");
+        o.solver.rays = 20000;
+        s = solve(text, &o);
+        assert_near(mean_of(&s, NULL).b, 1, .02);
+        // Weak elements have a ray now and then: right in the mean.
+        assert_near(s.r->report.defect, 0, .02);
+        run_free(&s);
+    }
+}
+
+// ---- enclosures of spheres -------------------------------------------------------------
+#define CAMERA_Z "camera { location <.03, .02, .1> look_at <.03, .02, 1> }\n"
+
+static void caps(void **state)
+{
+    (void)state;
+    static const char *const solvers[] = {"gauss-seidel", "stochastic", "hierarchical"};
+    // S5 and S6: the part of a sphere above a plane, and the disc that closes it.
+    static const struct {
+        const char *text;
+        double dome, base;
+    } cases[] = {
+        {HEAD CAMERA_Z
+         "difference { box { -2, 2 } intersection { sphere { 0, 1 M(.8, 0) }"
+         " box { <-2, -2, 0>, 2 M(.5, 1) } } M(.5, 0) }",
+         1, 1.5},
+        {HEAD CAMERA_Z
+         "difference { box { -2, 2 } intersection { sphere { 0, 1 M(.6, 1) }"
+         " box { <-2, -2, -.5>, 2 M(.4, 0) } } M(.5, 0) }",
+         2.04081632653061224, 0.816326530612244898},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            if (!in_full() && i != k)
+                continue;
+            struct radiosity_options o = with(i ? 160 : 150, solvers[k]);
+            o.solver.tolerance = k == 1 ? .02 : 1e-4;
+            o.closure = k == 2 ? CLOSURE_AUTO : CLOSURE_ENFORCE;
+            struct scene_run s = solve(cases[i].text, &o);
+            const struct mean dome = mean_of(&s, curved), base = mean_of(&s, flat_up);
+            print_message("S%zu %s: %.5f %.5f, areas %.5f %.5f, %u patches\n", i + 5,
+                          solvers[k], dome.b, base.b, dome.area, base.area,
+                          s.r->report.elements);
+            const double off = k == 0 ? .005 : k == 1 ? .01 : .04;
+            assert_near(dome.b / cases[i].dome, 1, off);
+            assert_near(base.b / cases[i].base, 1, off);
+            // F14: elements cut by the edge have the area that exists.
+            assert_near(dome.area / (i ? 3 * 3.14159265 : 2 * 3.14159265), 1, 5e-3);
+            run_free(&s);
+        }
+    }
+}
+
+static bool outer(const struct element *e) { return vec3_dot(e->normal, e->centre) < 0; }
+static bool inner(const struct element *e) { return !outer(e); }
+
+static void concentric_s4(void **state)
+{
+    (void)state;
+    const char *text =
+        HEAD "camera { location 1.5*x look_at y }\n"
+             "sphere { 0, 1 M(.3, 1) }\n"
+             "difference { sphere { 0, 3 } sphere { 0, 2 M(.6, 0) } M(0, 0) }";
+    struct radiosity_options o = with(120, "stochastic");
+    o.solver.rays = 100000;
+    struct scene_run s = solve(text, &o);
+    const struct mean a = mean_of(&s, inner), b = mean_of(&s, outer);
+    print_message("S4: %.5f %.5f\n", a.b, b.b);
+    assert_near(a.b, 1.08910891089108911, .003);
+    assert_near(b.b, 0.29702970297029703, .003);
+    run_free(&s);
+}
+
+// ---- C4: discs ----------------------------------------------------------------------------
+static double near_radius(const struct scene_run *s, bool up, double low, double high)
+{
+    const struct patches *p = s->r->patches;
+    double sum = 0, area = 0;
+    for (uint32_t i = 0; i < p->element_count; i++) {
+        const struct element *e = &p->element[i];
+        const double r = hypot(e->centre.x, e->centre.y);
+        if ((e->normal.z > 0) != up || r < low || r > high)
+            continue;
+        sum += e->area * s->r->solution.b[i][0];
+        area += e->area;
+    }
+    return sum / area;
+}
+
+static void discs_c4(void **state)
+{
+    (void)state;
+    const char *text = HEAD "camera { location <0, 0, .5> look_at z }\n"
+                            "disc { 0, z, 1 M(.8, 1) } disc { z, z, 1 M(.8, 0) }";
+    struct radiosity_options o = with(in_full() ? 1500 : 150, "gauss-seidel");
+    o.solver.tolerance = 1e-5;
+    struct scene_run s = solve(text, &o);
+    const double b1 = near_radius(&s, true, 0, 2), b2 = near_radius(&s, false, 0, 2);
+    print_message("C4: %.6f %.6f (%u patches)\n", b1, b2, s.r->report.elements);
+    assert_near((b1 - 1) / .1067181835151, 1, in_full() ? .003 : .02);
+    assert_near(b2 / .33924340803155, 1, in_full() ? .001 : .01);
+    run_free(&s);
+}
+
+// ---- failures of section 4 ------------------------------------------------------------------
+static bool dark_room(const struct element *e) { return e->centre.x > .06; }
+static bool lit_room(const struct element *e) { return e->centre.x < -.06; }
+
+static void leaks_f9(void **state)
+{
+    (void)state;
+    // One floor under two rooms, a wall between; light in one of them.
+    const char *text =
+        HEAD "camera { location <-.5, 0, .5> look_at <-.5, 1, .5> }\n"
+             "difference { box { <-2, -2, -1>, 2 } box { <-1, -.5, 0>, <1, .5, 1> }"
+             " M(.7, 0) }\n"
+             "box { <-.05, -.6, -.1>, <.05, .6, 1.1> M(.7, 0) }\n"
+             "disc { <-.5, 0, .9>, -z, .2 M(0, 1) }\n"
+             "light_source { <.5, 0, .5> 0 }";
+    static const char *const solvers[] = {"gauss-seidel", "stochastic"};
+    for (int k = 0; k < 2; k++) {
+        struct radiosity_options o = with(150, solvers[k]);
+        o.closure = CLOSURE_REPORT;
+        o.solver.tolerance = .05;
+        struct scene_run s = solve(text, &o);
+        const struct mean dark = mean_of(&s, dark_room), lit = mean_of(&s, lit_room);
+        print_message("F9 %s: %.3g, %.3g\n", solvers[k], dark.most, lit.b);
+        assert_true(dark.area > 3 && lit.area > 3);
+        assert_true(dark.most <= 1e-6 * lit.b);
+        run_free(&s);
+    }
+}
+
+static bool under_box(const struct element *e)
+{
+    return e->normal.z > .9 && fabs(e->centre.z) < .01 && fabs(e->centre.x) < .19 &&
+           fabs(e->centre.y) < .19;
+}
+static bool beside_box(const struct element *e)
+{
+    return e->normal.z > .9 && fabs(e->centre.z) < .01 && e->centre.x > .22 &&
+           e->centre.x < .5 && fabs(e->centre.y) < .2;
+}
+
+static void contact_f10(void **state)
+{
+    (void)state;
+    const char *text =
+        HEAD "camera { location <0, -.9, .5> look_at 0 }\n"
+             "difference { box { -2, 2 } box { <-1, -1, 0>, 1 } M(.5, 0) }\n"
+             "box { <-.2, -.2, 0>, <.2, .2, .4> M(.5, 0) }\n"
+             "disc { <0, 0, .999>, -z, .6 M(0, 1) }";
+    struct radiosity_options o = with(300, "stochastic");
+    o.solver.tolerance = .05;
+    struct scene_run s = solve(text, &o);
+    // Under the box there is no floor that light reaches; beside it all of it.
+    assert_true(isnan(mean_of(&s, under_box).b));
+    const struct mean beside = mean_of(&s, beside_box);
+    print_message("F10: beside %.4f, area %.4f\n", beside.b, beside.area);
+    assert_true(beside.b > .1);
+    run_free(&s);
+}
+
+static bool outside_box(const struct element *e)
+{
+    return vec3_max_abs(e->centre) > 1.05 && vec3_max_abs(e->centre) < 1.5;
+}
+
+static void enclosed_f15_f16(void **state)
+{
+    (void)state;
+    // A light in a hollow box in a room, the camera in the room; and the same as an
+    // inverted box.
+    static const char *const boxes[] = {
+        "difference { box { -1.1, 1.1 } box { -1, 1 } M(.5, 0) }",
+        "intersection { box { -1.1, 1.1 } box { -1, 1 inverse } M(.5, 0) }"};
+    for (int k = 0; k < 2; k++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 HEAD "camera { location <2, 0, 0> look_at 0 }\n"
+                      "light_source { <.9, .9, .9> 0 }\n"
+                      "sphere { 0, .3 M(0, 1) } %s\n"
+                      "difference { box { -4, 4 } box { -3, 3 } M(.5, 0) }",
+                 boxes[k]);
+        struct radiosity_options o = with(300, "stochastic");
+        o.solver.rays = 60000;
+        struct scene_run s = solve(text, &o);
+        const struct mean out = mean_of(&s, outside_box);
+        // H inside: emitted power over the absorbing area (S11).
+        double in_h = 0, in_area = 0;
+        for (uint32_t i = 0; i < s.r->patches->element_count; i++) {
+            const struct element *e = &s.r->patches->element[i];
+            if (vec3_max_abs(e->centre) > 1.02 || vec3_length(e->centre) < .5)
+                continue;
+            in_h += e->area * s.r->solution.h[i][0];
+            in_area += e->area;
+        }
+        print_message("F15 %d: outside %.3g, absorbed %.5f of %.5f\n", k, out.most,
+                      in_h * .5, 4 * 3.14159265 * .09);
+        assert_true(out.area > 25 && out.most == 0);
+        assert_near(in_area, 24, .2);
+        // The black sphere absorbs what comes back to it.
+        assert_true(in_h * .5 < 4 * 3.14159265 * .09 &&
+                    in_h * .5 > .9 * 4 * 3.14159265 * .09);
+        run_free(&s);
+    }
+}
+
+// ---- the error target ------------------------------------------------------------------------
+#define CUBE                                                                             \
+    HEAD "camera { location <.5, .5, .5> look_at <.5, .5, 0> }\n"                        \
+         "difference { box { -1, 2 } box { <0, 0, -.3>, 1 } M(.5, 0) }\n"                \
+         "box { <-.1, -.1, -.5>, <1.1, 1.1, 0> M(.5, 1) }"
+
+static bool floor_of_cube(const struct element *e)
+{
+    return e->normal.z > .5 && e->centre.z < .1;
+}
+static bool ceiling_of_cube(const struct element *e) { return e->normal.z < -.5; }
+static bool wall_of_cube(const struct element *e) { return fabs(e->normal.z) < .5; }
+
+static void error_target(void **state)
+{
+    (void)state;
+    static const double targets[] = {.1, .03, .01};
+    for (int k = 0; k < (in_full() ? 3 : 1); k++) {
+        struct radiosity_options o = radiosity_defaults;
+        o.error = targets[k];
+        struct scene_run s = solve(CUBE, &o);
+        const double f = mean_of(&s, floor_of_cube).b - 1,
+                     c = mean_of(&s, ceiling_of_cube).b;
+        const double w = mean_of(&s, wall_of_cube).b;
+        const double df = f - .1043616, dc = c - .1712160, dw = w - .1811056;
+        const double off =
+            sqrt((df * df + dc * dc + 4 * dw * dw) /
+                 (.1043616 * .1043616 + .171216 * .171216 + 4 * .1811056 * .1811056));
+        print_message("%.4f %.4f %.4f ", f, c, w);
+        print_message(
+            "asked %.3f, estimated %.4f, walls off by %.4f; %u patches, %u levels\n",
+            targets[k], s.r->report.error, off, s.r->report.elements, s.r->report.levels);
+        assert_true(s.r->report.converged && s.r->report.error <= targets[k]);
+        // Means of walls are better than single elements, of which the estimate speaks.
+        assert_true(off <= targets[k]);
+        assert_true(off < 3 * s.r->report.error);
+        run_free(&s);
+    }
+}
+
+// ---- memory ----------------------------------------------------------------------------------
+static void memory_is_predicted(void **state)
+{
+    (void)state;
+    struct scene_run s = {.ctx = lambert_context_new(), .arena = arena_new(4096)};
+    char path[] = "/tmp/lambert-radiosity-XXXXXX", error[512] = "";
+    const int file = mkstemp(path);
+    assert_true(write(file, CUBE, strlen(CUBE)) == (ssize_t)strlen(CUBE));
+    close(file);
+    assert_int_equal(lambert_load_file(s.ctx, path), LAMBERT_OK);
+    unlink(path);
+    job_init(&s.job, s.arena, s.ctx->world, &render_settings_default);
+    struct radiosity_options o = with(100, "elimination");
+    o.memory = 1e5;
+    assert_null(radiosity_new(&s.job, &o, NULL, error, sizeof error));
+    print_message("%s\n", error);
+    assert_non_null(strstr(error, "'elimination' needs"));
+    assert_non_null(strstr(error, "'stochastic'"));
+    run_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(furnace),
+        cmocka_unit_test(caps),
+        cmocka_unit_test(concentric_s4),
+        cmocka_unit_test(discs_c4),
+        cmocka_unit_test(leaks_f9),
+        cmocka_unit_test(contact_f10),
+        cmocka_unit_test(enclosed_f15_f16),
+        cmocka_unit_test(error_target),
+        cmocka_unit_test(memory_is_predicted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
