@@ -75,17 +75,34 @@ static struct ast *word(struct parse *p, struct span where, enum word w)
     return of_list(p, AST_WORD, where, w, NULL);
 }
 
-static struct ast_list one(struct ast *node)
+// A list while it is read is its last node, whose `next` is the first: one pointer goes
+// through the parser's stack, as values written in parts stall it when they are copied.
+static struct ast *append(struct ast *list, struct ast *node)
 {
-    return ast_append((struct ast_list){0}, node);
+    node->next = list ? list->next : node;
+    if (list)
+        list->next = node;
+    return node;
 }
 
-static struct ast_list join(struct ast_list a, struct ast_list b)
+static struct ast *one(struct ast *node) { return append(NULL, node); }
+
+static struct ast *join(struct ast *a, struct ast *b)
 {
-    a.last->next = b.first;
-    a.last = b.last;
-    a.count += b.count;
-    return a;
+    struct ast *first = a->next;
+    a->next = b->next;
+    b->next = first;
+    return b;
+}
+
+// The first node of a list that is complete.
+static struct ast *all(struct ast *list)
+{
+    if (!list)
+        return NULL;
+    struct ast *first = list->next;
+    list->next = NULL;
+    return first;
 }
 
 static struct ast *apply(struct ast *function, struct span where, struct ast *arguments)
@@ -105,11 +122,11 @@ static struct ast *subscripts(struct ast *array, struct span where, struct ast *
 }
 
 // A list's comma: false when there is nothing for it to follow.
-static bool comma(struct ast_list list)
+static bool comma(struct ast *list)
 {
-    if (!list.last || list.last->comma_after)
+    if (!list || list->comma_after)
         return false;
-    list.last->comma_after = 1;
+    list->comma_after = 1;
     return true;
 }
 
@@ -122,12 +139,12 @@ static bool comma(struct ast_list list)
     } while (0)
 
 // An array element of several items is one node.
-static struct ast *element(struct parse *p, struct ast_list items)
+static struct ast *element(struct parse *p, struct ast *items)
 {
-    if (items.count == 1)
-        return items.first;
-    return of_list(p, AST_BLOCK, span_join(items.first->where, items.last->where),
-                   WORD_NONE, items.first);
+    struct ast *last = items, *first = all(items);
+    if (first == last)
+        return first;
+    return of_list(p, AST_BLOCK, span_join(first->where, last->where), WORD_NONE, first);
 }
 
 static bool is_texture(const struct ast *n)
@@ -136,16 +153,16 @@ static bool is_texture(const struct ast *n)
 }
 
 // Adds an element to an initialiser; textures with no comma between are layers.
-static struct ast_list add_element(struct parse *p, struct ast_list list, struct ast *n)
+static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
 {
-    struct ast *last = list.last;
     bool layers = last && last->kind == AST_BLOCK && last->word == WORD_NONE &&
                   is_texture(last->list);
     if (!is_texture(n) || !last || last->comma_after || !(layers || is_texture(last)))
-        return ast_append(list, n);
+        return append(last, n);
     if (!layers) {
         struct ast *first = arena_new_struct(p->arena, struct ast);
         *first = *last;
+        first->next = NULL;
         last->word = WORD_NONE;
         last->list = first;
     }
@@ -154,7 +171,7 @@ static struct ast_list add_element(struct parse *p, struct ast_list list, struct
         end = end->next;
     end->next = n;
     last->where = span_join(last->where, n->where);
-    return list;
+    return last;
 }
 }
 
@@ -164,18 +181,18 @@ static struct ast_list add_element(struct parse *p, struct ast_list list, struct
 %token STRAY STOP
 %token LE "<=" GE ">=" NE "!=" LESS GREATER
 %token MORE                     // a ']' with '[' after it
-%token <enum word> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
-%token <enum word> FUNCTION ARRAY
+%token <size_t> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
+%token <size_t> FUNCTION ARRAY
 %token <struct ast *> NUMBER VECTOR3 STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
 
 %type <struct ast *> statement block function_block function_body params size entry
 %type <struct ast *> full compare value arith unary primary vector string string_or_arith
 %type <struct ast *> item arg element call subs array
-%type <struct ast_list> items args arg_list components names colour parts colour_start
-%type <struct ast_list> sub_list dims elements element_list
+%type <struct ast *> items args arg_list components names colour parts colour_start
+%type <struct ast *> sub_list dims elements element_list
 %type <struct ast *> logic xlogic xcompare sizes
-%type <enum word> member
-%type <int> relop xrelop
+%type <size_t> member
+%type <size_t> relop xrelop
 
 %token END_OF_TOKENS            // the last; never read
 %precedence VALUE_ENDS          // a value ends only where no operator follows
@@ -192,25 +209,25 @@ start:
     START_STATEMENT statement           { p->result = $2; YYACCEPT; }
   | START_STATEMENT END                 { p->result = NULL; YYACCEPT; }
   | START_CONDITION '(' full ')'        { p->result = $3; YYACCEPT; }
-  | START_LIST args ')'                 { p->result = $2.first; YYACCEPT; }
-  | START_ITEMS items ')'               { p->result = $2.first; YYACCEPT; }
+  | START_LIST args ')'                 { p->result = all($2); YYACCEPT; }
+  | START_ITEMS items ')'               { p->result = all($2); YYACCEPT; }
   | START_SUBSCRIPT value close         { p->result = $2; YYACCEPT; }
   | START_STRING string                 { p->result = $2; YYACCEPT; }
   | START_STRING subs                   { p->result = $2; YYACCEPT; }
-  | START_BRACES '{' braces items '}'   { p->result = $4.first; YYACCEPT; }
-  | START_RVALUE colour ';'             { p->result = $2.first; YYACCEPT; }
+  | START_BRACES '{' braces items '}'   { p->result = all($4); YYACCEPT; }
+  | START_RVALUE colour ';'             { p->result = all($2); YYACCEPT; }
   | START_RVALUE colour STOP
     {
-        parse_missing_semicolon(p, $2.count == 1 ? $2.first : NULL);
-        p->result = $2.first;
+        p->result = all($2);
+        parse_missing_semicolon(p, p->result->next ? NULL : p->result);
         YYACCEPT;
     }
   | START_RVALUE whole                  { YYACCEPT; }
-  | START_ARGUMENT colour STOP          { p->result = $2.first; YYACCEPT; }
+  | START_ARGUMENT colour STOP          { p->result = all($2); YYACCEPT; }
   | START_ARGUMENT whole                { YYACCEPT; }
   | START_ELEMENTS '{' elements '}'
     {
-        p->result = of_list(p, AST_ENTRY, @$, WORD_NONE, $3.first);
+        p->result = of_list(p, AST_ENTRY, @$, WORD_NONE, all($3));
         YYACCEPT;
     }
   ;
@@ -241,7 +258,7 @@ statement:
 block:
     WORD '{' { parse_open(p, $1, false, @1); } items '}'
     {
-        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, $1, $4.first));
+        $$ = parse_close(p, of_list(p, AST_BLOCK, @$, $1, all($4)));
     }
   | function_block
   ;
@@ -276,18 +293,18 @@ function_body: full | block ;
 params:
     names
     {
-        $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, $1.first);
+        $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, all($1));
     }
   ;
 
 names:
-    %empty                              { $$ = (struct ast_list){0}; }
-  | names NAME                          { $$ = ast_append($1, $2); }
-  | names STRING_NAME                   { $$ = ast_append($1, $2); }
-  | names OTHER_NAME                    { $$ = ast_append($1, $2); }
+    %empty                              { $$ = NULL; }
+  | names NAME                          { $$ = append($1, $2); }
+  | names STRING_NAME                   { $$ = append($1, $2); }
+  | names OTHER_NAME                    { $$ = append($1, $2); }
   | names CONSTANT
     {
-        $$ = ast_append($1, of_list(p, AST_CONSTANT, @2, $2, NULL));
+        $$ = append($1, of_list(p, AST_CONSTANT, @2, $2, NULL));
     }
   | names ','                           { $$ = $1; COMMA($1, @2); }
   ;
@@ -311,8 +328,8 @@ size:
   ;
 
 items:
-    %empty                              { $$ = (struct ast_list){0}; }
-  | items item                          { $$ = ast_append($1, $2); }
+    %empty                              { $$ = NULL; }
+  | items item                          { $$ = append($1, $2); }
   | items ','                           { $$ = $1; COMMA($1, @2); }
   ;
 
@@ -330,14 +347,14 @@ item:
   | CALL1 %prec VALUE_ENDS              { $$ = word(p, @1, $1); } // of julia_fractal
   | XYZ '(' args ')' ':' value
     {
-        $$ = of_list(p, AST_CALL, @$, WORD_xyz, ast_append($3, $6).first);
+        $$ = of_list(p, AST_CALL, @$, WORD_xyz, all(append($3, $6)));
     }
   ;
 
 entry:
     '[' { parse_open(p, WORD_NONE, true, @1); } items close
     {
-        $$ = parse_close(p, of_list(p, AST_ENTRY, @$, WORD_NONE, $3.first));
+        $$ = parse_close(p, of_list(p, AST_ENTRY, @$, WORD_NONE, all($3)));
     }
   ;
 
@@ -426,12 +443,12 @@ member: CONSTANT | PART | GRAY ;
 
 vector:
     VECTOR3
-  | '<' components '>'                  { $$ = of_list(p, AST_VECTOR, @$, WORD_NONE, $2.first); }
+  | '<' components '>'                  { $$ = of_list(p, AST_VECTOR, @$, WORD_NONE, all($2)); }
   ;
 
 components:
     value                               { $$ = one($1); }
-  | components value                    { $$ = ast_append($1, $2); }
+  | components value                    { $$ = append($1, $2); }
   | components ','                      { $$ = $1; COMMA($1, @2); }
   ;
 
@@ -442,11 +459,11 @@ call:
     }
   | CALL '(' args ')'
     {
-        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, $3.first));
+        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, all($3)));
     }
   | FUNCTION_NAME '(' args ')'
     {
-        $$ = parse_finish(p, apply($1, @$, $3.first));
+        $$ = parse_finish(p, apply($1, @$, all($3)));
     }
   ;
 
@@ -455,18 +472,18 @@ string:
   | STRING_NAME
   | STRING_CALL '(' args ')'
     {
-        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, $3.first));
+        $$ = parse_finish(p, of_list(p, AST_CALL, @$, $1, all($3)));
     }
   ;
 
 args:
-    %empty                              { $$ = (struct ast_list){0}; }
+    %empty                              { $$ = NULL; }
   | arg_list
   ;
 
 arg_list:
     arg                                 { $$ = one($1); }
-  | arg_list arg                        { $$ = ast_append($1, $2); }
+  | arg_list arg                        { $$ = append($1, $2); }
   | arg_list ','                        { $$ = $1; COMMA($1, @2); }
   ;
 
@@ -480,7 +497,7 @@ arg:
 subs:
     ARRAY_NAME sub_list
     {
-        $$ = parse_finish(p, subscripts($1, @$, $2.first));
+        $$ = parse_finish(p, subscripts($1, @$, all($2)));
     }
   ;
 
@@ -488,9 +505,9 @@ sub_list:
     '[' value ']'                       { $$ = one($2); }
   | '[' value MORE sub_list
     {
-        $2->next = $4.first;
+        $2->next = $4->next;
+        $4->next = $2;
         $$ = $4;
-        $$.first = $2;
     }
   ;
 
@@ -503,32 +520,32 @@ colour:
   ;
 
 colour_start:
-    RGB value                           { $$ = ast_append(one(word(p, @1, $1)), $2); }
-  | PART value                          { $$ = ast_append(one(word(p, @1, $1)), $2); }
-  | COLOR value                         { $$ = ast_append(one(word(p, @1, $1)), $2); }
+    RGB value                           { $$ = append(one(word(p, @1, $1)), $2); }
+  | PART value                          { $$ = append(one(word(p, @1, $1)), $2); }
+  | COLOR value                         { $$ = append(one(word(p, @1, $1)), $2); }
   | COLOR RGB value
     {
-        $$ = ast_append(ast_append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
+        $$ = append(append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
     }
   | COLOR PART value
     {
-        $$ = ast_append(ast_append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
+        $$ = append(append(one(word(p, @1, $1)), word(p, @2, $2)), $3);
     }
   ;
 
 parts:
-    PART value                          { $$ = ast_append(one(word(p, @1, $1)), $2); }
+    PART value                          { $$ = append(one(word(p, @1, $1)), $2); }
   | parts PART value
     {
-        $$ = ast_append(ast_append($1, word(p, @2, $2)), $3);
+        $$ = append(append($1, word(p, @2, $2)), $3);
     }
   ;
 
 array:
     ARRAY dims '{' elements '}'
     {
-        struct ast *sizes = of_list(p, AST_ENTRY, @2, WORD_NONE, $2.first);
-        sizes->next = of_list(p, AST_ENTRY, span_join(@3, @5), WORD_NONE, $4.first);
+        struct ast *sizes = of_list(p, AST_ENTRY, @2, WORD_NONE, all($2));
+        sizes->next = of_list(p, AST_ENTRY, span_join(@3, @5), WORD_NONE, all($4));
         $$ = of_list(p, AST_BLOCK, @$, WORD_array, sizes);
     }
   ;
@@ -536,7 +553,7 @@ array:
 dims: sub_list ;
 
 elements:
-    %empty                              { $$ = (struct ast_list){0}; }
+    %empty                              { $$ = NULL; }
   | element_list
   ;
 
@@ -552,7 +569,7 @@ element:
   | OTHER_NAME
   | block
   | array
-  | '{' elements '}'                    { $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, $2.first); }
+  | '{' elements '}'                    { $$ = of_list(p, AST_ENTRY, @$, WORD_NONE, all($2)); }
   ;
 
 %%
@@ -582,7 +599,7 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
         node = t->value || !t->len ? AST_VALUE : AST_UNDECLARED;
         break;
     default:
-        value->TOK_WORD = (enum word)t->word;
+        value->TOK_WORD = t->word;
         return kind;
     }
     struct ast *n = ast_new(p->arena, node, *where);
