@@ -76,7 +76,7 @@ static struct target *compile(struct probe *p, const struct object *o)
     t->scene.object = only;
     t->scene.object_count = 1;
     t->scene.default_texture.texture = &plain;
-    t->scene.default_texture.transform = transform_identity;
+    t->scene.default_texture.transform = &transform_identity;
     t->world = world_build(p->arena, &t->scene);
     t->scratch = trace_scratch_new(t->world);
     return t;

@@ -205,9 +205,9 @@ const struct interior *build_interior(struct args *a, const struct ast *block,
 
 static const struct texture *settled(struct builder *b, const struct attached_texture *at)
 {
-    if (!at->texture || at->transform.identity)
+    if (!at->texture || at->transform->identity)
         return at->texture;
-    return texture_transform(b->arena, at->texture, &at->transform);
+    return texture_transform(b->arena, at->texture, at->transform);
 }
 
 static void put_layer(struct args *a, struct attached_texture *at,
@@ -217,13 +217,13 @@ static void put_layer(struct args *a, struct attached_texture *at,
     if (!top)
         return;
     at->texture = below ? build_layer(a, args_span(a), below, top) : top;
-    at->transform = transform_identity;
+    at->transform = &transform_identity;
 }
 
-static void move(struct attached_texture *at, const struct transform *t)
+static void move(struct arena *a, struct attached_texture *at, const struct transform *t)
 {
     if (at->texture)
-        at->transform = transform_then(&at->transform, t);
+        at->transform = transform_join(a, at->transform, t);
 }
 
 struct material build_material(struct args *a, const struct ast *block,
@@ -251,8 +251,8 @@ struct material build_material(struct args *a, const struct ast *block,
         else if (args_at_block(&in) == WORD_interior)
             m.interior = build_interior(&in, args_next(&in), m.interior);
         else if (build_trans(&in, &t)) {
-            move(&m.texture, &t);
-            move(&m.interior_texture, &t);
+            move(a->b->arena, &m.texture, &t);
+            move(a->b->arena, &m.interior_texture, &t);
             if (m.interior)
                 m.interior = interior_move(a->b, m.interior, &t);
         } else {

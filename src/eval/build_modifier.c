@@ -16,9 +16,9 @@ static const struct texture *settled(struct builder *b, struct attached_texture 
 {
     if (!at->texture)
         return NULL;
-    if (!at->transform.identity)
-        at->texture = texture_transform(b->arena, at->texture, &at->transform);
-    at->transform = transform_identity;
+    if (!at->transform->identity)
+        at->texture = texture_transform(b->arena, at->texture, at->transform);
+    at->transform = &transform_identity;
     return at->texture;
 }
 
@@ -29,7 +29,7 @@ static void add_texture(struct args *a, struct attached_texture *at,
     if (top)
         at->texture = below ? build_layer(a, block->where, below, top) : top;
     if (!below)
-        at->transform = transform_identity;
+        at->transform = &transform_identity;
 }
 
 // pigment, normal, finish: change the top layer.
@@ -39,7 +39,7 @@ static void change_layer(struct args *a, struct attached_texture *at)
     const struct texture *present = settled(a->b, at);
     if (!present) {
         present = a->b->default_texture;
-        at->transform = transform_identity;
+        at->transform = &transform_identity;
     }
     if (present->kind != TEXTURE_PLAIN) {
         args_error(a, n->where, "the texture below is patterned and cannot be changed");
@@ -226,7 +226,8 @@ bool args_part(struct args *a, struct transform *out, const struct texture **tex
     static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
                                       WORD_matrix, WORD_transform, WORD_texture,
                                       WORD_pigment, WORD_normal, WORD_finish};
-    struct object part = {.transform = transform_identity};
+    struct object part = {.transform = &transform_identity,
+                          .texture.transform = &transform_identity};
     struct transform t;
     while (a->at) {
         enum word w = args_at_block(a);
@@ -238,7 +239,7 @@ bool args_part(struct args *a, struct transform *out, const struct texture **tex
         else
             args_unknown(a, known, ARRAY_COUNT(known));
     }
-    *out = part.transform;
+    *out = *part.transform;
     *texture = settled(a->b, &part.texture);
     return !a->failed;
 }

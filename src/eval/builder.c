@@ -191,7 +191,7 @@ static const struct value *material(struct builder *b, struct args *a,
                                     const struct ast *n)
 {
     struct material none = {0};
-    none.texture.transform = none.interior_texture.transform = transform_identity;
+    none.texture.transform = none.interior_texture.transform = &transform_identity;
     struct material m = build_material(a, n, none);
     return make(b, VALUE_MATERIAL, copied(b, &m, sizeof m));
 }
@@ -386,7 +386,7 @@ bool builder_finish(struct builder *b)
     s->media = (const struct media *const *)b->medias.at;
     s->media_count = b->medias.count;
     s->default_texture =
-        (struct attached_texture){b->default_texture, transform_identity};
+        (struct attached_texture){b->default_texture, &transform_identity};
     // The rules of the old and the new language for what shows through the sky.
     if (!s->has_background)
         s->background.transmit = 1;

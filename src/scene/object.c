@@ -9,9 +9,9 @@ static struct object *object_new(struct arena *a, enum object_kind kind, struct 
     struct object *o = arena_new_struct(a, struct object);
     o->kind = kind;
     o->where = where;
-    o->transform = transform_identity;
-    o->texture.transform = transform_identity;
-    o->interior_texture.transform = transform_identity;
+    o->transform = &transform_identity;
+    o->texture.transform = &transform_identity;
+    o->interior_texture.transform = &transform_identity;
     return o;
 }
 
@@ -45,10 +45,21 @@ struct object *object_copy(struct arena *a, const struct object *o)
     return copy;
 }
 
-static void move_attached(struct attached_texture *x, const struct transform *t)
+const struct transform *transform_join(struct arena *a, const struct transform *first,
+                                       const struct transform *second)
+{
+    if (second->identity)
+        return first;
+    struct transform *both = arena_new_struct(a, struct transform);
+    *both = transform_then(first, second);
+    return both;
+}
+
+static void move_attached(struct arena *a, struct attached_texture *x,
+                          const struct transform *t)
 {
     if (x->texture)
-        x->transform = transform_then(&x->transform, t);
+        x->transform = transform_join(a, x->transform, t);
 }
 
 static const struct object *const *move_all(struct arena *a, const struct object *const *list,
@@ -67,10 +78,10 @@ void object_transform(struct arena *a, struct object *o, const struct transform 
 {
     if (t->identity)
         return;
-    o->transform = transform_then(&o->transform, t);
+    o->transform = transform_join(a, o->transform, t);
     if (!(o->flags & OBJECT_UV_MAPPING)) { // uv coordinates stay with the surface
-        move_attached(&o->texture, t);
-        move_attached(&o->interior_texture, t);
+        move_attached(a, &o->texture, t);
+        move_attached(a, &o->interior_texture, t);
     }
     if (o->clip_count)
         o->clip = move_all(a, o->clip, o->clip_count, t);
@@ -131,8 +142,8 @@ static struct aabb outside(const struct object *o, struct aabb b)
 {
     if (is_inverse(o))
         b = aabb_infinite();
-    if (!o->transform.identity && !aabb_is_empty(b))
-        b = aabb_transform(b, &o->transform);
+    if (!o->transform->identity && !aabb_is_empty(b))
+        b = aabb_transform(b, o->transform);
     for (uint32_t i = 0; i < o->clip_count; i++)
         b = aabb_meet(b, object_bounds(o->clip[i]));
     return b;
@@ -159,8 +170,8 @@ bool object_inside(const struct object *o, struct vec3 p)
     for (uint32_t i = 0; i < o->clip_count; i++)
         if (!object_inside(o->clip[i], p))
             return false;
-    if (!o->transform.identity)
-        p = transform_inverse_point(&o->transform, p);
+    if (!o->transform->identity)
+        p = transform_inverse_point(o->transform, p);
     bool in = false;
     if (o->kind == OBJECT_SHAPE) {
         in = shape_is_solid(o->ops, o->shape) && o->ops->inside(o->shape, p);

@@ -34,8 +34,8 @@ enum object_flags {
 // A texture or interior as attached to an object, with the transforms written
 // after it (in the space outside the object's own `transform`).
 struct attached_texture {
-    const struct texture *texture; // NULL: none
-    struct transform transform;
+    const struct texture *texture;     // NULL: none
+    const struct transform *transform; // never NULL
 };
 
 // One node of the scene tree. Immutable once built and shared, never copied:
@@ -61,7 +61,7 @@ struct object {
     // OBJECT_LIGHT (a light_source inside a union or on top level)
     const struct light *light;
 
-    struct transform transform;      // everything inside -> outside of this node
+    const struct transform *transform; // everything inside -> outside of this node
     struct attached_texture texture; // outermost space of this node
     struct attached_texture interior_texture;
     const struct interior *interior; // NULL: inherit
@@ -92,6 +92,9 @@ static inline void object_hold(struct object *o, const struct object *inner)
     o->leaves = more > UINT32_MAX - o->leaves ? UINT32_MAX : o->leaves + more;
 }
 
+// first, then second: kept in the arena, or `first` itself if the second is the identity.
+const struct transform *transform_join(struct arena *a, const struct transform *first,
+                                       const struct transform *second);
 struct object *object_new_shape(struct arena *a, const struct shape_ops *ops,
                                 const void *shape, struct span where);
 struct object *object_new_csg(struct arena *a, enum csg_op op,

@@ -37,7 +37,7 @@ static void print_list(const char *word, const struct object *const *list, uint3
 
 static bool has_modifiers(const struct object *o)
 {
-    return !o->transform.identity || o->clip_count || o->bound_count || o->flags;
+    return !o->transform->identity || o->clip_count || o->bound_count || o->flags;
 }
 
 // The order matters to the reader: `inverse` and the transform belong to the object,
@@ -60,7 +60,7 @@ static void print_modifiers(const struct object *o, FILE *out, int indent)
         {OBJECT_NO_SPLIT, "split_union off"},
         {OBJECT_STURM, "sturm"},
     };
-    print_matrix(out, &o->transform, indent);
+    print_matrix(out, o->transform, indent);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (o->flags & rows[i].flag) {
             indent_by(out, indent);

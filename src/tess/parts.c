@@ -36,7 +36,7 @@ static void collect(struct arena *a, const struct object *o,
     if (o->kind == OBJECT_LIGHT)
         return;
     if (comes_apart(o)) {
-        const struct transform t = transform_then(&o->transform, outer);
+        const struct transform t = transform_then(o->transform, outer);
         for (uint32_t i = 0; i < o->child_count; i++)
             collect(a, o->child[i], &t, solids, sheets, out);
         return;

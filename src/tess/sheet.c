@@ -65,7 +65,7 @@ static void add_mesh(const struct mesh *m, const struct transform *t,
 static void add(const struct object *o, const struct transform *outer, double step,
                 struct tess_mesh *out)
 {
-    const struct transform t = transform_then(&o->transform, outer);
+    const struct transform t = transform_then(o->transform, outer);
     if (o->kind == OBJECT_CSG) {
         for (uint32_t i = 0; i < o->child_count; i++)
             add(o->child[i], &t, step, out);
@@ -99,7 +99,7 @@ static void add(const struct object *o, const struct transform *outer, double st
 
 static struct aabb sheet_bounds(const struct object *o, const struct transform *outer)
 {
-    const struct transform t = transform_then(&o->transform, outer);
+    const struct transform t = transform_then(o->transform, outer);
     if (o->kind == OBJECT_SHAPE)
         return aabb_transform(shape_surface_bounds(o->ops, o->shape), &t);
     struct aabb b = aabb_empty();

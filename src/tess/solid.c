@@ -18,7 +18,7 @@ void tess_solid_open(struct tess_solid *s, struct arena *a, const struct object 
     scene->object = only;
     scene->object_count = 1;
     scene->default_texture.texture = &plain;
-    scene->default_texture.transform = transform_identity;
+    scene->default_texture.transform = &transform_identity;
     *s = (struct tess_solid){.object = object, .bounds = object_bounds(object)};
     s->world = world_build(a, scene);
     if (s->world)

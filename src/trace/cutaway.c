@@ -9,21 +9,21 @@ struct visit {
     void *user;
 };
 
-static struct attached_texture inherited(const struct object *o,
-                                         const struct attached_texture *above,
+static struct placed_texture inherited(const struct object *o,
+                                         const struct placed_texture *above,
                                          const struct transform *world)
 {
     if (!o->texture.texture)
         return *above;
-    return (struct attached_texture){o->texture.texture,
-                                     transform_then(&o->texture.transform, world)};
+    return (struct placed_texture){o->texture.texture,
+                                     transform_then(o->texture.transform, world)};
 }
 
 // The parts of o that hold the point; of a difference the first one alone is asked.
 static void visit(struct visit *v, const struct object *o, const struct transform *world,
-                  const struct attached_texture *above)
+                  const struct placed_texture *above)
 {
-    const struct attached_texture own = inherited(o, above, world);
+    const struct placed_texture own = inherited(o, above, world);
     if (o->kind != OBJECT_CSG) {
         if (!own.texture)
             return;
@@ -32,7 +32,7 @@ static void visit(struct visit *v, const struct object *o, const struct transfor
             v->see(v->user, own.texture, &own.transform, v->share);
         return;
     }
-    const struct transform inner = transform_then(&o->transform, world);
+    const struct transform inner = transform_then(o->transform, world);
     const uint32_t count = o->op == CSG_DIFFERENCE && o->child_count ? 1 : o->child_count;
     for (uint32_t i = 0; i < count; i++) {
         const struct object *part = o->child[i];

@@ -4,12 +4,18 @@
 #include "math/transform.h"
 #include "scene/object.h"
 
+// An attached texture in the world.
+struct placed_texture {
+    const struct texture *texture; // NULL: none
+    struct transform transform;
+};
+
 // cutaway_textures: a cutter without a texture shows those of the parts that it cuts
 // (spec/shapes 3.6).
 struct cutaway {
-    const struct object *object;     // the outermost node above the cutter
-    struct transform world;          // from the space outside it
-    struct attached_texture texture; // what it inherits; NULL: none
+    const struct object *object;   // the outermost node above the cutter
+    struct transform world;        // from the space outside it
+    struct placed_texture texture; // what it inherits; NULL: none
 };
 
 // Calls `see` with each texture that counts at a point (world space), its place in the

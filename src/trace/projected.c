@@ -7,8 +7,8 @@
 
 static void gather(const struct object *o, struct ray ray, struct boundary_list *out)
 {
-    if (!o->transform.identity)
-        ray = transform_inverse_ray(&o->transform, &ray);
+    if (!o->transform->identity)
+        ray = transform_inverse_ray(o->transform, &ray);
     if (o->kind == OBJECT_SHAPE) {
         struct boundary_list own = {0};
         o->ops->intersect(o->shape, &ray, &own);

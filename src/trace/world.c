@@ -11,8 +11,8 @@
 // What a node takes from the nodes above it, in world space.
 struct context {
     struct transform world;           // from the space outside the node
-    struct attached_texture texture;  // inherited; NULL: none yet
-    struct attached_texture interior_texture;
+    struct placed_texture texture;    // inherited; NULL: none yet
+    struct placed_texture interior_texture;
     const struct interior *interior;
     unsigned flags;                   // OR of the flags above
     bool inverted, drawn;
@@ -88,7 +88,7 @@ static const struct object *placed(struct build *b, const struct object *o,
 static void add_light(struct build *b, const struct object *o, const struct context *c)
 {
     struct light *l = arena_new_struct(b->arena, struct light);
-    const struct transform t = transform_then(&o->transform, &c->world);
+    const struct transform t = transform_then(o->transform, &c->world);
     *l = *o->light;
     place_light(l, &t);
     if (l->projected_through)
@@ -120,7 +120,7 @@ static void add_lights_below(struct build *b, const struct object *o, const stru
         return;
     }
     struct context inner = *c;
-    inner.world = transform_then(&o->transform, &c->world);
+    inner.world = transform_then(o->transform, &c->world);
     for (uint32_t i = 0; o->kind == OBJECT_CSG && i < o->child_count; i++)
         if (o->child[i]->kind == OBJECT_LIGHT)
             add_light(b, o->child[i], &inner);
@@ -128,13 +128,13 @@ static void add_lights_below(struct build *b, const struct object *o, const stru
 
 // ---- inheritance -----------------------------------------------------------------
 
-static struct attached_texture attach(const struct attached_texture *own,
-                                      const struct attached_texture *inherited,
+static struct placed_texture attach(const struct attached_texture *own,
+                                      const struct placed_texture *inherited,
                                       const struct transform *world)
 {
     if (!own->texture)
         return *inherited;
-    return (struct attached_texture){own->texture, transform_then(&own->transform, world)};
+    return (struct placed_texture){own->texture, transform_then(own->transform, world)};
 }
 
 static const struct interior *new_interior(struct build *b, const struct interior *given,
@@ -190,7 +190,7 @@ static struct context enter(struct build *b, const struct object *o, const struc
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
     in.interior_given = o->interior || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
-    in.world = transform_then(&o->transform, &c->world);
+    in.world = transform_then(o->transform, &c->world);
     return in;
 }
 
@@ -226,8 +226,9 @@ static const struct cutaway *cutaway_of(struct build *b)
 static uint32_t add_surface(struct build *b, const struct object *o,
                             const struct context *c)
 {
-    const struct attached_texture *t =
-        c->texture.texture ? &c->texture : &b->scene->default_texture;
+    const struct placed_texture unnamed = attach(&b->scene->default_texture, &c->texture,
+                                                 &transform_identity);
+    const struct placed_texture *t = c->texture.texture ? &c->texture : &unnamed;
     struct surface s = {.texture = t->texture,
                         .texture_transform = t->transform,
                         .interior_texture = c->interior_texture.texture,

@@ -166,7 +166,7 @@ int main(int argc, char **argv)
         add_ground(&m);
         scenes[i].make(&m);
         struct scene scene = {.object = m.object, .object_count = m.count};
-        scene.default_texture = (struct attached_texture){&texture, transform_identity};
+        scene.default_texture = (struct attached_texture){&texture, &transform_identity};
         double t0 = seconds();
         struct world *w = world_build(m.a, &scene);
         double built = seconds() - t0;

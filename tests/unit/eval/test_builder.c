@@ -33,7 +33,7 @@ static void modifiers_act_in_written_order(void **state)
                      0);
     assert_int_equal(s.object_count, 1);
     const struct object *o = s.object[0];
-    assert_near(o->transform.offset.x, 2, 0);
+    assert_near(o->transform->offset.x, 2, 0);
     assert_int_equal(o->texture.texture->layer_count, 2);
     assert_near(o->texture.texture->layer[0].pigment->color.g, 0.5, 0);
     assert_near(o->texture.texture->layer[0].finish->phong, 0, 0);

@@ -178,7 +178,7 @@ static struct object *random_object(struct maker *m, int depth)
         object_transform(m->a, o, &t);
     }
     if (chance(m) < .1)
-        o->texture = (struct attached_texture){&clear_texture, transform_identity};
+        o->texture = (struct attached_texture){&clear_texture, &transform_identity};
     if (chance(m) < .05)
         o->flags |= OBJECT_INVERSE;
     if (chance(m) < .1)
@@ -301,7 +301,7 @@ static void check_scene(struct maker *m)
 {
     static const char *const isa[] = {"base", "avx2", "avx512"};
     struct scene scene = {.object = m->object, .object_count = m->count};
-    scene.default_texture = (struct attached_texture){&grey_texture, transform_identity};
+    scene.default_texture = (struct attached_texture){&grey_texture, &transform_identity};
     for (int i = 0; i < 3; i++) {
         setenv("LAMBERT_ISA", isa[i], 1);
         struct maker rays = *m;

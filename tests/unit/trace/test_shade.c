@@ -80,7 +80,7 @@ static struct object *add(struct setup *s, const struct shape_ops *ops, const vo
                           const struct texture *texture)
 {
     struct object *o = object_new_shape(s->arena, ops, shape, (struct span){0, 0, 0, 0});
-    o->texture = (struct attached_texture){texture, transform_identity};
+    o->texture = (struct attached_texture){texture, &transform_identity};
     struct interior *i = arena_new_struct(s->arena, struct interior);
     *i = s->interior;
     o->interior = i;
@@ -110,7 +110,7 @@ static void add_light(struct setup *s)
     struct light *l = arena_new_struct(s->arena, struct light);
     *l = s->light;
     *o = (struct object){
-        .kind = OBJECT_LIGHT, .light = l, .transform = transform_identity};
+        .kind = OBJECT_LIGHT, .light = l, .transform = &transform_identity};
     s->object[s->scene.object_count++] = o;
 }
 

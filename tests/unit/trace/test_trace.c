@@ -42,7 +42,7 @@ static int setup(void **state)
     f->a = arena_new(1 << 16);
     f->scene.object = f->object;
     f->scene.default_texture =
-        (struct attached_texture){&grey_texture, transform_identity};
+        (struct attached_texture){&grey_texture, &transform_identity};
     *state = f;
     return 0;
 }
@@ -496,7 +496,7 @@ static void small_gaps_are_seen(void **state)
     add(f, half_space(f, Z, 0));
     add(f, box_of(f, vec3(-1, -1, 5e-5), vec3(1, 1, 6e-5)));
     struct object *pane = box_of(f, vec3(4, -1, 1), vec3(6, 1, 2));
-    pane->texture = (struct attached_texture){&clear_texture, transform_identity};
+    pane->texture = (struct attached_texture){&clear_texture, &transform_identity};
     add(f, pane);
     finish(f);
     struct ray_query q = query(vec3(0, 0, -1e-12), Z);
