@@ -1,7 +1,10 @@
 // crackle: distances to the nearest random points (Worley, A Cellular Texture Basis
 // Function, 1996), spec/textures 5.3
-
-#include <limits.h>
+//
+// Cells are visited from the middle outwards and left out where none of their points can
+// be among the nearest. Distances of a metric p other than 1 and 2 need powers: the
+// Euclidean length, which differs from them by a factor 3^|1/p - 1/2| at the most, tells
+// which few points they are worth while for.
 
 #include "scene/patterns/cellular.h"
 
@@ -11,14 +14,55 @@ static void init(struct pattern *p)
     p->metric = 2;
 }
 
-static double distance_sum(struct vec3 e, double metric)
+// ---- the powers of a metric ----------------------------------------------------------
+
+// x^metric. Up to TWICE_MAX / 2 halves of whole numbers need no logarithm.
+struct power {
+    double metric;
+    int twice; // 2 * metric, or 0: neither whole nor half
+};
+
+enum { TWICE_MAX = 16 };
+
+static struct power power_of(double metric)
 {
-    if (metric == 2)
-        return e.x * e.x + e.y * e.y + e.z * e.z;
-    if (metric == 1)
-        return fabs(e.x) + fabs(e.y) + fabs(e.z);
-    return det_pow(fabs(e.x), metric) + det_pow(fabs(e.y), metric) +
-           det_pow(fabs(e.z), metric);
+    const double twice = 2 * metric;
+    const bool exact = twice >= 1 && twice <= TWICE_MAX && floor(twice) == twice;
+    return (struct power){metric, exact ? (int)twice : 0};
+}
+
+static double raised(struct power p, double x)
+{
+    if (!p.twice)
+        return det_pow(x, p.metric);
+    double r = p.twice & 1 ? sqrt(x) : 1;
+    for (int n = p.twice >> 1; n; n >>= 1) {
+        if (n & 1)
+            r *= x;
+        x *= x;
+    }
+    return r;
+}
+
+// The root: in single precision and one step of Newton's method, which leaves the rounding
+// of the power.
+static double lowered(struct power p, double s)
+{
+    if (!p.twice || !(s >= DBL_MIN && s <= DBL_MAX))
+        return det_pow(s, 1 / p.metric);
+    const double r = det_pow_single(s, 1 / p.metric);
+    return r + r * (s / raised(p, r) - 1) / p.metric;
+}
+
+static double distance_sum(struct vec3 e, struct power p)
+{
+    return raised(p, fabs(e.x)) + raised(p, fabs(e.y)) + raised(p, fabs(e.z));
+}
+
+static double distance_sum_single(struct vec3 e, double metric)
+{
+    return det_pow_single(fabs(e.x), metric) + det_pow_single(fabs(e.y), metric) +
+           det_pow_single(fabs(e.z), metric);
 }
 
 static double distance_of(double sum, double metric, double offset)
@@ -27,14 +71,29 @@ static double distance_of(double sum, double metric, double offset)
         return sqrt(sum + offset * offset);
     if (metric == 1)
         return sum + offset;
-    if (offset != 0)
-        sum += det_pow(offset, metric);
-    return det_pow(sum, 1 / metric);
+    const struct power p = power_of(metric);
+    return lowered(p, offset != 0 ? sum + raised(p, offset) : sum);
 }
 
-// The three smallest sums in ascending order.
-static void keep_smallest(double d[3], double sum)
+// ---- the nearest points --------------------------------------------------------------
+
+enum { CELLS = 81, NEAREST = 3 };
+
+// The three smallest sums in ascending order, and the point of the smallest: of equal ones
+// that of the cell which is first in lexical order.
+struct nearest {
+    double d[NEAREST];
+    struct vec3 p;
+    int rank;
+};
+
+static void keep(struct nearest *n, double sum, struct vec3 p, int rank)
 {
+    double *d = n->d;
+    if (sum < d[0] || (sum == d[0] && rank < n->rank)) {
+        n->p = p;
+        n->rank = rank;
+    }
     if (sum < d[0]) {
         d[2] = d[1];
         d[1] = d[0];
@@ -47,120 +106,163 @@ static void keep_smallest(double d[3], double sum)
     }
 }
 
-// The search for the nearest points.
-struct search {
-    const struct pattern *p;
-    struct vec3 at, cell;
-    double d[3];         // the smallest sums
-    struct vec3 nearest; // of these the first point,
-    int order;           // and its place in the order of the language
-    // Per axis and offset: what the sum is at least in that axis.
-    double least[3][2 * CELLULAR_REACH + 1];
+static struct nearest nothing(struct vec3 cell)
+{
+    return (struct nearest){.d = {DBL_MAX, DBL_MAX, DBL_MAX}, .p = cell, .rank = -1};
+}
+
+// Cells that are likely near first.
+struct cell_offset {
+    signed char x, y, z;
 };
 
-static void visit(struct search *s, int i, int j, int k)
+#define FACES(r)                                                                         \
+    {-r, 0, 0}, {r, 0, 0}, {0, -r, 0}, {0, r, 0}, {0, 0, -r}, { 0, 0, r }
+#define PAIR(r, s)                                                                       \
+    {r, s, 0}, {s, r, 0}, {r, 0, s}, {s, 0, r}, {0, r, s}, { 0, s, r }
+#define TRIPLE(r, s, t)                                                                  \
+    {r, s, t}, {s, r, t}, { s, t, r }
+
+static const struct cell_offset around[CELLS] = {
+    {0, 0, 0},         FACES(1),          {-1, -1, 0},      {-1, 1, 0},
+    {1, -1, 0},        {1, 1, 0},         {-1, 0, -1},      {-1, 0, 1},
+    {1, 0, -1},        {1, 0, 1},         {0, -1, -1},      {0, -1, 1},
+    {0, 1, -1},        {0, 1, 1},         {-1, -1, -1},     {-1, -1, 1},
+    {-1, 1, -1},       {-1, 1, 1},        {1, -1, -1},      {1, -1, 1},
+    {1, 1, -1},        {1, 1, 1},         FACES(2),         PAIR(-2, -1),
+    PAIR(-2, 1),       PAIR(2, -1),       PAIR(2, 1),       TRIPLE(-2, -1, -1),
+    TRIPLE(-2, -1, 1), TRIPLE(-2, 1, -1), TRIPLE(-2, 1, 1), TRIPLE(2, -1, -1),
+    TRIPLE(2, -1, 1),  TRIPLE(2, 1, -1),  TRIPLE(2, 1, 1),
+};
+
+static int rank_of(struct cell_offset o)
 {
-    const struct vec3 q = noise_cell_point(s->cell.x + i, s->cell.y + j, s->cell.z + k);
-    const double sum = distance_sum(vec3_sub(q, s->at), s->p->metric);
-    const int order = ((i + CELLULAR_REACH) * 8 + j + CELLULAR_REACH) * 8 + k;
-    if (sum < s->d[0] || (sum == s->d[0] && order < s->order)) {
-        s->nearest = q;
-        s->order = order;
+    return ((o.x + 2) * 5 + o.y + 2) * 5 + o.z + 2;
+}
+
+// The least distance along an axis of the cells -2..2 from a point `f` behind the corner of
+// cell 0, less what rounding can make of it.
+static void least_distances(double f, double corner, double least[5])
+{
+    const double slack = 8 * DBL_EPSILON * (fabs(corner) + 4);
+    for (int i = -2; i <= 2; i++) {
+        const double d = i < 0 ? f - (i + 1) : i > 0 ? i - f : 0;
+        least[i + 2] = d > slack ? d - slack : 0;
     }
-    keep_smallest(s->d, sum);
 }
 
-static void visit_all(struct search *s)
-{
-    const int r = CELLULAR_REACH;
-    for (int i = -r; i <= r; i++)
-        for (int j = -r; j <= r; j++)
-            for (int k = -r; k <= r; k++)
-                if (cellular_counts(i, j, k))
-                    visit(s, i, j, k);
-}
+// A point and the sum that it was found by.
+struct candidate {
+    struct vec3 e, p; // from the place to the point; the point
+    double sum;
+    int rank;
+};
 
-// Distances along an axis to the slabs of cells, as distance_sum counts them: rounding
-// keeps order, so no point of a cell has a smaller sum than its bounds have.
-static void bound_axis(double at, double cell, double metric,
-                       double least[2 * CELLULAR_REACH + 1])
+// By metric 2, or by 1. Points up to sqrt(stretch) times as far as the wanted-th, if not
+// NULL, are candidates; their number.
+static inline __attribute__((always_inline)) int search(struct vec3 at, bool squares,
+                                                        int wanted, double stretch,
+                                                        struct candidate *out,
+                                                        struct nearest *n)
 {
-    for (int i = 0; i <= 2 * CELLULAR_REACH; i++) {
-        const double low = cell + (i - CELLULAR_REACH), over = low - at,
-                     under = at - (low + 1);
-        const double e = over > 0 ? over : under > 0 ? under : 0;
-        least[i] = metric == 2 ? e * e : e;
+    const struct vec3 cell = vec3(floor(at.x - PATTERN_EDGE), floor(at.y - PATTERN_EDGE),
+                                  floor(at.z - PATTERN_EDGE));
+    double x[5], y[5], z[5];
+    least_distances(at.x - cell.x, cell.x, x);
+    least_distances(at.y - cell.y, cell.y, y);
+    least_distances(at.z - cell.z, cell.z, z);
+    for (int i = 0; i < 5 && squares; i++) {
+        x[i] *= x[i];
+        y[i] *= y[i];
+        z[i] *= z[i];
     }
-}
-
-static void visit_if_near(struct search *s, int which, int i, int j, int k)
-{
-    const int r = CELLULAR_REACH;
-    if (s->least[0][i + r] + s->least[1][j + r] + s->least[2][k + r] <= s->d[which])
-        visit(s, i, j, k);
-}
-
-// Only cells that may hold one of the `which` + 1 nearest; nearer ones first.
-static void visit_near(struct search *s, int which)
-{
-    const double metric = s->p->metric;
-    bound_axis(s->at.x, s->cell.x, metric, s->least[0]);
-    bound_axis(s->at.y, s->cell.y, metric, s->least[1]);
-    bound_axis(s->at.z, s->cell.z, metric, s->least[2]);
-    const int r = CELLULAR_REACH;
-    int side[3][3];
-    for (int a = 0; a < 3; a++) {
-        const int near = s->least[a][r - 1] < s->least[a][r + 1] ? -1 : 1;
-        side[a][0] = 0;
-        side[a][1] = near;
-        side[a][2] = -near;
+    *n = nothing(cell);
+    int count = 0;
+    for (int i = 0; i < CELLS; i++) {
+        const struct cell_offset o = around[i];
+        if (x[o.x + 2] + y[o.y + 2] + z[o.z + 2] > stretch * n->d[wanted - 1])
+            continue;
+        const struct vec3 q = noise_cell_point(cell.x + o.x, cell.y + o.y, cell.z + o.z);
+        const struct vec3 e = vec3_sub(q, at);
+        const double sum = squares ? e.x * e.x + e.y * e.y + e.z * e.z
+                                   : fabs(e.x) + fabs(e.y) + fabs(e.z);
+        if (out && !(sum > stretch * n->d[wanted - 1]))
+            out[count++] = (struct candidate){e, q, sum, rank_of(o)};
+        keep(n, sum, q, rank_of(o));
     }
-    for (int turn = 0; turn < 3; turn++)
-        for (int i = 0; i <= turn; i++)
-            for (int j = 0; j <= turn; j++)
-                for (int k = 0; k <= turn; k++)
-                    if (i == turn || j == turn || k == turn)
-                        visit_if_near(s, which, side[0][i], side[1][j], side[2][k]);
-    for (int a = 0; a < 3; a++)
-        for (int far = -r; far <= r; far += 2 * r)
-            for (int u = -1; u <= 1 && s->least[a][far + r] <= s->d[which]; u++)
-                for (int v = -1; v <= 1; v++)
-                    visit_if_near(s, which, a == 0 ? far : u,
-                                  a == 1   ? far
-                                  : a == 0 ? u
-                                           : v,
-                                  a == 2 ? far : v);
+    return count;
 }
 
-// How many of the smallest sums count.
-static int wanted(const struct pattern *p)
+// Candidates that may be among the wanted nearest: their sums, wrong by less than `slack`
+// of them, are no larger than the wanted-th.
+static int thinned(struct candidate *c, int count, double most, double slack)
 {
-    return p->vector.z != 0 ? 3 : p->vector.y != 0 ? 2 : 1;
+    int left = 0;
+    for (int i = 0; i < count; i++)
+        if (!(c[i].sum > most * (1 + slack)))
+            c[left++] = c[i];
+    return left;
 }
 
-static double form_value(const struct pattern *p, const double sum[3])
+// At least (3^|1/metric - 1/2|)^2: a chord above that convex function of the exponent.
+static double stretch_of(double metric)
 {
-    double d[3];
-    for (int i = 0; i < 3; i++)
-        d[i] = distance_of(sum[i], p->metric, p->offset);
-    return clamp01(p->vector.x * d[0] + p->vector.y * d[1] + p->vector.z * d[2]);
+    if (!(metric >= 1))
+        return INFINITY;
+    const double t = fabs(2 / metric - 1); // 0..1
+    return fmax(1 + 1.46411 * t, 0.46396 + 2.53607 * t) * (1 + 0x1p-30);
+}
+
+// By any other metric.
+static void search_general(struct vec3 at, double metric, int wanted, struct nearest *n)
+{
+    struct candidate c[CELLS];
+    const struct power p = power_of(metric);
+    const double stretch = stretch_of(metric);
+    int count = search(at, true, wanted, stretch, c, n);
+    count = thinned(c, count, n->d[wanted - 1], stretch - 1);
+    if (!p.twice && metric > 0) {
+        *n = nothing(n->p);
+        for (int i = 0; i < count; i++) {
+            c[i].sum = distance_sum_single(c[i].e, metric);
+            keep(n, c[i].sum, c[i].p, c[i].rank);
+        }
+        count = thinned(c, count, n->d[wanted - 1], 0x1p-30);
+    }
+    *n = nothing(n->p);
+    for (int i = 0; i < count; i++)
+        keep(n, distance_sum(c[i].e, p), c[i].p, c[i].rank);
+}
+
+// How many of the nearest points have a say.
+static int wanted_of(const struct pattern *p)
+{
+    return p->solid ? 1 : p->vector.z != 0 ? 3 : p->vector.y != 0 ? 2 : 1;
+}
+
+static double form_value(const struct pattern *p, const double d[NEAREST])
+{
+    const double form[NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
+    double sum = 0;
+    for (int i = 0; i < NEAREST; i++)
+        if (form[i] != 0)
+            sum += form[i] * distance_of(d[i], p->metric, p->offset);
+    return clamp01(sum);
 }
 
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
     (void)c;
-    struct search s = {.p = p, .at = at, .d = {DBL_MAX, DBL_MAX, DBL_MAX}};
-    s.cell = vec3(floor(at.x - PATTERN_EDGE), floor(at.y - PATTERN_EDGE),
-                  floor(at.z - PATTERN_EDGE));
-    s.nearest = s.cell;
-    s.order = INT_MAX;
-    const bool bounded = p->metric == 2 || p->metric == 1;
-    if (!bounded)
-        visit_all(&s);
+    const int wanted = wanted_of(p);
+    struct nearest n;
+    if (p->metric == 2)
+        search(at, true, wanted, 1, NULL, &n);
+    else if (p->metric == 1)
+        search(at, false, wanted, 1, NULL, &n);
     else
-        visit_near(&s, p->solid ? 0 : wanted(p) - 1);
-    return p->solid ? clamp01(pattern_noise(p, s.nearest)) : form_value(p, s.d);
+        search_general(at, p->metric, wanted, &n);
+    return p->solid ? clamp01(pattern_noise(p, n.p)) : form_value(p, n.d);
 }
 
 // Whether lane i is in the cell.
@@ -193,10 +295,10 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
             }
             continue;
         }
-        k->nearest(at, cell, lanes, (int)p->metric, wanted(p), sum);
+        k->nearest(at, cell, lanes, (int)p->metric, wanted_of(p), sum);
         for (; lanes; lanes &= lanes - 1) {
             const int i = __builtin_ctz(lanes);
-            out[i] = form_value(p, (double[3]){sum[0][i], sum[1][i], sum[2][i]});
+            out[i] = form_value(p, (double[]){sum[0][i], sum[1][i], sum[2][i]});
         }
     }
 }

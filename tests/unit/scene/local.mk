@@ -17,3 +17,7 @@ check_PROGRAMS += test_pattern_packets
 test_pattern_packets_SOURCES = %D%/test_pattern_packets.c
 test_pattern_packets_CPPFLAGS = $(test_cppflags)
 test_pattern_packets_LDADD = $(test_ldadd)
+check_PROGRAMS += test_crackle
+test_crackle_SOURCES = %D%/test_crackle.c
+test_crackle_CPPFLAGS = $(test_cppflags)
+test_crackle_LDADD = $(test_ldadd)
