@@ -139,6 +139,7 @@ LAMBERT_API enum lambert_status lambert_render(struct lambert_context *ctx,
 
 struct lambert_stats {
     double parse_seconds, build_seconds, trace_seconds, write_seconds;
+    double trace_cpu_seconds; // of all threads, while tracing
     uint64_t pixels, samples, rays, shadow_rays, node_visits, leaf_tests, csg_tests;
     uint64_t function_evaluations; // to find surfaces given by functions
     uint32_t tiles_done, tiles_total, objects, leaves, lights;

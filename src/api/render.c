@@ -61,6 +61,7 @@ static void keep_stats(struct lambert_context *ctx, const struct render_stats *r
 {
     struct lambert_stats *s = &ctx->stats;
     s->trace_seconds = r->seconds;
+    s->trace_cpu_seconds = r->cpu_seconds;
     s->pixels = r->pixels;
     s->samples = r->samples;
     s->rays = r->trace.rays;

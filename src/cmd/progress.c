@@ -118,7 +118,8 @@ static void print_json(struct cmd *c, FILE *out, const struct lambert_stats *s,
     print_json_text(out, picture ? picture : "");
     fprintf(out, ",\"parse_seconds\":%.6f,\"build_seconds\":%.6f,\"trace_seconds\":%.6f",
             s->parse_seconds, s->build_seconds, s->trace_seconds);
-    fprintf(out, ",\"write_seconds\":%.6f", s->write_seconds);
+    fprintf(out, ",\"write_seconds\":%.6f,\"trace_cpu_seconds\":%.6f", s->write_seconds,
+            s->trace_cpu_seconds);
     fprintf(out, ",\"pixels\":%llu,\"samples\":%llu,\"rays\":%llu,\"shadow_rays\":%llu",
             (unsigned long long)s->pixels, (unsigned long long)s->samples,
             (unsigned long long)s->rays, (unsigned long long)s->shadow_rays);

@@ -138,10 +138,10 @@ static void settings_check(struct render_settings *s)
         s->aa_depth = 9;
 }
 
-static double now(void)
+static double now(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -166,10 +166,11 @@ bool render_world(const struct world *w, const struct render_settings *settings,
             (uint32_t)((s.row_end - s.row_begin + s.tile_size - 1) / s.tile_size);
     }
     pthread_mutex_init(&r.lock, NULL);
-    const double begin = now();
+    const double begin = now(CLOCK_MONOTONIC), cpu_begin = now(CLOCK_PROCESS_CPUTIME_ID);
     if (r.tiles_total)
         work_in_threads(&r);
-    r.stats.seconds = now() - begin;
+    r.stats.seconds = now(CLOCK_MONOTONIC) - begin;
+    r.stats.cpu_seconds = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
     r.stats.tiles_total = r.tiles_total;
     pthread_mutex_destroy(&r.lock);
     arena_free(arena);

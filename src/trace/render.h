@@ -37,7 +37,8 @@ struct render_progress {
 struct render_stats {
     struct trace_stats trace;
     uint64_t samples, pixels;
-    double seconds; // wall, of tracing alone
+    double seconds;     // wall, of tracing alone
+    double cpu_seconds; // the process's, in that time
     uint32_t tiles_done, tiles_total;
 };
 

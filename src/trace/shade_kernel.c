@@ -93,20 +93,47 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
     return true;
 }
 
-// The colours of a pattern with its colour map, in the lanes of `bits`.
-LANES_INLINE void pattern8(const struct surface *s, const struct simple_surface *x,
-                           struct simple_group *g, unsigned bits)
+// The points of a group as patterns see them, and in the space of the texture.
+LANES_INLINE struct pattern_packet packet_of(const struct simple_group *g)
 {
-    const struct pattern_packet packet = {
+    return (struct pattern_packet){
         &PASTE(noise_kernels_, ISA), (const double(*)[8])g->p, (const double(*)[8])g->n,
         (const double(*)[8])g->d};
+}
+
+LANES_INLINE struct vec8 texture_place8(const struct surface *s,
+                                        const struct simple_group *g)
+{
     const struct transform *m = &s->texture_transform;
+    const struct vec8 p = v8_load((const double(*)[8])g->p);
+    return m->identity ? p : v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+}
+
+// The normals of a layer in the lanes of `bits`.
+static void normals8(const struct surface *s, const struct simple_surface *x,
+                     struct simple_group *g, unsigned bits)
+{
+    const struct pattern_packet packet = packet_of(g);
+    const struct transform *m = &s->texture_transform;
+    const struct vec8 before = v8_load((const double(*)[8])g->n);
+    double place[3][8], v[3][8];
+    v8_store(place, texture_place8(s, g));
+    v8_store(v, m->identity ? before : v8_times_column(&m->linear, before));
+    normal_perturb8(x->normal, &packet, (const double(*)[8])place, v);
+    struct vec8 n = v8_load((const double(*)[8])v);
+    if (!m->identity)
+        n = v8_times_column(&m->inverse, n);
+    v8_store(g->n, v8_select(m8_of(bits), v8_normalize(n), before));
+}
+
+// The colours of a pattern with its colour map, in the lanes of `bits`.
+static void pattern8(const struct surface *s, const struct simple_surface *x,
+                     struct simple_group *g, unsigned bits)
+{
+    const struct pattern_packet packet = packet_of(g);
     double place[3][8];
     float color[3][8];
-    struct vec8 p = v8_load((const double(*)[8])g->p);
-    if (!m->identity)
-        p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
-    v8_store(place, p);
+    v8_store(place, texture_place8(s, g));
     pigment_colors8(x->pigment, &packet, (const double(*)[8])place, color);
     for (; bits; bits &= bits - 1) {
         const int i = __builtin_ctz(bits);
@@ -121,6 +148,8 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
 {
     const struct simple_surface *x = &t->job->simple[surface];
     const struct surface *s = &t->job->world->surface[surface];
+    if (x->normal)
+        normals8(s, x, g, bits);
     if (bits == 255 && x->kind == SIMPLE_SOLID) {
         f8_store(g->color[0], f8_set(x->color[0].r));
         f8_store(g->color[1], f8_set(x->color[0].g));

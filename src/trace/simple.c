@@ -85,6 +85,16 @@ static bool has_dispersion(const struct world *w)
     return false;
 }
 
+// Rays that go on ask for both the normal of the surface and that of the layer.
+static bool normal_is_simple(const struct job *job, const struct texture_layer *l)
+{
+    if (!l->normal || !job->normals)
+        return true;
+    return l->normal->kind == NORMAL_PATTERN && !l->normal->pattern.pigment &&
+           !pigment_is_clear(l->pigment) &&
+           !(job->mirrors && finish_has_mirror(l->finish));
+}
+
 static bool surface_is_simple(const struct job *job, const struct surface *s,
                               bool dispersion)
 {
@@ -94,7 +104,7 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
-    return !(l->normal && job->normals) && pigment_is_simple(l->pigment) &&
+    return normal_is_simple(job, l) && pigment_is_simple(l->pigment) &&
            !(dispersion && pigment_is_clear(l->pigment)) && f->irid == 0 &&
            f->crand <= 0 && f->reflection_exponent == 1 &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
@@ -173,6 +183,7 @@ void simple_compile(struct job *job, struct arena *a)
         simple[i] = (struct simple_surface){.class = class_of(job, all, &w->surface[i]),
                                             .kind = pigment_kind(p),
                                             .pigment = p};
+        simple[i].normal = job->normals ? w->surface[i].texture->layer[0].normal : NULL;
         simple[i].att = 1;
         if (simple[i].kind == SIMPLE_SOLID) {
             const struct rgbft x = p->color;

@@ -3,7 +3,7 @@
 
 #include "trace/tracer.h"
 
-// Simple surfaces have one layer without a normal, and their light follows from finish,
+// Simple surfaces have one layer, with a normal of a pattern at most, and their light follows from finish,
 // lamps and the colour at the point; what lets light through has one colour everywhere.
 // Their hits are shaded eight at a time (trace/shade_kernel.h), with the arithmetic, and
 // hence the bits, of trace/shade.c.
@@ -34,6 +34,7 @@ struct simple_surface {
     float att;       // opacity
     struct rgb pass; // of the pigment
     const struct pigment *pigment;
+    const struct normal *normal; // NULL: none
 };
 
 // Eight hits of one class. Lanes that are not live repeat one that is.

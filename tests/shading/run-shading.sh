@@ -31,7 +31,8 @@ done
 # scene above, those of the gallery, and for each instruction set.
 different=
 scenes=0
-for scene in "$dir"/*.pov "$top_srcdir"/scenes/gallery/*.scn "$top_srcdir"/tests/perf/csg_1000.scn; do
+for scene in "$dir"/*.pov "$top_srcdir"/scenes/gallery/*.scn "$top_srcdir"/tests/perf/csg_1000.scn \
+    "$top_srcdir"/tests/perf/texture_*.scn; do
     [ -z "$(sed -n "s/^$(basename "$scene" .pov): //p" "$dir/not-built.txt")" ] || continue
     LAMBERT_SHADING=general "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" +W61 +H47 -q \
         -o "$tmp/first.exr" >"$tmp/log" 2>&1 || continue
