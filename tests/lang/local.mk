@@ -152,6 +152,7 @@ lang_scenes = \
 	%D%/234-file-numbers.scn \
 	%D%/235-file-append.scn \
 	%D%/236-file-array.scn \
+	%D%/250-density-file.scn \
 	%D%/237-file-colours.scn \
 	%D%/238-version-branches.scn \
 	%D%/239-switch-ranges.scn \
