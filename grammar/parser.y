@@ -183,7 +183,7 @@ static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
 %token MORE                     // a ']' with '[' after it
 %token <size_t> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
 %token <size_t> FUNCTION ARRAY
-%token <struct ast *> NUMBER VECTOR3 STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
+%token <struct ast *> NUMBER VECTOR3 BULK STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
 
 %type <struct ast *> statement block function_block function_body params size entry
 %type <struct ast *> full compare value arith unary primary vector string string_or_arith
@@ -335,6 +335,7 @@ items:
 
 item:
     value
+  | BULK
   | string
   | OTHER_NAME
   | block
@@ -583,6 +584,10 @@ static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p)
     case TOK_VECTOR3:
         value->TOK_VECTOR3 = ast_new(p->arena, AST_VECTOR3, *where);
         value->TOK_VECTOR3->vector = t->vector;
+        return kind;
+    case TOK_BULK:
+        value->TOK_BULK = ast_new(p->arena, AST_BULK, *where);
+        value->TOK_BULK->bulk = t->bulk;
         return kind;
     case TOK_NUMBER:
         value->TOK_NUMBER = ast_new(p->arena, AST_NUMBER, *where);

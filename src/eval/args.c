@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "eval/function.h"
+#include "lang/bulk.h"
 
 // The readers that shapes use (scene/args.h). Numbers and vectors written out are
 // taken straight from the AST: a mesh has millions of them.
@@ -152,6 +153,15 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
     for (const struct ast *c = v->list; c; c = c->next, out++)
         if (!checked(a, eval_float(a->b->e, c, out)))
             return false;
+    return true;
+}
+
+bool args_vectors(struct args *a, struct args_vectors *out)
+{
+    if (!a->at || a->at->kind != AST_BULK)
+        return false;
+    const struct bulk *b = args_next(a)->bulk;
+    *out = (struct args_vectors){b->count, b->width, b->number, b->index};
     return true;
 }
 

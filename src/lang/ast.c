@@ -72,7 +72,7 @@ static void print_head(const struct ast *n, FILE *out)
         [AST_VALUE] = "value",     [AST_UNDECLARED] = "undeclared",
         [AST_WORD] = "word",       [AST_CONSTANT] = "constant",
         [AST_VECTOR] = "vector",   [AST_VECTOR3] = "vector",
-        [AST_UNARY] = "unary",
+        [AST_BULK] = "vectors",    [AST_UNARY] = "unary",
         [AST_BINARY] = "binary",   [AST_CONDITIONAL] = "conditional",
         [AST_MEMBER] = "member",   [AST_CALL] = "call",
         [AST_APPLY] = "apply",     [AST_INDEX] = "index",
@@ -107,6 +107,7 @@ static void print_head(const struct ast *n, FILE *out)
     case AST_VECTOR3:
         fprintf(out, " %.17g %.17g %.17g", n->vector[0], n->vector[1], n->vector[2]);
         break;
+    case AST_BULK:
     case AST_VECTOR:
     case AST_CONDITIONAL:
     case AST_ENTRY:

@@ -8,6 +8,7 @@
 #include "lang/token.h"
 
 struct arena;
+struct bulk; // lang/bulk.h
 struct value; // eval/value.h; opaque here
 
 // What the parser makes of the text. Blocks are generic: a keyword and the items in
@@ -36,6 +37,7 @@ enum ast_kind {
     AST_CONSTANT,    // word: x y z t u v pi clock true false yes no on off version ...
     AST_VECTOR,      // list: 2..5 components (more for matrix and poly)
     AST_VECTOR3,     // vector: three components, written as plain numbers
+    AST_BULK,        // bulk: all vectors of a block of mesh2
     AST_UNARY,       // op ('-' '!' '+'), left
     AST_BINARY,      // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
     AST_CONDITIONAL, // list: condition, if true, if false
@@ -68,6 +70,7 @@ struct ast {
         const char *text; // STRING, UNDECLARED, and the name of VALUE, APPLY, INDEX
         struct ast *left;
         const double *vector; // VECTOR3
+        const struct bulk *bulk;
     };
     union {
         struct ast *right;

@@ -258,6 +258,8 @@ static const char *token_text(struct parse *p, const struct token *t)
         return "a string";
     case TOK_VECTOR3:
         return "a vector";
+    case TOK_BULK:
+        return "vectors";
     case TOK_NAME:
         if (!t->len)
             return "an expression";

@@ -6,6 +6,7 @@
 
 #include "base/source.h"
 
+struct bulk;
 struct value;
 
 // One token of a file, made once by the lexer. `word` is the index of a reserved
@@ -19,6 +20,7 @@ struct token {
     union {
         double number;
         const double *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
+        const struct bulk *bulk; // TOK_BULK: the contents of a block of mesh2
     };
     const struct value *value; // a declared name, when read by the stream: its value
 };

@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <stdlib.h>
+#include <string.h>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -40,73 +41,146 @@ static struct vec3 middle(struct aabb b)
                 0.5 * b.min.z + 0.5 * b.max.z);
 }
 
+static double lesser(double a, double b) { return b < a ? b : a; }
+static double greater(double a, double b) { return b > a ? b : a; }
+
+// aabb_join of boxes that are not empty, in place: most of the work of a build.
+static inline void widen(struct aabb *a, const struct aabb *b)
+{
+    a->min.x = lesser(a->min.x, b->min.x);
+    a->min.y = lesser(a->min.y, b->min.y);
+    a->min.z = lesser(a->min.z, b->min.z);
+    a->max.x = greater(a->max.x, b->max.x);
+    a->max.y = greater(a->max.y, b->max.y);
+    a->max.z = greater(a->max.z, b->max.z);
+}
+
 static struct aabb range_box(const struct builder *b, uint32_t first, uint32_t count)
 {
     struct aabb box = aabb_empty();
     for (uint32_t i = 0; i < count; i++)
-        box = aabb_join(box, b->box[b->order[first + i]]);
+        widen(&box, &b->box[b->order[first + i]]);
     return box;
 }
 
 struct cut {
     int axis, bin;
     double cost, from, width;
+    struct aabb near, far; // of the items on either side
 };
 
-static int bin_of(const struct builder *b, uint32_t item, const struct cut *c)
+// The items of a range whose centres are in the same part of an axis. Boxes of bins
+// without items are not set.
+struct bins {
+    double from, width; // of all centres
+    uint32_t count[BINS];
+    struct aabb box[BINS];
+};
+
+static inline int bin_at(double middle, double from, double width)
 {
-    int k = (int)((vec3_axis(middle(b->box[item]), c->axis) - c->from) / c->width * BINS);
+    int k = (int)((middle - from) / width * BINS);
     return k < 0 ? 0 : k >= BINS ? BINS - 1 : k;
 }
 
-// The surface area heuristic over BINS equal bins of the centres along one axis.
-static void try_axis(const struct builder *b, const struct range *r, struct cut c,
-                     struct cut *best)
+static inline void put_in_bin(struct bins *bins, double middle, const struct aabb *box)
 {
-    struct aabb box[BINS], right[BINS];
-    uint32_t count[BINS] = {0}, behind[BINS];
-    for (int i = 0; i < BINS; i++)
-        box[i] = aabb_empty();
-    for (uint32_t i = 0; i < r->count; i++) {
-        uint32_t item = b->order[r->first + i];
-        int k = bin_of(b, item, &c);
-        box[k] = aabb_join(box[k], b->box[item]);
-        count[k]++;
-    }
-    struct aabb sum = aabb_empty();
-    uint32_t n = 0;
+    int k = bin_at(middle, bins->from, bins->width);
+    if (bins->count[k]++)
+        widen(&bins->box[k], box);
+    else
+        bins->box[k] = *box;
+}
+
+static int bin_of(const struct builder *b, uint32_t item, const struct cut *c)
+{
+    return bin_at(vec3_axis(middle(b->box[item]), c->axis), c->from, c->width);
+}
+
+static inline double half_area(const struct aabb *a)
+{
+    const double x = a->max.x - a->min.x, y = a->max.y - a->min.y, z = a->max.z - a->min.z;
+    return x * y + y * z + z * x;
+}
+
+static inline void add_bin(struct aabb *sum, uint32_t *n, const struct bins *bins, int i)
+{
+    if (!bins->count[i])
+        return;
+    if (*n)
+        widen(sum, &bins->box[i]);
+    else
+        *sum = bins->box[i];
+    *n += bins->count[i];
+}
+
+// The surface area heuristic over BINS equal bins of the centres along one axis.
+static void try_axis(const struct bins *bins, int axis, struct cut *best)
+{
+    double area[BINS]; // behind each bin, itself included
+    uint32_t behind[BINS], n = 0;
+    struct aabb sum;
     for (int i = BINS - 1; i > 0; i--) {
-        sum = aabb_join(sum, box[i]);
-        n += count[i];
-        right[i] = sum;
+        add_bin(&sum, &n, bins, i);
         behind[i] = n;
+        area[i] = n ? half_area(&sum) : 0;
     }
-    sum = aabb_empty();
     n = 0;
-    for (int i = 0; i < BINS - 1; i++) {
-        sum = aabb_join(sum, box[i]);
-        n += count[i];
-        if (n == 0 || behind[i + 1] == 0)
+    for (int i = 0; i < BINS - 1 && behind[i + 1]; i++) {
+        if (!bins->count[i]) // the cut before it is the same
             continue;
-        c.cost = aabb_half_area(sum) * n + aabb_half_area(right[i + 1]) * behind[i + 1];
-        c.bin = i;
-        if (c.cost < best->cost)
-            *best = c;
+        add_bin(&sum, &n, bins, i);
+        const double cost = half_area(&sum) * n + area[i + 1] * behind[i + 1];
+        if (cost < best->cost) {
+            best->cost = cost;
+            best->axis = axis;
+            best->bin = i;
+        }
     }
+}
+
+static void settle(struct cut *c, const struct bins *bins)
+{
+    uint32_t n = 0;
+    c->from = bins->from;
+    c->width = bins->width;
+    for (int i = 0; i <= c->bin; i++)
+        add_bin(&c->near, &n, bins, i);
+    n = 0;
+    for (int i = c->bin + 1; i < BINS; i++)
+        add_bin(&c->far, &n, bins, i);
 }
 
 static bool find_cut(const struct builder *b, const struct range *r, struct cut *best)
 {
+    const uint32_t *item = b->order + r->first;
     struct aabb centres = aabb_empty();
-    for (uint32_t i = 0; i < r->count; i++)
-        centres = aabb_add(centres, middle(b->box[b->order[r->first + i]]));
-    *best = (struct cut){.axis = -1, .cost = DBL_MAX};
-    for (int axis = 0; axis < 3; axis++) {
-        struct cut c = {.axis = axis, .from = vec3_axis(centres.min, axis)};
-        c.width = vec3_axis(centres.max, axis) - c.from;
-        if (c.width > 0)
-            try_axis(b, r, c, best);
+    struct bins bins[3];
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct vec3 m = middle(b->box[item[i]]);
+        widen(&centres, &(struct aabb){m, m});
     }
+    for (int axis = 0; axis < 3; axis++) {
+        bins[axis].from = vec3_axis(centres.min, axis);
+        bins[axis].width = vec3_axis(centres.max, axis) - bins[axis].from;
+        memset(bins[axis].count, 0, sizeof bins[axis].count);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct aabb *box = &b->box[item[i]];
+        const struct vec3 m = middle(*box);
+        if (bins[0].width > 0)
+            put_in_bin(&bins[0], m.x, box);
+        if (bins[1].width > 0)
+            put_in_bin(&bins[1], m.y, box);
+        if (bins[2].width > 0)
+            put_in_bin(&bins[2], m.z, box);
+    }
+    best->axis = -1;
+    best->cost = DBL_MAX;
+    for (int axis = 0; axis < 3; axis++)
+        try_axis(&bins[axis], axis, best);
+    if (best->axis >= 0)
+        settle(best, &bins[best->axis]);
     return best->axis >= 0;
 }
 
@@ -135,7 +209,8 @@ static bool split(struct builder *b, struct range *r, uint32_t depth, struct ran
         return false;
     uint32_t left = r->count / 2;
     struct cut c;
-    if (depth < DEPTH_BINNED && find_cut(b, r, &c)) {
+    const bool cut = depth < DEPTH_BINNED && find_cut(b, r, &c);
+    if (cut) {
         // A test of a box costs about as much as half a test of an object.
         double area = aabb_half_area(r->box);
         if (r->count <= LEAF_ITEMS && c.cost + 0.5 * area >= area * r->count)
@@ -144,12 +219,10 @@ static bool split(struct builder *b, struct range *r, uint32_t depth, struct ran
     } else if (r->count <= LEAF_ITEMS) {
         return false;
     }
-    if (left == 0 || left == r->count)
-        left = r->count / 2;
     *rest = (struct range){.first = r->first + left, .count = r->count - left};
-    rest->box = range_box(b, rest->first, rest->count);
+    rest->box = cut ? c.far : range_box(b, rest->first, rest->count);
     r->count = left;
-    r->box = range_box(b, r->first, r->count);
+    r->box = cut ? c.near : range_box(b, r->first, r->count);
     return true;
 }
 

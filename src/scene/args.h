@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/diag.h"
 #include "image/image.h"
@@ -26,6 +27,15 @@ bool args_vec4(struct args *a, const char *role, double out[4]);
 bool args_string(struct args *a, const char *role, const char **out);
 // `< f, f, ... >` with exactly n numbers (cubic, quartic, poly).
 bool args_floats(struct args *a, const char *role, double *out, size_t n);
+
+// The whole block when it is `n, <...>, ...` of plain numbers; false, and nothing is read,
+// when it must be read one by one.
+struct args_vectors {
+    uint32_t count, width;
+    const double *number;  // count*width; NULL: `index` instead
+    const uint32_t *index; // whole numbers
+};
+bool args_vectors(struct args *a, struct args_vectors *out);
 
 // True when the next item can start a number (an optional argument is there).
 bool args_at_number(struct args *a);

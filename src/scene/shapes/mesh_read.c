@@ -170,10 +170,21 @@ static bool read_count(struct args *block, uint32_t *out)
     return true;
 }
 
+static void *kept(struct arena *a, const void *from, size_t size)
+{
+    return memcpy(arena_alloc(a, size), from, size);
+}
+
 static bool read_vectors(struct args *block, struct arena *a, struct vec3 **out,
                          uint32_t *count)
 {
     uint32_t n, capacity = 0;
+    struct args_vectors all;
+    if (args_vectors(block, &all)) {
+        *out = kept(a, all.number, all.count * sizeof **out);
+        *count = all.count;
+        return true;
+    }
     if (!read_count(block, &n))
         return false;
     // Grown as they come: the count may lie about a file that ends early.
@@ -189,6 +200,12 @@ static bool read_vectors(struct args *block, struct arena *a, struct vec3 **out,
 static bool read_uvs(struct args *block, struct arena *a, struct mesh *m)
 {
     uint32_t n, capacity = 0;
+    struct args_vectors all;
+    if (args_vectors(block, &all)) {
+        m->uv = kept(a, all.number, all.count * sizeof *m->uv);
+        m->uv_count = all.count;
+        return true;
+    }
     if (!read_count(block, &n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
@@ -245,10 +262,31 @@ static bool read_texture_list(struct mesh *m, struct args *block, struct arena *
     return true;
 }
 
+static bool take_indices(struct args *block, struct arena *a, uint32_t limit,
+                         const struct args_vectors *all, struct mesh *textures,
+                         uint32_t (**out)[3], uint32_t *count)
+{
+    for (size_t i = 0; i < (size_t)all->count * 3; i++)
+        if (all->index[i] >= limit) {
+            args_reject(block, "an index is out of range");
+            return false;
+        }
+    *out = kept(a, all->index, all->count * sizeof **out);
+    if (textures && textures->texture_count) { // none of the faces has one
+        const size_t size = all->count * sizeof *textures->face_texture;
+        textures->face_texture = memset(arena_alloc(a, size), 0xff, size);
+    }
+    *count = all->count;
+    return true;
+}
+
 static bool read_indices(struct args *block, struct arena *a, uint32_t limit,
                          struct mesh *textures, uint32_t (**out)[3], uint32_t *count)
 {
     uint32_t n, capacity = 0, texture_capacity = 0;
+    struct args_vectors all;
+    if (args_vectors(block, &all))
+        return take_indices(block, a, limit, &all, textures, out, count);
     if (!read_count(block, &n))
         return false;
     for (uint32_t i = 0; i < n; i++) {

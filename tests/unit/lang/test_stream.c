@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "lang/bulk.h"
 #include "lang/parse.h"
 #include "lang/stream.h"
 
@@ -327,10 +328,61 @@ static void errors(void **state)
     free(deep);
 }
 
+// Which contents of a block are taken whole, and to which byte.
+static void bulk(void **state)
+{
+    (void)state;
+    static const struct {
+        enum word block;
+        const char *text;
+        bool taken;
+    } cases[] = {
+        {WORD_vertex_vectors, " 2, <1, -2.5, 3e2>,\n<.5,4.,-1E-3> }", true},
+        {WORD_vertex_vectors, "1 <1,2,3>}", true},
+        {WORD_uv_vectors, "1, <0.5, 1>, }", true},
+        {WORD_face_indices, "2 <0, 1, 2> <2, 1, 0>\t}", true},
+        {WORD_uv_vectors, "1, <0, 1, 2>}", false},
+        {WORD_face_indices, "1, <0, 1, 2>, 5}", false},
+        {WORD_face_indices, "1, <0, 1., 2>}", false},
+        {WORD_face_indices, "1, <0, 1, 4294967296>}", false},
+        {WORD_vertex_vectors, "2, <1, 2, 3>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3>, <1, 2, 3>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3>", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3e>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3..>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, .>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, 3+1>}", false},
+        {WORD_vertex_vectors, "1, <1 2 3>}", false},
+        {WORD_vertex_vectors, "1, <1, 2, A>}", false},
+        {WORD_vertex_vectors, "1,, <1, 2, 3>}", false},
+        {WORD_vertex_vectors, "1, // one\n<1, 2, 3>}", false},
+        {WORD_vertex_vectors, "999999999, <1, 2, 3>}", false},
+        {WORD_vertex_vectors, "0 }", false},
+        {WORD_sphere, "1, <1, 2, 3>}", false},
+    };
+    struct arena *a = arena_new(1 << 10);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *text = cases[i].text, *brace = strchr(text, '}');
+        struct bulk b;
+        const size_t n = bulk_scan(a, cases[i].block, text, strlen(text), &b);
+        assert_int_equal(n, cases[i].taken ? (size_t)(brace - text) : 0);
+    }
+    struct bulk b;
+    const char *text = cases[0].text;
+    static const double want[] = {1, -2.5, 300, 0.5, 4, -0.001};
+    assert_true(bulk_scan(a, WORD_vertex_vectors, text, strlen(text), &b) > 0);
+    assert_int_equal(b.count, 2);
+    assert_null(b.index);
+    assert_memory_equal(b.number, want, sizeof want);
+    arena_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(branches), cmocka_unit_test(loops), cmocka_unit_test(macros),
-        cmocka_unit_test(statements), cmocka_unit_test(errors)};
+        cmocka_unit_test(statements), cmocka_unit_test(errors),
+        cmocka_unit_test(bulk)};
     return cmocka_run_group_tests_name("stream", tests, NULL, NULL);
 }

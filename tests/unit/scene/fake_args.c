@@ -38,6 +38,13 @@ static const char *blank(const char *s)
     return s;
 }
 
+bool args_vectors(struct args *a, struct args_vectors *out)
+{
+    (void)a;
+    (void)out;
+    return false;
+}
+
 bool args_at_number(struct args *a)
 {
     const char *s = blank(a->at); // '<' stays for args_at_vector

@@ -1,0 +1,26 @@
+#ifndef LANG_BULK_H
+#define LANG_BULK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "lang/token.h"
+
+struct arena;
+
+// `n, <a, b>, <a, b>, ...`: the contents of a block of mesh2 as one token. Only what
+// programs write is taken: plain numbers, blanks, commas, exactly n vectors. Anything
+// else (a comment, a name, a sum, a wrong count) is left to scanner and grammar, which
+// give the same mesh and the errors.
+struct bulk {
+    uint32_t count, width; // vectors, components of each
+    const double *number;  // count*width; NULL: whole numbers
+    const uint32_t *index; // likewise, for lists of indices
+};
+
+// text: what follows the '{' of block `w`. The bytes before its '}' and *out, or 0.
+size_t bulk_scan(struct arena *a, enum word w, const char *text, size_t len,
+                 struct bulk *out);
+
+#endif
