@@ -59,10 +59,20 @@ uint32_t source_line(const struct source_file *f, uint32_t offset)
 
 uint32_t source_expand(struct source_map *m, const char *macro, struct span called_at)
 {
+    uint32_t *last = &m->expansion_at[(called_at.begin + 31 * called_at.file +
+                                       127 * called_at.expansion) %
+                                      EXPANSIONS_KEPT];
+    if (*last) {
+        const struct expansion *e = &m->expansions[*last];
+        const struct span s = e->called_at;
+        if (e->macro == macro && s.begin == called_at.begin && s.end == called_at.end &&
+            s.file == called_at.file && s.expansion == called_at.expansion)
+            return *last;
+    }
     if (m->expansion_count >= EXPANSIONS_MAX)
         return 0;
     m->expansions = grow(m->arena, m->expansions, m->expansion_count,
                          &m->expansion_capacity, sizeof(struct expansion));
     m->expansions[m->expansion_count] = (struct expansion){macro, called_at};
-    return m->expansion_count++;
+    return *last = m->expansion_count++;
 }

@@ -27,6 +27,8 @@ struct expansion {
     struct span called_at; // its own `expansion` is the enclosing call
 };
 
+enum { EXPANSIONS_KEPT = 256 };
+
 // Every file read for one scene and every macro call; grows, never shrinks.
 struct source_map {
     struct arena *arena;
@@ -34,6 +36,7 @@ struct source_map {
     uint32_t count, capacity;
     struct expansion *expansions;
     uint32_t expansion_count, expansion_capacity;
+    uint32_t expansion_at[EXPANSIONS_KEPT]; // the last of each remainder of the place, or 0
 };
 
 void source_map_init(struct source_map *m, struct arena *arena);
@@ -41,7 +44,8 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
                     struct span included_at);
 uint32_t source_line(const struct source_file *f, uint32_t offset); // 0-based
 
-// Records a macro call and returns its id; 0 (no trace) once EXPANSIONS_MAX are
+// Records a macro call and returns its id, mostly the same one for a call that comes
+// again (in a loop); 0 (no trace) once EXPANSIONS_MAX are
 // recorded, so that a scene with millions of calls does not pay for messages.
 uint32_t source_expand(struct source_map *m, const char *macro, struct span called_at);
 

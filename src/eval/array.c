@@ -83,7 +83,9 @@ bool array_set(struct arena *a, struct array_value *v, uint32_t index,
     if (v->kind == VALUE_NUMBER)
         memcpy(v->number + (size_t)index * width, to->n, width * sizeof(double));
     else
-        v->element[index] = to;
+        v->element[index] = to->kind == VALUE_STRING
+                                ? value_new_string(a, to->string.text, to->string.len)
+                                : to;
     v->set[index] = true;
     return true;
 }

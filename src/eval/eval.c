@@ -79,7 +79,7 @@ const struct value *eval_rvalue(struct eval *e, const struct ast *items)
         const char *text;
         if (!eval_string(e, items, &text))
             return NULL;
-        return value_new_string(e->arena, text, strlen(text));
+        return value_new_string(e->nodes, text, strlen(text));
     }
     if (ast_is_number(items) || items->kind == AST_UNDECLARED) {
         if (!eval_number(e, items, 1, v, &width))

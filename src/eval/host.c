@@ -33,13 +33,18 @@ static struct name_info lookup(void *user, const char *name, size_t len)
 {
     struct eval *e = user;
     struct place p = symbols_find(e->symbols, name, len, symbols_depth(e->symbols));
-    const struct value *v = place_found(p) ? place_get(e->nodes, p) : NULL;
+    const struct value *v = place_found(p) ? place_peek(e->nodes, p) : NULL;
     if (!v)
         return (struct name_info){.class = NAME_UNDECLARED};
     struct name_info info = {.class = class_of(v), .value = v};
     if (v->kind == VALUE_MACRO)
         memcpy(&info.macro, &v->data, sizeof info.macro);
     return info;
+}
+
+static const struct value *hold(void *user, const struct value *v)
+{
+    return value_hold(((struct eval *)user)->nodes, v);
 }
 
 static bool number(void *user, const struct ast *expr, double *out)
@@ -108,7 +113,7 @@ static bool is_declared(void *user, const struct lvalue *name)
 {
     struct eval *e = user;
     struct place p = eval_place(e, name, symbols_depth(e->symbols));
-    return place_found(p) && place_get(e->nodes, p);
+    return place_found(p) && place_peek(e->nodes, p);
 }
 
 // ---- assignment --------------------------------------------------------------
@@ -135,7 +140,7 @@ bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
     }
     if (!place_found(p))
         p = symbols_make_at(e->symbols, to->name, to->len, to->local ? scope : 1);
-    const struct value *old = p.array ? NULL : place_get(e->nodes, p);
+    const struct value *old = p.array ? NULL : place_peek(e->nodes, p);
     if (old && (old->kind == VALUE_MACRO || old->kind == VALUE_FUNCTION)) {
         diag_at(e->diags, DIAG_REDECLARED, to->where, (int)to->len, to->name,
                 value_kind_name(old));
@@ -304,7 +309,7 @@ static bool bind_argument(void *user, const char *parameter, size_t len,
     if (argument->by_reference) {
         const struct lvalue *r = &argument->reference;
         struct place p = eval_place(e, r, symbols_depth(e->symbols) - 1);
-        const struct value *v = place_found(p) ? place_get(e->nodes, p) : NULL;
+        const struct value *v = place_found(p) ? place_peek(e->nodes, p) : NULL;
         if (!v) {
             if (place_found(p))
                 diag_at(e->diags, DIAG_UNSET, r->where, (int)r->len, r->name);
@@ -512,6 +517,7 @@ struct stream_host eval_host(struct eval *e)
     return (struct stream_host){
         .user = e,
         .lookup = lookup,
+        .hold = hold,
         .number = number,
         .string = string,
         .path = path,

@@ -13,10 +13,12 @@ struct symbol {
     struct symbol *next_in_scope; // or in the list of free entries
     uint32_t depth;
     bool unlinked;             // removed by #undef; a reference may still hold it
-    bool is_number;            // `number` holds the value
+    bool is_number, is_string; // `own` holds the value
     bool is_reference;         // `refers` holds it
-    struct value number;       // changed in place
-    const struct value *value; // what readers get; NULL: nothing, or not copied yet
+    struct value own;          // changed in place; a string's text is in `text`
+    char *text;                // room for strings, kept from one to the next
+    size_t text_capacity;
+    const struct value *value; // of any other kind; NULL: none
     struct place refers;
 };
 
@@ -175,7 +177,7 @@ static struct symbol *make_entry_of(struct symbol_tables *t, struct name *name,
     struct symbol *s = t->free;
     if (s) {
         t->free = s->next_in_scope;
-        memset(s, 0, sizeof *s);
+        *s = (struct symbol){.text = s->text, .text_capacity = s->text_capacity};
     } else {
         s = arena_new_struct(t->arena, struct symbol);
     }
@@ -214,17 +216,17 @@ struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool 
 
 const struct value *symbol_value(const struct symbol *s)
 {
-    return s->is_number ? NULL : s->value;
+    return s->value;
 }
 
 const struct value *symbol_number(const struct symbol *s)
 {
-    return s->is_number && !s->number.deprecated ? &s->number : NULL;
+    return s->is_number && !s->own.deprecated ? &s->own : NULL;
 }
 
 bool symbol_takes_number(const struct symbol *s)
 {
-    return s->is_number || !s->value ||
+    return !s->value ||
            (s->value->kind != VALUE_MACRO && s->value->kind != VALUE_FUNCTION);
 }
 
@@ -233,8 +235,9 @@ bool symbol_set_number(struct symbol *s, const struct value *v)
     if (!symbol_takes_number(s))
         return false;
     s->is_number = true;
+    s->is_string = false;
     s->value = NULL;
-    s->number = *v;
+    s->own = *v;
     return true;
 }
 
@@ -268,26 +271,56 @@ bool symbols_remove(struct symbol_tables *t, const char *name, size_t len)
     return true;
 }
 
-const struct value *place_get(struct arena *copies, struct place p)
+const struct value *place_peek(struct arena *copies, struct place p)
 {
     if (p.array)
         return array_get(copies, p.array, p.index);
-    struct symbol *s = p.symbol;
-    if (!s->is_number)
-        return s->value;
+    const struct symbol *s = p.symbol;
+    return s->is_number || s->is_string ? &s->own : s->value;
+}
+
+const struct value *value_hold(struct arena *copies, const struct value *v)
+{
+    if (!v || (v->kind != VALUE_NUMBER && v->kind != VALUE_STRING))
+        return v;
     struct value *copy = arena_new_struct(copies, struct value);
-    *copy = s->number;
+    *copy = *v;
+    if (v->kind == VALUE_STRING)
+        copy->string.text = arena_strndup(copies, v->string.text, v->string.len);
     return copy;
+}
+
+const struct value *place_get(struct arena *copies, struct place p)
+{
+    const struct value *v = place_peek(copies, p);
+    return p.array ? v : value_hold(copies, v);
+}
+
+// Where a loop appends to a string, the room doubles.
+static void keep_text(struct arena *a, struct symbol *s, const struct value *v)
+{
+    const size_t size = (size_t)v->string.len + 1;
+    if (size > s->text_capacity) {
+        s->text_capacity = size < 64 ? 64 : 2 * size;
+        s->text = arena_alloc(a, s->text_capacity);
+    }
+    memmove(s->text, v->string.text, size);
+    s->own = *v;
+    s->own.string.text = s->text;
 }
 
 bool place_set(struct arena *a, struct place p, const struct value *v)
 {
     if (p.array)
         return array_set(a, p.array, p.index, v);
-    p.symbol->is_number = v->kind == VALUE_NUMBER;
-    p.symbol->value = p.symbol->is_number ? NULL : v;
-    if (p.symbol->is_number)
-        p.symbol->number = *v;
+    struct symbol *s = p.symbol;
+    s->is_number = v->kind == VALUE_NUMBER;
+    s->is_string = v->kind == VALUE_STRING;
+    s->value = s->is_number || s->is_string ? NULL : v;
+    if (s->is_number)
+        s->own = *v;
+    else if (s->is_string)
+        keep_text(a, s, v);
     return true;
 }
 
@@ -297,7 +330,7 @@ void place_clear(struct place p)
         p.array->set[p.index] = false;
         return;
     }
-    p.symbol->is_number = false;
+    p.symbol->is_number = p.symbol->is_string = false;
     p.symbol->value = NULL;
 }
 

@@ -39,7 +39,8 @@ struct name *symbols_name(struct symbol_tables *t, const char *text, size_t len)
 struct place symbols_place(const struct symbol_tables *t, const struct name *name);
 // Where an assignment to the name goes; the entry is made if it is not there.
 struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool local);
-const struct value *symbol_value(const struct symbol *s);  // NULL: none, or a number
+// NULL: none, or a number or string.
+const struct value *symbol_value(const struct symbol *s);
 const struct value *symbol_number(const struct symbol *s); // in place; NULL: no number
 // Assigns a number unless the name is a macro's or a function's.
 bool symbol_set_number(struct symbol *s, const struct value *v);
@@ -54,10 +55,15 @@ void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
 bool symbols_remove(struct symbol_tables *t, const char *name, size_t len);
 
 static inline bool place_found(struct place p) { return p.symbol || p.array; }
-// The value now, immutable: numbers are copied into `copies`.
+// The value now, immutable: numbers and strings are copied into `copies`.
 // NULL: nothing was assigned yet.
 const struct value *place_get(struct arena *copies, struct place p);
-// False when an array element would change its kind. Numbers cost no memory.
+// The same, for as long as nothing is assigned.
+const struct value *place_peek(struct arena *copies, struct place p);
+// What place_peek gave, for longer.
+const struct value *value_hold(struct arena *copies, const struct value *v);
+// False when an array element would change its kind. Numbers and strings are copied: the
+// place needs no memory for a number, and for a string that of the longest it held.
 bool place_set(struct arena *a, struct place p, const struct value *v);
 void place_clear(struct place p);
 

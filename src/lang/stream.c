@@ -378,11 +378,18 @@ static int call_token(enum word w)
     }
 }
 
+static const struct value *held(struct stream *s, const struct name_info *info)
+{
+    if (!s->host.hold || (info->class != NAME_VALUE && info->class != NAME_STRING))
+        return info->value;
+    return s->host.hold(s->host.user, info->value);
+}
+
 // Binds a name to what it stands for now; false when it was a macro, now expanded.
 static bool bind_name(struct stream *s, struct token *t)
 {
     struct name_info info = s->host.lookup(s->host.user, t->text, t->len);
-    t->value = info.value;
+    t->value = held(s, &info);
     switch (info.class) {
     case NAME_UNDECLARED:
         t->value = NULL;
@@ -416,8 +423,11 @@ static bool take_pending(struct stream *s, struct token *out)
         return false;
     s->pending_set = false;
     *out = s->pending;
-    if (out->kind == TOK_NAME && out->value) // may be gone by now
-        out->value = s->host.lookup(s->host.user, out->text, out->len).value;
+    if ((out->kind == TOK_NAME || out->kind == TOK_STRING_NAME) && out->value) {
+        struct name_info info = s->host.lookup(s->host.user, out->text, out->len);
+        out->value = held(s, &info); // the one before may be gone by now
+        out->kind = info.class == NAME_STRING ? TOK_STRING_NAME : TOK_NAME;
+    }
     return true;
 }
 

@@ -25,7 +25,7 @@ enum name_class {
 
 struct name_info {
     enum name_class class;
-    const struct value *value; // the value now, immutable
+    const struct value *value; // the value now, until something is assigned
     void *macro;               // NAME_MACRO: what define_macro stored
 };
 
@@ -89,6 +89,8 @@ enum calc_outcome {
 struct stream_host {
     void *user;
     struct name_info (*lookup)(void *user, const char *name, size_t len);
+    // The value of a lookup to keep for as long as nodes are; may be NULL: they are kept.
+    const struct value *(*hold)(void *user, const struct value *value);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
     bool (*path)(void *user, const struct ast *expr, const char **out);   // no escapes
