@@ -498,7 +498,7 @@ void build_material_map(struct args *a, struct texture *x)
     struct args in = args_of(a->b, args_next(a), a);
     struct arena *arena = a->b->arena;
     float unused;
-    *x = (struct texture){.kind = TEXTURE_MATERIAL};
+    *x = (struct texture){.kind = TEXTURE_MATERIAL, .pattern = &pattern_none};
     x->image = build_image_map(&in, WORD_material_map, &unused);
     struct pointer_list list = {0};
     while (args_at_block(&in) == WORD_texture) {

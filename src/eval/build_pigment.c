@@ -35,7 +35,9 @@ const struct pigment *build_pigment_body(struct args *a, const struct pigment *s
     if (!a->at)
         return a->failed ? NULL : from;
     struct pigment p = *from;
-    struct body body = {.kind = BODY_PIGMENT, .pattern = &p.pattern, .pigment = &p};
+    const struct pattern *before = p.pattern ? p.pattern : &pattern_none;
+    struct pattern pattern = *before;
+    struct body body = {.kind = BODY_PIGMENT, .pattern = &pattern, .pigment = &p};
     const char *name = a->name;
     if (name && (a->owner && (a->owner->word == WORD_density)))
         body.kind = BODY_DENSITY;
@@ -48,13 +50,14 @@ const struct pigment *build_pigment_body(struct args *a, const struct pigment *s
         build_pattern(a, &body);
     }
     modifiers(a, &body);
-    pattern_finish(a, &p.pattern);
+    pattern_finish(a, &pattern);
     if (p.kind == PIGMENT_AVERAGE && !p.map)
         args_error(a, args_span(a), "average needs a map");
     if (p.kind == PIGMENT_COLORS && !p.colors)
-        p.colors = color_map_default(&p.pattern);
+        p.colors = color_map_default(&pattern);
     if (a->failed)
         return NULL;
+    p.pattern = pattern_keep(a->b->arena, &pattern, before);
     struct pigment *out = arena_new_struct(a->b->arena, struct pigment);
     *out = p;
     return out;

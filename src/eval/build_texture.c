@@ -137,7 +137,9 @@ static void tiles(struct args *a, struct texture *x)
     key[1] = 1;
     struct texture_map *m = arena_new_struct(arena, struct texture_map);
     *m = (struct texture_map){2, key, entry};
-    pattern_set_kind(&x->pattern, ops);
+    struct pattern *checker = arena_new_struct(arena, struct pattern);
+    pattern_set_kind(checker, ops);
+    x->pattern = checker;
     x->kind = TEXTURE_MAP;
     x->map = m;
 }
@@ -156,16 +158,16 @@ static void uv_mapping(struct args *a, struct texture *x)
 
 static void patterned(struct args *a, struct texture *x)
 {
-    struct body body = {.kind = BODY_TEXTURE, .pattern = &x->pattern, .texture = x};
+    struct pattern *pattern = arena_new_struct(a->b->arena, struct pattern);
+    struct body body = {.kind = BODY_TEXTURE, .pattern = pattern, .texture = x};
     size_t known;
     const enum word *words = pattern_modifier_words(&known);
-    *x = (struct texture){.kind = TEXTURE_MAP};
-    body.pattern = &x->pattern;
+    *x = (struct texture){.kind = TEXTURE_MAP, .pattern = pattern};
     build_pattern(a, &body);
     while (a->at)
         if (!build_pattern_modifier(a, &body))
             args_unknown(a, words, known);
-    pattern_finish(a, &x->pattern);
+    pattern_finish(a, pattern);
     if (!a->failed && !x->map)
         args_error(a, args_span(a), "a patterned texture needs a texture_map");
 }
@@ -181,14 +183,14 @@ const struct texture *build_texture_body(struct args *a)
     if (x.kind != TEXTURE_PLAIN) {
         move_only(a, &x);
     } else if (!id && w == WORD_tiles) {
-        x = (struct texture){.kind = TEXTURE_MAP};
+        x = (struct texture){.kind = TEXTURE_MAP, .pattern = &pattern_none};
         tiles(a, &x);
         move_only(a, &x);
     } else if (!id && w == WORD_material_map) {
         build_material_map(a, &x);
         move_only(a, &x);
     } else if (!id && w == WORD_uv_mapping) {
-        x = (struct texture){.kind = TEXTURE_UV};
+        x = (struct texture){.kind = TEXTURE_UV, .pattern = &pattern_none};
         uv_mapping(a, &x);
     } else if (!id && word_is_pattern(a->b, w)) {
         patterned(a, &x);

@@ -150,6 +150,14 @@ static inline int pattern_noise_generator(const struct pattern *p)
                               : 2;
 }
 
+// Patterns are shared: `p` kept in the arena, or `known` if that is the same; a copy of p
+// (NULL: pattern_none) moved by t.
+extern const struct pattern pattern_none;
+const struct pattern *pattern_keep(struct arena *a, const struct pattern *p,
+                                   const struct pattern *known);
+const struct pattern *pattern_moved(struct arena *a, const struct pattern *p,
+                                    const struct transform *t);
+
 const struct pattern_ops *pattern_find(const char *keyword, size_t len);
 // As a pattern keyword does (spec/textures 3.1): the kind and its parameters change,
 // wave type and frequency where the kind says so; warps and the rest stay. A pattern

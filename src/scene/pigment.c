@@ -73,17 +73,17 @@ static bool color_at(const struct pigment *p, struct vec3 place,
     case PIGMENT_SOLID: *out = p->color; return true;
     case PIGMENT_COLORS:
         c = pattern_context_of(at);
-        *out = map_color(p->colors, pattern_value(&p->pattern, place, &c));
+        *out = map_color(p->colors, pattern_value(p->pattern, place, &c));
         return true;
     case PIGMENT_MAP:
         c = pattern_context_of(at);
-        place = pattern_warp(&p->pattern, place);
-        return blend_pigments(p, pattern_value_at(&p->pattern, place, &c), place, at,
+        place = pattern_warp(p->pattern, place);
+        return blend_pigments(p, pattern_value_at(p->pattern, place, &c), place, at,
                               out);
     case PIGMENT_AVERAGE:
-        return average_pigments(p->map, pattern_warp(&p->pattern, place), at, out);
+        return average_pigments(p->map, pattern_warp(p->pattern, place), at, out);
     case PIGMENT_IMAGE:
-        return image_map_color(p->image, pattern_warp(&p->pattern, place), out);
+        return image_map_color(p->image, pattern_warp(p->pattern, place), out);
     case PIGMENT_UV: return color_at(p->map->entry[0], uv_point(at), at, out);
     }
     *out = (struct rgbft){0};
@@ -105,8 +105,8 @@ void pigment_colors8(const struct pigment *p, const struct pattern_packet *packe
 {
     double at[3][8], v[8];
     memcpy(at, place, sizeof at);
-    pattern_warp8(&p->pattern, packet->noise, at);
-    pattern_values_at8(&p->pattern, packet, (const double(*)[8])at, v);
+    pattern_warp8(p->pattern, packet->noise, at);
+    pattern_values_at8(p->pattern, packet, (const double(*)[8])at, v);
     for (int i = 0; i < 8; i++) {
         const struct rgbft c = map_color(p->colors, v[i]);
         out[0][i] = c.r;
@@ -122,6 +122,6 @@ const struct pigment *pigment_transform(struct arena *a, const struct pigment *p
         return p;
     struct pigment *copy = arena_new_struct(a, struct pigment);
     *copy = *p;
-    pattern_add_transform(a, &copy->pattern, t);
+    copy->pattern = pattern_moved(a, p->pattern, t);
     return copy;
 }

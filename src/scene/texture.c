@@ -16,7 +16,7 @@ static int select_two(const struct texture *x, const struct texture_point *at,
     const struct texture_map *m = x->map;
     uint32_t a, b;
     double f;
-    map_find(m->key, m->count, pattern_value(&x->pattern, texture_place(at), &c), &a, &b,
+    map_find(m->key, m->count, pattern_value(x->pattern, texture_place(at), &c), &a, &b,
              &f);
     if (max < 1)
         return 0;
@@ -58,7 +58,7 @@ int texture_select(const struct texture *x, const struct texture_point *at,
         return 1;
     case TEXTURE_MATERIAL:
         entry[0] = x->map->entry[image_map_entry(
-            x->image, pattern_warp(&x->pattern, texture_place(at)), x->map->count)];
+            x->image, pattern_warp(x->pattern, texture_place(at)), x->map->count)];
         weight[0] = 1;
         return 1;
     case TEXTURE_PLAIN: break;
@@ -75,14 +75,14 @@ struct texture_point texture_entry_point(const struct texture *x,
         inner.p = uv_point(at);
         return inner;
     }
-    inner.p = pattern_warp(&x->pattern, texture_place(at));
-    inner.normal = pattern_normal_in(&x->pattern, at->normal, false);
+    inner.p = pattern_warp(x->pattern, texture_place(at));
+    inner.normal = pattern_normal_in(x->pattern, at->normal, false);
     return inner;
 }
 
 struct vec3 texture_entry_normal(const struct texture *x, struct vec3 n)
 {
-    return x->kind == TEXTURE_UV ? n : pattern_normal_out(&x->pattern, n);
+    return x->kind == TEXTURE_UV ? n : pattern_normal_out(x->pattern, n);
 }
 
 static bool color_is_opaque(struct rgbft c)
@@ -132,7 +132,7 @@ const struct texture *texture_transform(struct arena *a, const struct texture *x
     struct texture *copy = arena_new_struct(a, struct texture);
     *copy = *x;
     if (x->kind != TEXTURE_PLAIN) {
-        pattern_add_transform(a, &copy->pattern, t);
+        copy->pattern = pattern_moved(a, x->pattern, t);
         return copy;
     }
     struct texture_layer *layer =
@@ -151,7 +151,7 @@ static bool layer_wants_uv(const struct texture_layer *l)
 {
     const enum pigment_kind k = l->pigment->kind;
     const bool plain = k == PIGMENT_NONE || k == PIGMENT_SOLID ||
-                       (k == PIGMENT_COLORS && !l->pigment->pattern.pigment);
+                       (k == PIGMENT_COLORS && !l->pigment->pattern->pigment);
     return !plain || (l->normal && (l->normal->kind != NORMAL_PATTERN || l->normal->pattern.pigment));
 }
 

@@ -57,7 +57,8 @@ enum pigment_kind {
 struct pigment {
     enum pigment_kind kind;
     struct rgbft color;
-    struct pattern pattern; // also carries transforms and warps
+    // Also carries transforms and warps. NONE, SOLID, UV: may be NULL.
+    const struct pattern *pattern;
     const struct color_map *colors;
     const struct pigment_map *map;
     const struct image_map *image;
@@ -118,7 +119,7 @@ struct texture {
     enum texture_kind kind;
     const struct texture_layer *layer;
     uint32_t layer_count;
-    struct pattern pattern;
+    const struct pattern *pattern; // PLAIN: may be NULL
     const struct texture_map *map;
     const struct image_map *image;
 };

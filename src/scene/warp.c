@@ -1,5 +1,7 @@
 // From a point outside to the pattern's own space (spec/textures 3.4, 4).
 
+#include <string.h>
+
 #include "base/arena.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern.h"
@@ -245,6 +247,27 @@ void pattern_add_transform(struct arena *a, struct pattern *p, const struct tran
         w->next = front;
     }
     p->warps = w;
+}
+
+const struct pattern pattern_none;
+
+const struct pattern *pattern_keep(struct arena *a, const struct pattern *p,
+                                   const struct pattern *known)
+{
+    if (!memcmp(p, known, sizeof *p))
+        return known;
+    struct pattern *kept = arena_new_struct(a, struct pattern);
+    *kept = *p;
+    return kept;
+}
+
+const struct pattern *pattern_moved(struct arena *a, const struct pattern *p,
+                                    const struct transform *t)
+{
+    struct pattern *moved = arena_new_struct(a, struct pattern);
+    *moved = p ? *p : pattern_none;
+    pattern_add_transform(a, moved, t);
+    return moved;
 }
 
 void pattern_add_warp(struct arena *a, struct pattern *p, const struct warp *w)

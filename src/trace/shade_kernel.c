@@ -71,7 +71,7 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
     struct vec8 p = v8_load((const double(*)[8])g->p);
     if (!m->identity)
         p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
-    for (const struct warp *w = x->pigment->pattern.warps; w; w = w->next)
+    for (const struct warp *w = x->pigment->pattern->warps; w; w = w->next)
         if (!w->transform.identity)
             p = v8_row_times(v8_sub(p, V8_SET(w->transform.offset)),
                              &w->transform.inverse);

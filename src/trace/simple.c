@@ -30,7 +30,7 @@ static bool pigment_is_simple(const struct pigment *p)
 {
     if (p->kind == PIGMENT_SOLID)
         return true;
-    if (p->kind != PIGMENT_COLORS || p->pattern.pigment)
+    if (p->kind != PIGMENT_COLORS || p->pattern->pigment)
         return false;
     for (uint32_t i = 0; i < p->colors->count; i++)
         if (!is_solid(p->colors->color[i]))
@@ -52,8 +52,8 @@ static enum simple_pigment pigment_kind(const struct pigment *p)
         return SIMPLE_SOLID;
     const struct color_map *m = p->colors;
     const bool two = m->count == 2 && m->key[0] == 0 && m->key[1] == 1;
-    return p->pattern.ops == &checker_pattern_ops && p->pattern.frequency == 0 &&
-                   p->pattern.wave == WAVE_RAMP && two && only_moved(&p->pattern)
+    return p->pattern->ops == &checker_pattern_ops && p->pattern->frequency == 0 &&
+                   p->pattern->wave == WAVE_RAMP && two && only_moved(p->pattern)
                ? SIMPLE_CHECKER
                : SIMPLE_PATTERN;
 }

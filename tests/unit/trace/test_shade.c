@@ -146,16 +146,19 @@ static void add_sky(struct setup *s)
         *m = (struct color_map){2, key, color[k]};
         struct pigment *p = arena_new_struct(s->arena, struct pigment);
         *p = (struct pigment){.kind = PIGMENT_COLORS, .colors = m};
-        p->pattern = (struct pattern){.ops = &function_pattern_ops,
-                                      .frequency = 1,
-                                      .function = function[k],
-                                      .noise_generator = 2};
+        struct pattern *pattern = arena_new_struct(s->arena, struct pattern);
+        *pattern = (struct pattern){.ops = &function_pattern_ops,
+                                    .frequency = 1,
+                                    .function = function[k],
+                                    .noise_generator = 2};
+        p->pattern = pattern;
         entry[k] = p;
     }
     struct pigment_map *map = arena_new_struct(s->arena, struct pigment_map);
     *map = (struct pigment_map){3, weight, entry};
     struct pigment *mean = arena_new_struct(s->arena, struct pigment);
-    *mean = (struct pigment){.kind = PIGMENT_AVERAGE, .map = map};
+    *mean = (struct pigment){
+        .kind = PIGMENT_AVERAGE, .map = map, .pattern = &pattern_none};
     entry[3] = mean;
     struct sky_sphere *sky = arena_new_struct(s->arena, struct sky_sphere);
     *sky = (struct sky_sphere){entry + 3, 1, {1, 1, 1}};
