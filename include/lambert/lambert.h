@@ -132,6 +132,11 @@ LAMBERT_API enum lambert_status lambert_check_file(struct lambert_context *ctx,
 LAMBERT_API enum lambert_status lambert_format_file(struct lambert_context *ctx,
                                                     const char *path, FILE *out);
 
+// Keeps finished tiles in this file while rendering, and removes it when the picture is
+// whole; NULL: none is kept. To be set before loading. With option `continue` tiles that an
+// interrupted render of the same scene and settings left there are taken over.
+LAMBERT_API void lambert_set_state_file(struct lambert_context *ctx, const char *path);
+
 struct lambert_image;
 // Traces what was loaded. *out is new, also after LAMBERT_CANCELLED; else NULL.
 LAMBERT_API enum lambert_status lambert_render(struct lambert_context *ctx,

@@ -31,6 +31,7 @@ struct lambert_context {
     lambert_progress_fn progress;
     void *progress_user;
     volatile bool cancel;
+    const char *state_path; // of a render that may be continued; NULL: none
 
     // Of the scene that is loaded.
     struct arena *scene_arena;
@@ -39,6 +40,7 @@ struct lambert_context {
     struct scene scene;
     struct world *world;
     struct lambert_stats stats;
+    uint64_t files_digest; // of files it reads besides its text; with a state_path only
 };
 
 struct lambert_image {

@@ -1,6 +1,7 @@
 // From a scene file to what the tracer takes.
 #include "api/context.h"
 #include "api/probe.h"
+#include "api/state.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -197,6 +198,12 @@ static const char *output_folder(const struct lambert_context *ctx)
     return arena_strndup(ctx->scene_arena, given, (size_t)(slash + 1 - given));
 }
 
+static void file_found(void *user, const char *path)
+{
+    struct lambert_context *ctx = user;
+    ctx->files_digest = digest_add_file(ctx->files_digest, path);
+}
+
 static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
 {
     struct eval_options o = {
@@ -213,6 +220,11 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .message_user = ctx,
         .output_folder = output_folder(ctx),
     };
+    ctx->files_digest = digest_start;
+    if (ctx->state_path) {
+        o.file_found = file_found;
+        o.file_user = ctx;
+    }
     set_declarations(ctx, &o);
     set_library_path(ctx, &o);
     return o;
@@ -294,7 +306,8 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
 {
     uint32_t file;
     context_forget_scene(ctx);
-    enum lambert_status status = open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
+    enum lambert_status status =
+        open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
     if (status != LAMBERT_OK)
         return status;
     double start = context_seconds();
@@ -370,7 +383,8 @@ enum lambert_status lambert_dump_tokens(struct lambert_context *ctx, const char 
 {
     uint32_t file;
     context_forget_scene(ctx);
-    enum lambert_status status = open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
+    enum lambert_status status =
+        open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
     if (status != LAMBERT_OK)
         return status;
     stream_dump_tokens(ctx->scene_arena, &ctx->sources, file, &ctx->diags, out);

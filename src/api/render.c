@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "api/state.h"
 #include "trace/render.h"
 
 // A first and a last row or column (spec/language 7.5) as a half-open range.
@@ -98,6 +99,11 @@ static double physical_memory(void)
     return pages > 0 && size > 0 ? (double)pages * (double)size : 0;
 }
 
+void lambert_set_state_file(struct lambert_context *ctx, const char *path)
+{
+    ctx->state_path = path ? arena_strndup(ctx->arena, path, strlen(path)) : NULL;
+}
+
 enum lambert_status lambert_render(struct lambert_context *ctx,
                                    struct lambert_image **out)
 {
@@ -127,9 +133,18 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
     }
     set_working_space(image, &ctx->scene.settings);
-    struct render_progress progress = {tile_done, ctx, &ctx->cancel};
+    struct render_progress progress = {
+        .tile = tile_done, .user = ctx, .cancel = &ctx->cancel};
+    struct render_state state;
+    if (ctx->state_path) {
+        render_state_open(&state, ctx, option_flag(ctx, "continue"), &settings,
+                          &image->im);
+        render_state_attach(&state, &progress);
+    }
     bool whole = render_world(ctx->world, &settings, &progress, &image->im, &stats);
     gi_free(gi);
+    if (ctx->state_path)
+        render_state_close(&state, whole);
     ctx->cancel = false;
     keep_stats(ctx, &stats);
     *out = image;

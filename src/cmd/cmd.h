@@ -25,8 +25,9 @@ enum stage { STAGE_START, STAGE_RENDER, STAGE_WRITE };
 
 struct progress {
     double start, shown_at;
+    uint32_t before; // tiles that were there from the start
     unsigned shown_percent;
-    bool terminal, on;
+    bool terminal, on, started;
 };
 
 // Files that get messages besides the console.
@@ -40,6 +41,7 @@ struct cmd {
     volatile int stage; // enum stage; what a signal means depends on it
     volatile bool interrupted;
     bool quiet, verbose;
+    bool keeps; // finished tiles, to continue
     unsigned warnings;
     FILE *stream[STREAM_COUNT]; // NULL: none
     struct progress progress;

@@ -35,6 +35,13 @@ static void print_duration(FILE *out, double seconds)
         fprintf(out, "%lus", s);
 }
 
+// Seconds, as fast as the tiles of this run went.
+static double left(const struct progress *p, uint32_t done, uint32_t total,
+                   double elapsed)
+{
+    return elapsed / (done - p->before) * (total - done);
+}
+
 static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
                       double elapsed)
 {
@@ -45,21 +52,21 @@ static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
     bar[20] = 0;
     fprintf(stderr, "\r[%s] %3u%%  %u/%u tiles  ", bar, (unsigned)(100.0 * done / total),
             done, total);
-    (void)p;
     if (done < total) {
         fputs("ETA ", stderr);
-        print_duration(stderr, elapsed / done * (total - done));
+        print_duration(stderr, left(p, done, total, elapsed));
     }
     fputs("\033[K", stderr);
 }
 
-static void print_line(uint32_t done, uint32_t total, double elapsed)
+static void print_line(const struct progress *p, uint32_t done, uint32_t total,
+                       double elapsed)
 {
     fprintf(stderr, "lambert: %u%% (%u of %u tiles), ", (unsigned)(100.0 * done / total),
             done, total);
     print_duration(stderr, elapsed);
     fputs(" gone, ", stderr);
-    print_duration(stderr, elapsed / done * (total - done));
+    print_duration(stderr, left(p, done, total, elapsed));
     fputs(" to go\n", stderr);
 }
 
@@ -68,6 +75,9 @@ bool progress_show(void *user, uint32_t done, uint32_t total)
     struct cmd *c = user;
     struct progress *p = &c->progress;
     double now = cmd_seconds(), since = now - p->shown_at;
+    if (!p->started)
+        p->before = done - (done > 0);
+    p->started = true;
     if (!p->on || !done)
         return !c->interrupted;
     if (p->terminal) {
@@ -81,7 +91,7 @@ bool progress_show(void *user, uint32_t done, uint32_t total)
     unsigned tenth = (unsigned)(10.0 * done / total) * 10;
     if (done < total && now - p->start > 1 &&
         (since >= report_seconds || tenth > p->shown_percent)) {
-        print_line(done, total, now - p->start);
+        print_line(p, done, total, now - p->start);
         p->shown_at = now;
         p->shown_percent = tenth;
     }

@@ -50,6 +50,11 @@ static int write_picture(struct cmd *c, const struct lambert_image *image,
                     lambert_error(c->ctx));
 }
 
+static bool asked(struct cmd *c, const char *name)
+{
+    return lambert_option_number(c->ctx, name) != 0;
+}
+
 static void say_done(struct cmd *c, const char *path, bool whole)
 {
     struct lambert_stats s;
@@ -58,9 +63,11 @@ static void say_done(struct cmd *c, const char *path, bool whole)
                        : strcmp(path, "-") == 0 ? "standard output"
                                                 : path;
     if (!whole)
-        fprintf(stderr,
-                "lambert: interrupted; %u of %u tiles are done, the rest is empty: %s\n",
-                s.tiles_done, s.tiles_total, name);
+        fprintf(
+            stderr,
+            "lambert: interrupted; %u of %u tiles are done, the rest is empty: %s%s\n",
+            s.tiles_done, s.tiles_total, name,
+            c->keeps ? "; --continue goes on from here" : "");
     else if (!c->quiet)
         fprintf(stderr, "%s: %d x %d, %.2f s\n", name,
                 (int)lambert_option_number(c->ctx, "width"),
@@ -76,9 +83,39 @@ static void say_stats(struct cmd *c, const char *path)
         stats_print(c, json ? stdout : stderr, json, path);
 }
 
+// Beside the picture; standard output and devices have no beside.
+static void keep_state(struct cmd *c, const char *path)
+{
+    bool file = path && strcmp(path, "-") != 0 && strncmp(path, "/dev/", 5) != 0;
+    if (!asked(c, "continue") && !asked(c, "save-state"))
+        return;
+    if (!file)
+        cmd_warn(c, "no file is written, so that nothing can be kept to continue");
+    char *state = file ? text_format("%s.lambert-state", path) : NULL;
+    lambert_set_state_file(c->ctx, state);
+    free(state);
+    c->keeps = file;
+}
+
+// As POV-Ray does: a picture without a state is one that was finished.
+static bool is_finished(struct cmd *c, const char *path)
+{
+    if (!asked(c, "continue") || !path || strcmp(path, "-") == 0)
+        return false;
+    char *state = text_format("%s.lambert-state", path);
+    bool finished = access(path, F_OK) == 0 && access(state, F_OK) != 0;
+    free(state);
+    if (finished && !c->quiet)
+        fprintf(stderr, "lambert: %s is there already; not rendered again\n", path);
+    return finished;
+}
+
 static int render_to(struct cmd *c, const char *scene, const char *path)
 {
     struct lambert_image *image;
+    if (is_finished(c, path))
+        return CMD_OK;
+    keep_state(c, path);
     if (c->verbose)
         fprintf(stderr, "lambert: reading %s\n", scene);
     enum lambert_status status = lambert_load_file(c->ctx, scene);

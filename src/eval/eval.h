@@ -50,6 +50,9 @@ struct eval_options {
     const char *const *wanted;
     void (*found)(void *user, const char *name, const char *text);
     void *found_user;
+    // Told of each file that a scene refers to, before it is read; or NULL.
+    void (*file_found)(void *user, const char *path);
+    void *file_user;
 };
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.

@@ -47,7 +47,11 @@ const char *file_find(struct eval *e, const char *name, const char *const *exten
     const char *found = known ? find_exact(e, name) : NULL;
     for (const char *const *x = extensions; !found && x && *x; x++)
         found = find_exact(e, arena_printf(e->parse, "%s%s", name, *x));
-    return found || known ? found : find_exact(e, name);
+    if (!found && !known)
+        found = find_exact(e, name);
+    if (found && e->options->file_found)
+        e->options->file_found(e->options->file_user, found);
+    return found;
 }
 
 bool file_read(struct arena *a, const char *path, const char **text, size_t *len)

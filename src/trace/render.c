@@ -30,8 +30,8 @@ struct render {
     const struct render_progress *progress;
     struct image *out;
     struct tile_tables tables;
-    uint32_t tiles_across, tiles_total;
-    atomic_uint_fast32_t next, done;
+    uint32_t tiles_total;
+    atomic_uint_fast32_t next;
     pthread_mutex_t lock; // of progress calls and of stats
     struct render_stats stats;
 };
@@ -41,15 +41,28 @@ static bool cancelled(const struct render *r)
     return r->progress && r->progress->cancel && *r->progress->cancel;
 }
 
-static struct tile tile_at(const struct render *r, uint32_t i)
+static uint32_t tiles_in(int begin, int end, int size)
 {
-    const struct render_settings *s = &r->job->settings;
-    struct tile tile;
-    tile.x0 = s->col_begin + (int)(i % r->tiles_across) * s->tile_size;
-    tile.y0 = s->row_begin + (int)(i / r->tiles_across) * s->tile_size;
-    tile.x1 = tile.x0 + s->tile_size < s->col_end ? tile.x0 + s->tile_size : s->col_end;
-    tile.y1 = tile.y0 + s->tile_size < s->row_end ? tile.y0 + s->tile_size : s->row_end;
+    return end > begin ? (uint32_t)((end - begin + size - 1) / size) : 0;
+}
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+static struct render_tile tile_at(const struct render_settings *s, uint32_t i)
+{
+    const uint32_t across = tiles_in(s->col_begin, s->col_end, s->tile_size);
+    struct render_tile tile = {.index = i,
+                               .x0 = s->col_begin + (int)(i % across) * s->tile_size,
+                               .y0 = s->row_begin + (int)(i / across) * s->tile_size};
+    tile.x1 = least(tile.x0 + s->tile_size, s->col_end);
+    tile.y1 = least(tile.y0 + s->tile_size, s->row_end);
     return tile;
+}
+
+static uint32_t tile_count(const struct render_settings *s)
+{
+    return tiles_in(s->col_begin, s->col_end, s->tile_size) *
+           tiles_in(s->row_begin, s->row_end, s->tile_size);
 }
 
 static void stats_add(struct render_stats *to, const struct tracer *t)
@@ -64,6 +77,17 @@ static void stats_add(struct render_stats *to, const struct tracer *t)
     to->samples += t->samples;
 }
 
+static void tile_done(struct render *r, const struct render_tile *tile)
+{
+    const struct render_progress *p = r->progress;
+    r->stats.pixels += (uint64_t)(tile->x1 - tile->x0) * (uint64_t)(tile->y1 - tile->y0);
+    r->stats.tiles_done++;
+    if (p && p->keep)
+        p->keep(p->keep_user, tile);
+    if (p && p->tile)
+        p->tile(p->user, r->stats.tiles_done, r->tiles_total);
+}
+
 static void work(void *user)
 {
     struct render *r = user;
@@ -72,13 +96,13 @@ static void work(void *user)
         const uint32_t i = (uint32_t)atomic_fetch_add(&r->next, 1);
         if (i >= r->tiles_total)
             break;
-        const struct tile tile = tile_at(r, i);
+        if (r->progress && r->progress->have && r->progress->have[i])
+            continue;
+        const struct render_tile at = tile_at(&r->job->settings, i);
+        const struct tile tile = {at.x0, at.y0, at.x1, at.y1};
         tile_render(t, &r->tables, &tile, r->out);
         pthread_mutex_lock(&r->lock);
-        r->stats.pixels += (uint64_t)(tile.x1 - tile.x0) * (uint64_t)(tile.y1 - tile.y0);
-        r->stats.tiles_done++;
-        if (r->progress && r->progress->tile)
-            r->progress->tile(r->progress->user, r->stats.tiles_done, r->tiles_total);
+        tile_done(r, &at);
         pthread_mutex_unlock(&r->lock);
     }
     pthread_mutex_lock(&r->lock);
@@ -138,6 +162,20 @@ static void settings_check(struct render_settings *s)
         s->aa_depth = 9;
 }
 
+uint32_t render_tile_count(const struct render_settings *settings)
+{
+    struct render_settings s = *settings;
+    settings_check(&s);
+    return tile_count(&s);
+}
+
+struct render_tile render_tile_at(const struct render_settings *settings, uint32_t i)
+{
+    struct render_settings s = *settings;
+    settings_check(&s);
+    return tile_at(&s, i);
+}
+
 static double now(clockid_t clock)
 {
     struct timespec t;
@@ -158,13 +196,9 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     job_init(&job, arena, w, &s);
     struct render r = {.job = &job, .progress = progress, .out = out};
     tile_tables_init(&r.tables, arena, &job);
-    if (s.col_end > s.col_begin && s.row_end > s.row_begin) {
-        r.tiles_across =
-            (uint32_t)((s.col_end - s.col_begin + s.tile_size - 1) / s.tile_size);
-        r.tiles_total =
-            r.tiles_across *
-            (uint32_t)((s.row_end - s.row_begin + s.tile_size - 1) / s.tile_size);
-    }
+    r.tiles_total = tile_count(&s);
+    for (uint32_t i = 0; progress && progress->have && i < r.tiles_total; i++)
+        r.stats.tiles_done += progress->have[i];
     pthread_mutex_init(&r.lock, NULL);
     const double begin = now(CLOCK_MONOTONIC), cpu_begin = now(CLOCK_PROCESS_CPUTIME_ID);
     if (r.tiles_total)

@@ -13,25 +13,39 @@
 struct render_settings {
     int width, height;
     int col_begin, col_end, row_begin, row_end; // half-open, in pixels; full by default
-    int threads;           // 0: all cores
-    int tile_size;         // 32
-    int antialias;         // 0 off, 1, 2 [+AM]
-    double aa_threshold;   // 0.3
-    int aa_depth;          // 3 [+R]
-    double aa_gamma;       // 2.5
-    bool aa_jitter;        // on
-    double aa_jitter_amount; // 1.0
-    int quality;           // 9
+    int threads;                                // 0: all cores
+    int tile_size;                              // 32
+    int antialias;                              // 0 off, 1, 2 [+AM]
+    double aa_threshold;                        // 0.3
+    int aa_depth;                               // 3 [+R]
+    double aa_gamma;                            // 2.5
+    bool aa_jitter;                             // on
+    double aa_jitter_amount;                    // 1.0
+    int quality;                                // 9
     bool output_alpha;
     struct indirect indirect;
 };
 extern const struct render_settings render_settings_default;
+
+struct render_tile {
+    uint32_t index;
+    int x0, y0, x1, y1; // half-open, in pixels
+};
+
+// Tiles are counted in rows from the top left of the part that is rendered.
+uint32_t render_tile_count(const struct render_settings *settings);
+struct render_tile render_tile_at(const struct render_settings *settings, uint32_t i);
 
 // Called from the rendering thread that finished a tile (serialised by a lock).
 struct render_progress {
     void (*tile)(void *user, uint32_t done, uint32_t total);
     void *user;
     const volatile bool *cancel; // set to stop after the current tiles; may be NULL
+    // For renders that are continued: by tile, whether it is in the picture already, and
+    // who is told of each that is new. NULL: neither.
+    const uint8_t *have;
+    void (*keep)(void *user, const struct render_tile *tile);
+    void *keep_user;
 };
 
 struct render_stats {

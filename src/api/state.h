@@ -1,0 +1,42 @@
+#ifndef API_STATE_H
+#define API_STATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "image/image.h"
+
+struct lambert_context;
+struct render_progress;
+struct render_settings;
+
+// What a render that may be interrupted leaves beside its picture: a header with a digest
+// of all that decides the pixels, then the finished tiles one by one, each with a digest of
+// its own, so that a file cut short anywhere loses the last tile only.
+
+struct render_state {
+    struct lambert_context *ctx;
+    const char *path;
+    struct image *picture;
+    uint8_t *have;     // by tile; NULL: none are here
+    uint32_t tiles;    // in the whole picture
+    uint32_t restored; // of them, from the file
+    int file;          // -1: nothing is kept any more
+};
+
+// FNV-1a of 64 bits; begin with digest_start.
+extern const uint64_t digest_start;
+uint64_t digest_add(uint64_t digest, const void *data, size_t n);
+// Of a file's bytes; that it cannot be read counts as well.
+uint64_t digest_add_file(uint64_t digest, const char *path);
+
+// Opens the state at ctx->state_path and, with `resume`, puts its tiles into the picture. A
+// state of another scene, other settings or version is reported and begun anew.
+void render_state_open(struct render_state *s, struct lambert_context *ctx, bool resume,
+                       const struct render_settings *settings, struct image *picture);
+// Adds what the tracer needs to know to its progress functions.
+void render_state_attach(struct render_state *s, struct render_progress *progress);
+// Removes the file when the picture is whole.
+void render_state_close(struct render_state *s, bool whole);
+
+#endif

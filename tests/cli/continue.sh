@@ -1,0 +1,68 @@
+#!/bin/sh
+# +C: an interrupted picture goes on where it stopped and is the same in the end.
+. "${top_srcdir:-.}/tests/cli/common.sh"
+set -- sphere.pov +W480 +H480 +A0.0 +R5 +WT2 --tile-size 16
+state=a.png.lambert-state
+
+stop_midway()
+{
+  "$lambert" "$@" 2>err &
+  pid=$!
+  for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    test -s $state && test "$(wc -c <$state)" -gt 20000 && break
+    sleep 0.1
+  done
+  kill -INT $pid
+  wait $pid
+  test $? = 2 && has err 'continue goes on from here' && test -s $state
+}
+"$lambert" "$@" -q -o whole.png
+check "a whole picture leaves no state" test ! -e whole.png.lambert-state
+check "stopped with a state" stop_midway "$@" +C -o a.png
+cp $state kept
+cp a.png part.png
+tiles() { sed -n 's/.*"tiles_done":\([0-9]*\),.*/\1/p' out; }
+pixels() { sed -n 's/.*"pixels":\([0-9]*\),.*/\1/p' out; }
+resumed()
+{
+  exits 0 "$lambert" "$@" +C --stats=json -o a.png && test "$(tiles)" = 900 &&
+    test "$(pixels)" -lt 230400
+}
+check "only the missing tiles are rendered" resumed "$@"
+check "the same bytes" cmp a.png whole.png
+check "the state is gone" test ! -e $state
+
+done_already() { exits 0 "$lambert" "$@" +C -o a.png && has err 'is there already'; }
+check "a finished picture is left alone" done_already "$@"
+
+again() { cp part.png a.png; head -c "$1" kept >$state; shift; exits 0 "$lambert" "$@" +C -q -o a.png && cmp a.png whole.png; }
+check "a state cut short" again 12345 "$@"
+check "a state cut in its header" again 20 "$@"
+broken()
+{
+  cp part.png a.png
+  cp kept $state
+  printf 'xxxx' | dd of=$state bs=1 seek=9000 conv=notrunc 2>/dev/null
+  exits 0 "$lambert" "$@" +C -q -o a.png && cmp a.png whole.png
+}
+check "a damaged state" broken "$@"
+
+other()
+{
+  cp part.png a.png
+  cp kept $state
+  exits 0 "$lambert" "$@" && has err 'was kept for another scene or other settings' &&
+    test ! -e $state
+}
+check "other settings begin anew" other "$@" +C -o a.png +R4
+sed 's/0.25/0.26/' sphere.pov >changed && mv changed sphere.pov
+check "another scene begins anew" other "$@" +C -o a.png
+check "standard output keeps nothing" exits 0 "$lambert" sphere.pov +W8 +H8 +C -o -
+frames()
+{
+  "$lambert" sphere.pov +W8 +H8 -q +KFF3 -o f && rm f2.png &&
+    exits 0 "$lambert" sphere.pov +W8 +H8 +C +KFF3 -o f && test -s f2.png &&
+    test "$(grep -c 'is there already' err)" = 2
+}
+check "frames that are there are left out" frames
+finish
