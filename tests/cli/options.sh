@@ -22,7 +22,7 @@ check "a missing value is an error" exits 64 "$lambert" sphere.pov --width
 quiet() { exits 0 "$lambert" sphere.pov +W8 +H6 "$@" && test ! -s err; }
 check "what means nothing here is taken in silence" \
   quiet -q -D -P +V +SP8 +EP2 +MB10 -UR +BM2 +WL5 Display=on Pause_When_Done=on -GA
-warned() { exits 0 "$lambert" sphere.pov +W8 +H6 -q +C && has err 'not built'; }
+warned() { exits 0 "$lambert" sphere.pov +W8 +H6 -q +UF && has err 'not built'; }
 check "what is not built is said" warned
 
 printf '; a comment\nWidth=20\nHeight = 10 ; more\n+Q3 -D\n[big]\nWidth=200\n[tiny]\nWidth=2\n' >t.ini
