@@ -198,6 +198,30 @@ static const char *output_folder(const struct lambert_context *ctx)
     return arena_strndup(ctx->scene_arena, given, (size_t)(slash + 1 - given));
 }
 
+// Where it may read, none for anywhere.
+static void set_folders(struct lambert_context *ctx, struct eval_options *o)
+{
+    const char *const *given;
+    o->write_folder_count =
+        (uint32_t)lambert_option_list(ctx, "permit-write", &o->write_folder);
+    size_t n = lambert_option_list(ctx, "permit-read", &given);
+    if (!n && !option_flag(ctx, "restrict-read"))
+        return;
+    const char **folder =
+        arena_new_array(ctx->scene_arena, const char *, n + o->library_path_count + 2);
+    for (size_t i = 0; i < n; i++)
+        folder[i] = given[i];
+    for (uint32_t i = 0; i < o->library_path_count; i++)
+        folder[n++] = o->library_path[i];
+    const char *slash = strrchr(o->input_name, '/');
+    folder[n++] = ".";
+    folder[n++] = slash ? arena_strndup(ctx->scene_arena, o->input_name,
+                                        (size_t)(slash + 1 - o->input_name))
+                        : ".";
+    o->read_folder = folder;
+    o->read_folder_count = (uint32_t)n;
+}
+
 static void file_found(void *user, const char *path)
 {
     struct lambert_context *ctx = user;
@@ -227,6 +251,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
     }
     set_declarations(ctx, &o);
     set_library_path(ctx, &o);
+    set_folders(ctx, &o);
     return o;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "eval/expr.h"
 #include "eval/function.h"
 #include "lang/bulk.h"
 
@@ -257,28 +258,10 @@ void args_warn(struct args *a, const char *message)
     args_warning(a, a->owner ? a->owner->where : args_span(a), message);
 }
 
-static bool readable(const char *path)
-{
-    FILE *f = fopen(path, "rb");
-    if (f)
-        fclose(f);
-    return f;
-}
-
-// As given, then in every folder of the library path.
 static bool find_name(struct args *a, const char *name, const char **path)
 {
-    const struct eval_options *o = a->b->e->options;
-    if (readable(name)) {
-        *path = name;
-        return true;
-    }
-    for (uint32_t i = 0; name[0] != '/' && i < o->library_path_count; i++) {
-        *path = arena_printf(a->b->arena, "%s/%s", o->library_path[i], name);
-        if (readable(*path))
-            return true;
-    }
-    return false;
+    *path = file_find(a->b->e, name, NULL);
+    return *path;
 }
 
 bool args_look_for_file(struct args *a, const char *name, const char **path)
@@ -297,7 +280,8 @@ bool args_find_file(struct args *a, const char *role, const char *name,
         if (find_name(a, arena_printf(a->b->arena, "%s%s%s", name, sign, extension), path))
             return true;
     }
-    diag_at(args_diags(a), DIAG_NO_FILE, a->owner->where, a->name, role, name);
+    diag_hint(args_diags(a), DIAG_NO_FILE, a->owner->where, file_hint(a->b->e), a->name,
+              role, name);
     args_fail(a);
     return false;
 }

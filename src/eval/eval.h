@@ -42,7 +42,7 @@ struct eval_options {
     bool (*trace)(void *user, const struct object *o, struct vec3 from, struct vec3 d,
                   struct vec3 *hit, struct vec3 *normal);
     void *trace_user;
-    // The only folder a scene may write in, and where its relative names go; NULL: the
+    // Where relative names of files to write go, and where a scene may write; NULL: the
     // working directory.
     const char *output_folder;
     // Names that are handed over at the end if the scene declared them as a number or a
@@ -50,6 +50,12 @@ struct eval_options {
     const char *const *wanted;
     void (*found)(void *user, const char *name, const char *text);
     void *found_user;
+    // Other folders that it may write in.
+    const char *const *write_folder;
+    uint32_t write_folder_count;
+    // The folders that it may read in, or none: anywhere. What it may write, it may read.
+    const char *const *read_folder;
+    uint32_t read_folder_count;
     // Told of each file that a scene refers to, before it is read; or NULL.
     void (*file_found)(void *user, const char *path);
     void *file_user;
@@ -74,6 +80,7 @@ struct eval {
     uint32_t depth;            // nesting of the expression being evaluated
     char *line[3];             // of #debug, #render, #statistics: not ended yet
     struct scene_file *files;  // opened by the scene, newest first
+    bool file_refused;         // the last file looked for is there but may not be read
 };
 
 // Parses and evaluates the file into *scene. False when an error was reported.

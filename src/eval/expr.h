@@ -55,6 +55,8 @@ void files_close(struct eval *e); // what the scene left open
 
 struct stream_host eval_host(struct eval *e);
 // The file's text through the library path (spec/language 3.11); NULL: not found.
+// NULL also when it may not be read; file_hint then says so, else it is NULL.
+const char *file_hint(const struct eval *e);
 const char *file_find(struct eval *e, const char *name, const char *const *extensions);
 bool file_read(struct arena *a, const char *path, const char **text, size_t *len);
 

@@ -60,17 +60,9 @@ void files_close(struct eval *e)
 
 // ---- opening -----------------------------------------------------------------
 
-static bool is_below(const char *folder, const char *path)
-{
-    size_t n = strlen(folder);
-    if (n && folder[n - 1] == '/') // the root
-        return strncmp(folder, path, n) == 0;
-    return strncmp(folder, path, n) == 0 && (path[n] == '/' || path[n] == 0);
-}
-
 static bool open_failed(struct eval *e, struct span where, const char *name)
 {
-    diag_at(e->diags, DIAG_FILE_OPEN, where, name, strerror(errno));
+    diag_hint(e->diags, DIAG_FILE_OPEN, where, file_hint(e), name, strerror(errno));
     return false;
 }
 
@@ -82,15 +74,16 @@ static const char *path_to_write(struct eval *e, const char *name, struct span w
         name[0] == '/' ? name : arena_printf(e->arena, "%s/%s", folder, name);
     const char *slash = strrchr(path, '/'), *last = slash + 1;
     const char *parent = arena_strndup(e->arena, path, (size_t)(last - path));
-    char *real_folder = realpath(folder, NULL), *real = realpath(parent, NULL);
+    char *real = realpath(parent, NULL);
     const char *found = NULL;
-    if (!real_folder || !real)
+    e->file_refused = false;
+    if (!real)
         open_failed(e, where, name);
-    else if (!is_below(real_folder, real))
-        diag_at(e->diags, DIAG_FILE_OUTSIDE, where, name, real_folder);
+    else if (!file_may_write(e, real))
+        diag_hint(e->diags, DIAG_FILE_OUTSIDE, where,
+                  "--permit-write DIR permits another folder", name, folder);
     else
         found = arena_printf(e->arena, "%s/%s", strcmp(real, "/") == 0 ? "" : real, last);
-    free(real_folder);
     free(real);
     return found;
 }
@@ -124,6 +117,8 @@ static bool open_to_read(struct eval *e, struct scene_file *f, struct span where
 {
     errno = ENOENT;
     f->path = file_find(e, f->name, NULL);
+    if (e->file_refused)
+        errno = EACCES;
     if (!f->path || !file_read(e->arena, f->path, &f->in.text, &f->in.len))
         return open_failed(e, where, f->name);
     f->mode = FILE_READING;
@@ -138,8 +133,8 @@ static bool open_file(struct eval *e, struct span where, const struct lvalue *ha
     struct scene_file *f = arena_new_struct(e->arena, struct scene_file);
     if (handle->index || !eval_path(e, items, &name))
         return false;
-    struct place p = symbols_find(e->symbols, handle->name, handle->len,
-                                  symbols_depth(e->symbols));
+    struct place p =
+        symbols_find(e->symbols, handle->name, handle->len, symbols_depth(e->symbols));
     const struct value *old = place_found(p) ? place_get(e->parse, p) : NULL;
     if (old) {
         diag_at(e->diags, DIAG_REDECLARED, handle->where, (int)handle->len, handle->name,
@@ -158,8 +153,8 @@ static bool open_file(struct eval *e, struct span where, const struct lvalue *ha
 
 static struct scene_file *file_of(struct eval *e, const struct lvalue *handle)
 {
-    struct place p = symbols_find(e->symbols, handle->name, handle->len,
-                                  symbols_depth(e->symbols));
+    struct place p =
+        symbols_find(e->symbols, handle->name, handle->len, symbols_depth(e->symbols));
     const struct value *v = place_found(p) ? place_get(e->parse, p) : NULL;
     return v && v->kind == VALUE_FILE && !handle->index ? (struct scene_file *)v->data
                                                         : NULL;
@@ -187,10 +182,10 @@ static bool read_items(struct eval *e, struct scene_file *f, struct span where,
             forget(e, handle, f, where);
             return found == FILE_ITEM_END;
         }
-        const struct value *kept = v.kind == VALUE_STRING
-                                       ? value_new_string(e->arena, v.string.text,
-                                                          v.string.len)
-                                       : &v;
+        const struct value *kept =
+            v.kind == VALUE_STRING
+                ? value_new_string(e->arena, v.string.text, v.string.len)
+                : &v;
         const struct lvalue to = {.name = n->text,
                                   .len = n->len,
                                   .where = n->where,

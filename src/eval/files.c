@@ -1,4 +1,5 @@
-// The search for files (spec/language 3.11).
+// The search for files (spec/language 3.11), and where they may be.
+#define _XOPEN_SOURCE 700 // realpath
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -33,6 +34,43 @@ static const char *find_exact(struct eval *e, const char *name)
     return NULL;
 }
 
+bool file_is_below(const char *folder, const char *path)
+{
+    char *real_folder = realpath(folder, NULL), *real = realpath(path, NULL);
+    size_t n = real_folder ? strlen(real_folder) : 0;
+    bool root = n == 1;
+    bool below = real_folder && real && strncmp(real_folder, real, n) == 0 &&
+                 (root || real[n] == '/' || real[n] == 0);
+    free(real_folder);
+    free(real);
+    return below;
+}
+
+bool file_may_write(const struct eval *e, const char *path)
+{
+    const struct eval_options *o = e->options;
+    bool may = file_is_below(o->output_folder ? o->output_folder : ".", path);
+    for (uint32_t i = 0; !may && i < o->write_folder_count; i++)
+        may = file_is_below(o->write_folder[i], path);
+    return may;
+}
+
+static bool may_read(const struct eval *e, const char *path)
+{
+    const struct eval_options *o = e->options;
+    bool may = !o->read_folder_count;
+    for (uint32_t i = 0; !may && i < o->read_folder_count; i++)
+        may = file_is_below(o->read_folder[i], path);
+    return may || file_may_write(e, path);
+}
+
+const char *file_hint(const struct eval *e)
+{
+    return e->file_refused ? "it is there but may not be read; --permit-read DIR permits "
+                             "another folder"
+                           : NULL;
+}
+
 static bool ends_in(const char *name, const char *extension)
 {
     size_t n = strlen(name), m = strlen(extension);
@@ -49,6 +87,9 @@ const char *file_find(struct eval *e, const char *name, const char *const *exten
         found = find_exact(e, arena_printf(e->parse, "%s%s", name, *x));
     if (!found && !known)
         found = find_exact(e, name);
+    e->file_refused = found && !may_read(e, found);
+    if (e->file_refused)
+        return NULL;
     if (found && e->options->file_found)
         e->options->file_found(e->options->file_user, found);
     return found;

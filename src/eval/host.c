@@ -508,7 +508,7 @@ static bool open_include(void *user, const char *name, struct span where,
     *found = file_find(e, name, extensions);
     if (*found && file_read(e->sources->arena, *found, text, len))
         return true;
-    diag_at(e->diags, DIAG_INCLUDE_NOT_FOUND, where, name);
+    diag_hint(e->diags, DIAG_INCLUDE_NOT_FOUND, where, file_hint(e), name);
     return false;
 }
 

@@ -57,6 +57,13 @@ other()
 check "other settings begin anew" other "$@" +C -o a.png +R4
 sed 's/0.25/0.26/' sphere.pov >changed && mv changed sphere.pov
 check "another scene begins anew" other "$@" +C -o a.png
+printf 'P2 2 1 255 0 255\n' >im.pgm
+echo 'sphere { 0, 1 pigment { image_map { pgm "im.pgm" } } }' >>sphere.pov
+rm -f a.png
+check "stopped with an image" stop_midway "$@" +C -o a.png
+printf 'P2 2 1 255 9 255\n' >im.pgm
+mv $state kept
+check "another image begins anew" other "$@" +C -o a.png
 check "standard output keeps nothing" exits 0 "$lambert" sphere.pov +W8 +H8 +C -o -
 frames()
 {

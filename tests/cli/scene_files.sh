@@ -41,13 +41,34 @@ EOS
 check "read" says read.pov '^1.000 -2.500 1.00,2.00,3.00 he"l\\lo 300.00 7.00 open 10.00 99.00 closed1.00 2.00 2.00 $'
 
 outside() { echo "#fopen F \"$1\" write #write(F,1)" >bad.pov; exits 1 "$lambert" --dump-csg bad.pov && has err "'$1'.*$2"; }
-check "not above the folder" outside ../x "only folder"
-check "not elsewhere" outside /etc/lambert-test "only folder"
+check "not above the folder" outside ../x "may write in"
+check "not elsewhere" outside /etc/lambert-test "may write in"
+has_hint() { has err 'permit-write DIR'; }
+check "the option is named" has_hint
 ln -s "$work/../nowhere" link
 check "not through a link" outside link "cannot be opened"
 ln -s / root
-check "nor through a folder that is one" outside root/x "only folder"
+check "nor through a folder that is one" outside root/x "may write in"
 check "a folder that is not there" outside none/x "cannot be opened"
+mkdir -p d/below other
+writes() { echo "#fopen F \"$1\" write #write(F,1)" >ok.pov; shift; exits 0 "$lambert" --dump-csg ok.pov "$@"; }
+check "a permitted folder" writes "$work/other/x" -o d/p.png --permit-write other
+check "it is written" test -s other/x
+check "one of several" writes ../other/y -o d/p.png --permit-write d/below --permit-write "$work/other/"
+check "a folder whose name begins alike" outside "$work/other2/x" "cannot be opened\|may write in"
+mkdir other2 && echo '#declare Got = 3;' >other2/in.inc
+granted() { echo "$1" >d/r.pov; shift; (cd d && exits 0 "$lambert" --dump-csg r.pov "$@"); }
+include='#include "../other2/in.inc"'
+check "reading is free" granted "$include"
+in_d() { echo "$1" >d/r.pov; shift; (cd d && exits 1 "$lambert" --dump-csg r.pov "$@" && has err 'permit-read DIR'); }
+check "unless restricted: an include" in_d "$include" --restrict-read
+check "a data file" in_d '#fopen F "../other2/in.inc" read' --restrict-read
+printf 'P2 1 1 255 0\n' >other2/i.pgm
+check "a picture" in_d 'sphere { 0, 1 pigment { image_map { pgm "../other2/i.pgm" } } }' --permit-read ../other
+check "a permitted one" granted "$include" --permit-read ../other2
+check "the library path" granted '#include "in.inc"' --restrict-read +L../other2
+ln -s ../other2/in.inc d/link.inc
+check "not through a link" in_d '#include "link.inc"' --restrict-read
 echo '#fopen F "none" read #while(defined(F)) #read(F,A) #end' >bad.pov
 missing() { exits 1 "$lambert" --dump-csg bad.pov && has err '1 error$'; }
 check "a file that is not there" missing
