@@ -58,7 +58,8 @@ static uint64_t add_text(uint64_t digest, const char *text)
 // Options that may change a pixel; threads and where the picture goes do not.
 static bool decides_pixels(const struct lambert_option *o)
 {
-    static const char *const groups[] = {"scene", "picture", "quality", "internal"};
+    static const char *const groups[] = {"scene", "picture", "quality", "radiosity",
+                                         "internal"};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
         if (strcmp(o->group, groups[i]) == 0)
             return true;
@@ -78,6 +79,9 @@ static uint64_t key_of(const struct lambert_context *ctx)
         for (size_t k = 0; k < n; k++)
             key = add_text(key, list[k]);
     }
+    const char *solution = lambert_option_text(ctx, "gi-load");
+    if (solution)
+        key = digest_add_file(key, solution);
     for (uint32_t i = 0; i < ctx->sources.count; i++)
         key = digest_add(key, ctx->sources.file[i]->text, ctx->sources.file[i]->len);
     return digest_add(key, &ctx->files_digest, sizeof ctx->files_digest);

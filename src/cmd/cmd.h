@@ -33,6 +33,29 @@ struct progress {
 // Files that get messages besides the console.
 enum stream { STREAM_ALL, STREAM_DEBUG, STREAM_WARNING, STREAM_FATAL, STREAM_COUNT };
 
+// When the settings may ask for a command, and what a failed one may ask for.
+enum command_at {
+    COMMAND_PRE_SCENE,
+    COMMAND_PRE_FRAME,
+    COMMAND_POST_FRAME,
+    COMMAND_POST_SCENE,
+    COMMAND_USER_ABORT,
+    COMMAND_FATAL,
+    COMMAND_COUNT
+};
+enum command_action {
+    ACTION_NONE,
+    ACTION_SKIP,
+    ACTION_SKIP_ALL,
+    ACTION_QUIT,
+    ACTION_USER_ABORT,
+    ACTION_FATAL
+};
+struct command_place {
+    const char *scene, *picture; // NULL: none
+    long frame;                  // below 0: a single picture
+};
+
 struct cmd {
     struct lambert_context *ctx;
     const char *program; // how the command was called, for messages
@@ -45,7 +68,8 @@ struct cmd {
     unsigned warnings;
     FILE *stream[STREAM_COUNT]; // NULL: none
     struct progress progress;
-    pthread_t watch; // the thread that waits for signals
+    struct command_place place; // what commands are told
+    pthread_t watch;            // the thread that waits for signals
     bool watched;
 };
 
@@ -81,6 +105,10 @@ int streams_open(struct cmd *c);
 void streams_write(struct cmd *c, const struct lambert_message *m);
 int streams_close(struct cmd *c);
 int settings_write(struct cmd *c); // Create_Ini
+
+// commands.c
+void commands_check(struct cmd *c); // warns of those that are not allowed
+enum command_action command_run(struct cmd *c, enum command_at at);
 
 // progress.c
 void progress_begin(struct cmd *c);

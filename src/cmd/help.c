@@ -8,13 +8,12 @@ static const struct {
     const char *group, *title;
     bool brief; // in the short help
 } groups[] = {
-    {"scene", "Scene", true},      {"picture", "Picture", true},
-    {"output", "Output", true},    {"quality", "Quality", true},
-    {"radiosity", "Radiosity", false},
-    {"run", "Running", true},      {"animation", "Animation", false},
-    {"tools", "Tools", false},     {"compare", "lambert compare", false},
-    {"fmt", "lambert fmt", false},
-    {"mesh", "lambert mesh", false},
+    {"scene", "Scene", true},          {"picture", "Picture", true},
+    {"output", "Output", true},        {"quality", "Quality", true},
+    {"radiosity", "Radiosity", false}, {"run", "Running", true},
+    {"animation", "Animation", false}, {"commands", "Commands around pictures", false},
+    {"tools", "Tools", false},         {"compare", "lambert compare", false},
+    {"fmt", "lambert fmt", false},     {"mesh", "lambert mesh", false},
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 
@@ -223,8 +222,10 @@ static const char man_tail[] =
     ".B \\-\\-check\nnames those that would change and exits with 1.\n"
     ".PP\n"
     ".B lambert mesh SCENE \\-o NAME\n"
-    "writes the objects of a scene as triangle meshes (NAME ends in .obj, .stl or .ply):\n"
-    "solids closed and turned outward by the right-hand rule in the scene's coordinates,\n"
+    "writes the objects of a scene as triangle meshes (NAME ends in .obj, .stl or "
+    ".ply):\n"
+    "solids closed and turned outward by the right-hand rule in the scene's "
+    "coordinates,\n"
     "meshes as they are. Objects without an end or an inside are named and left out.\n"
     ".SH COMPARE\n"
     ".B lambert compare A B\n"

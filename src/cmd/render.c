@@ -138,21 +138,6 @@ static int render_to(struct cmd *c, const char *scene, const char *path)
     return cmd_exit_code(status);
 }
 
-// frame < 0: a single picture.
-static int render_frame(struct cmd *c, const char *scene, long frame, int digits)
-{
-    int code = CMD_OK;
-    if (!lambert_option_number(c->ctx, "write"))
-        return render_to(c, scene, NULL);
-    char *path = output_name(c, scene, frame, digits, &code);
-    if (!code)
-        code = check_output(path);
-    if (!code)
-        code = render_to(c, scene, path);
-    free(path);
-    return code;
-}
-
 struct animation {
     long first, last, begin, end, step;
     double clock_first, clock_last, delta;
@@ -201,11 +186,78 @@ static void set_number(struct cmd *c, const char *name, double v)
     lambert_option_set(c->ctx, name, text);
 }
 
+// The frame's clock and the place that commands are told of. frame < 0: a single picture.
+static int begin_frame(struct cmd *c, const char *scene, const struct animation *a,
+                       long frame, int digits, char **path)
+{
+    int code = CMD_OK;
+    free(*path);
+    *path = NULL;
+    if (frame >= 0) {
+        set_number(c, "frame", (double)frame);
+        set_number(c, "clock", a->clock_first + (double)(frame - a->first) * a->delta);
+    }
+    if (number(c, "write"))
+        *path = output_name(c, scene, frame, digits, &code);
+    c->place = (struct command_place){scene, *path, frame};
+    return code;
+}
+
+static int render_frame(struct cmd *c, const char *scene, const char *path)
+{
+    int code = path ? check_output(path) : CMD_OK;
+    if (!code)
+        code = render_to(c, scene, path);
+    return !code && c->interrupted ? CMD_INTERRUPTED : code;
+}
+
+// The commands at the end, by how it came to it.
+static int end_scene(struct cmd *c, enum command_action action, int code)
+{
+    if (code == CMD_INTERRUPTED || action == ACTION_USER_ABORT) {
+        command_run(c, COMMAND_USER_ABORT);
+        code = code ? code : CMD_FAILED;
+    } else if (code || action == ACTION_FATAL) {
+        command_run(c, COMMAND_FATAL);
+        return code ? code : CMD_FAILED;
+    }
+    if (action == ACTION_QUIT)
+        return code;
+    action = command_run(c, COMMAND_POST_SCENE);
+    if (action != ACTION_USER_ABORT && action != ACTION_FATAL)
+        return code;
+    command_run(c, action == ACTION_FATAL ? COMMAND_FATAL : COMMAND_USER_ABORT);
+    return CMD_FAILED;
+}
+
+// Frames a->begin to a->end, each between its commands. What a failed command asks for is
+// as POV-Ray has it: before the scene, "skip" is all frames and "all" the last command too.
+static int render_frames(struct cmd *c, const char *scene, const struct animation *a,
+                         int digits)
+{
+    char *path = NULL;
+    int code = begin_frame(c, scene, a, a->begin, digits, &path);
+    enum command_action action = code ? ACTION_NONE : command_run(c, COMMAND_PRE_SCENE);
+    if (action == ACTION_SKIP_ALL)
+        action = ACTION_QUIT;
+    for (long n = a->begin; n <= a->end && !code && !action; n += a->step) {
+        code = begin_frame(c, scene, a, n, digits, &path);
+        action = code ? ACTION_NONE : command_run(c, COMMAND_PRE_FRAME);
+        if (action == ACTION_SKIP)
+            action = ACTION_NONE;
+        else if (!code && !action && !(code = render_frame(c, scene, path)))
+            action = command_run(c, COMMAND_POST_FRAME);
+    }
+    code = end_scene(c, action, code);
+    free(path);
+    return code;
+}
+
 static int render_animation(struct cmd *c, const char *scene)
 {
     struct animation a = animation_of(c);
     char digits[32];
-    int width = snprintf(digits, sizeof digits, "%ld", a.last), code = CMD_OK;
+    int width = snprintf(digits, sizeof digits, "%ld", a.last);
     if (a.last < a.first)
         return cmd_fail(CMD_USAGE, "the last frame (%ld) comes before the first (%ld)",
                         a.last, a.first);
@@ -214,14 +266,13 @@ static int render_animation(struct cmd *c, const char *scene)
     set_number(c, "frame-initial-clock", a.clock_first);
     set_number(c, "frame-final-clock", a.clock_last);
     set_number(c, "frame-clock-delta", a.delta);
-    for (long n = a.begin; n <= a.end && !code; n += a.step) {
-        set_number(c, "frame", (double)n);
-        set_number(c, "clock", a.clock_first + (double)(n - a.first) * a.delta);
-        code = render_frame(c, scene, n, width);
-        if (!code && c->interrupted)
-            code = CMD_INTERRUPTED;
-    }
-    return code;
+    return render_frames(c, scene, &a, width);
+}
+
+static int render_still(struct cmd *c, const char *scene)
+{
+    const struct animation one = {.begin = -1, .end = -1, .step = 1};
+    return render_frames(c, scene, &one, 0);
 }
 
 // POV-Ray adds the extension when it is missing.
@@ -257,13 +308,14 @@ int cmd_render(struct cmd *c)
                         c->file[1]);
     char *scene = find_scene(name);
     int code;
+    commands_check(c);
     double first = number(c, "first-frame"), last = number(c, "last-frame");
     if (number(c, "dump-tokens") || number(c, "dump-ast") || number(c, "dump-csg"))
         code = dump(c, scene);
     else if (first != last || (last != 0 && last != 1))
         code = render_animation(c, scene);
     else
-        code = render_frame(c, scene, -1, 0);
+        code = render_still(c, scene);
     free(scene);
     return code;
 }

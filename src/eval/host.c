@@ -13,7 +13,7 @@
 #include "eval/symbol.h"
 #include "eval/text.h"
 
-enum { SCOPES_MAX = 1000 };
+enum { SCOPES_MAX = 4200 };
 
 static enum name_class class_of(const struct value *v)
 {
