@@ -38,6 +38,28 @@ static bool repeats_last(struct diag_sink *sink, enum diag_code code, struct spa
     return same;
 }
 
+static bool same_span(struct span a, struct span b)
+{
+    return a.file == b.file && a.begin == b.begin && a.end == b.end &&
+           a.expansion == b.expansion;
+}
+
+// What the scene itself says (#warning) is said as often as it says it.
+static bool repeats_warning(struct diag_sink *sink, enum diag_code code,
+                            struct span where)
+{
+    enum { RECENT = sizeof sink->recent / sizeof sink->recent[0] };
+    if (!where.end || code == DIAG_SCENE_WARNING)
+        return false;
+    for (unsigned i = 0; i < RECENT; i++)
+        if (sink->recent[i].code == code && same_span(sink->recent[i].where, where))
+            return true;
+    sink->recent[sink->recent_at].code = code;
+    sink->recent[sink->recent_at].where = where;
+    sink->recent_at = (sink->recent_at + 1) % RECENT;
+    return false;
+}
+
 void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
                  const struct span *related, const char *hint, ...)
 {
@@ -50,6 +72,8 @@ void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
     struct diag d = {code, row->severity, where, related ? *related : (struct span){0},
                      text, hint};
     if (d.severity == SEV_ERROR && (diag_full(sink) || repeats_last(sink, code, where)))
+        return;
+    if (d.severity == SEV_WARNING && repeats_warning(sink, code, where))
         return;
     sink->errors += d.severity == SEV_ERROR;
     sink->warnings += d.severity == SEV_WARNING;

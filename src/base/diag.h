@@ -30,9 +30,15 @@ struct diag_sink {
     void (*emit)(void *user, const struct diag *d);
     void *user;
     unsigned errors, warnings;
-    unsigned errors_max; // 0: no limit. Stages stop when errors reach it
+    unsigned errors_max;      // 0: no limit. Stages stop when errors reach it
     enum diag_code last_code; // of the last error
     struct span last_where;
+    // The last warnings: a calculation that fails is evaluated again, and so is its warning.
+    struct {
+        enum diag_code code;
+        struct span where;
+    } recent[4];
+    unsigned recent_at;
 };
 
 static inline bool diag_full(const struct diag_sink *s)

@@ -37,7 +37,7 @@ static bool not_numeric(struct eval *e, const struct ast *n)
     if (n->op == OP_FAILED)
         return false;
     if (n->kind == AST_UNDECLARED) {
-        const char *close = symbols_closest(e->symbols, n->text, n->len);
+        const char *close = symbols_closest(e->symbols, n->text, n->len, false);
         const char *hint =
             close ? arena_printf(e->parse, "did you mean '%s'?", close) : NULL;
         diag_hint(e->diags, DIAG_UNDECLARED, n->where, hint, (int)n->len, n->text);

@@ -47,6 +47,11 @@ static const struct value *hold(void *user, const struct value *v)
     return value_hold(((struct eval *)user)->nodes, v);
 }
 
+static const char *closest(void *user, const char *name, size_t len, bool macros_only)
+{
+    return symbols_closest(((struct eval *)user)->symbols, name, len, macros_only);
+}
+
 static bool number(void *user, const struct ast *expr, double *out)
 {
     return eval_float(user, expr, out);
@@ -518,6 +523,7 @@ struct stream_host eval_host(struct eval *e)
         .user = e,
         .lookup = lookup,
         .hold = hold,
+        .closest = closest,
         .number = number,
         .string = string,
         .path = path,

@@ -253,8 +253,7 @@ struct place symbols_make_at(struct symbol_tables *t, const char *name, size_t l
     return place_of(make_entry(t, name, len, scope - 1));
 }
 
-void symbols_refer(struct symbol_tables *t, const char *name, size_t len,
-                   struct place to)
+void symbols_refer(struct symbol_tables *t, const char *name, size_t len, struct place to)
 {
     struct symbol *s = make_entry(t, name, len, t->depth - 1);
     s->is_reference = true;
@@ -334,13 +333,19 @@ void place_clear(struct place p)
     p.symbol->value = NULL;
 }
 
-const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len)
+static bool is_macro(const struct symbol *s)
+{
+    return !s->is_number && !s->is_reference && s->value && s->value->kind == VALUE_MACRO;
+}
+
+const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len,
+                            bool macros_only)
 {
     const char **list = malloc((t->name_count + 1) * sizeof *list);
     size_t count = 0;
     for (uint32_t i = 0; list && i < t->bucket_count; i++)
         for (const struct name *n = t->bucket[i]; n; n = n->next)
-            if (n->top)
+            if (n->top && (!macros_only || is_macro(n->top)))
                 list[count++] = n->text;
     const char *found = count ? diag_closest(name, len, list, count) : NULL;
     free(list);

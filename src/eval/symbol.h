@@ -67,7 +67,8 @@ const struct value *value_hold(struct arena *copies, const struct value *v);
 bool place_set(struct arena *a, struct place p, const struct value *v);
 void place_clear(struct place p);
 
-// The declared names closest to a word, for hints; NULL: none is close.
-const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len);
+// The declared name, or macro, closest to a word, for hints; NULL: none is close.
+const char *symbols_closest(const struct symbol_tables *t, const char *name, size_t len,
+                            bool macros_only);
 
 #endif

@@ -339,9 +339,11 @@ static enum word unknown(struct stream *s, struct token word)
         "fclose", "fopen", "for", "if", "ifdef", "ifndef", "include", "local", "macro",
         "range", "read", "render", "statistics", "switch", "undef", "version", "warning",
         "while", "write"};
-    const char *near = word.len ? diag_closest(word.text, word.len, names,
-                                               sizeof names / sizeof *names)
-                                : NULL;
+    const char *near = NULL;
+    if (word.len == 2 && memcmp(word.text, "fi", 2) == 0) // of shells, not a slip for #if
+        near = "end";
+    else if (word.len)
+        near = diag_closest(word.text, word.len, names, sizeof names / sizeof *names);
     const char *hint = near ? arena_printf(s->nodes, "did you mean '#%s'?", near) : NULL;
     diag_hint(s->diags, DIAG_UNKNOWN_DIRECTIVE, word.where, hint, (int)word.len, word.text);
     return near ? word_find(near, strlen(near)) : WORD_NONE;

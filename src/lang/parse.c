@@ -293,9 +293,31 @@ static void expected_text(char *out, size_t size, const int *kinds, int count)
                                 found[i]);
 }
 
-static void report_unknown_word(struct stream *s, const struct token *t)
+// Once for each name: a macro whose include is missing is called many times.
+static bool reported_before(struct stream *s, const struct token *t)
 {
-    const char *near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
+    for (const struct unknown_name *n = s->unknown; n; n = n->next)
+        if (n->len == t->len && memcmp(n->text, t->text, t->len) == 0)
+            return true;
+    struct unknown_name *n = arena_new_struct(s->arena, struct unknown_name);
+    *n = (struct unknown_name){s->unknown, arena_strndup(s->arena, t->text, t->len),
+                               t->len};
+    s->unknown = n;
+    return false;
+}
+
+// Before '(' it was to be a macro, before '{' a word of the language.
+static void report_unknown_word(struct stream *s, const struct token *t, bool call)
+{
+    const char *near = NULL;
+    if (call && reported_before(s, t))
+        return;
+    if (call && s->host.closest)
+        near = s->host.closest(s->host.user, t->text, t->len, true);
+    if (!near)
+        near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
+    if (!near && s->host.closest)
+        near = s->host.closest(s->host.user, t->text, t->len, false);
     const char *hint = near ? arena_printf(s->nodes, "did you mean '%s'?", near) : NULL;
     diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
 }
@@ -322,7 +344,7 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
     p->failed = true;
     const struct token *t = p->now, *last = p->last;
     if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
-        report_unknown_word(s, last);
+        report_unknown_word(s, last, false);
         return;
     }
     if (t->kind == TOK_END && p->block_count) {
@@ -429,9 +451,9 @@ static bool run_bare_directive(struct stream *s, struct token t)
 // a call of a macro that does not exist.
 static void skip_unknown(struct stream *s, struct token name)
 {
-    report_unknown_word(s, &name);
-    int depth = 0;
     struct token next = raw_peek(s);
+    report_unknown_word(s, &name, next.kind == '(');
+    int depth = 0;
     if (next.kind != '{' && next.kind != '(')
         return;
     do {

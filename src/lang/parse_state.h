@@ -40,7 +40,7 @@ enum {
 #ifdef __SANITIZE_ADDRESS__ // its frames are several times larger
     PARSE_RUNS_MAX = 500,
 #else
-    PARSE_RUNS_MAX = 1200, // runs of the grammar inside each other
+    PARSE_RUNS_MAX = 2400, // runs of the grammar inside each other
 #endif
 };
 

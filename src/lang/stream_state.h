@@ -54,7 +54,15 @@ struct lexed {
     uint32_t count;
 };
 
+// That was called and that nobody declared.
+struct unknown_name {
+    const struct unknown_name *next;
+    const char *text;
+    size_t len;
+};
+
 struct stream {
+    const struct unknown_name *unknown; // newest first
     struct arena *arena; // of the caller: macro definitions
     struct arena *nodes; // AST, wound back after each statement and directive
     struct source_map *sources;

@@ -4,3 +4,5 @@ EXTRA_DIST += %D%/common.sh %D%/continue.sh %D%/files.sh %D%/format.sh %D%/inter
 TESTS += %D%/continue.sh %D%/files.sh %D%/format.sh %D%/interrupt.sh %D%/mesh.sh %D%/options.sh %D%/radiosity.sh %D%/scene_files.sh
 EXTRA_DIST += %D%/common.sh %D%/commands.sh %D%/continue.sh %D%/files.sh %D%/format.sh %D%/interrupt.sh %D%/mesh.sh %D%/options.sh %D%/radiosity.sh %D%/scene_files.sh
 TESTS += %D%/commands.sh %D%/continue.sh %D%/files.sh %D%/format.sh %D%/interrupt.sh %D%/mesh.sh %D%/options.sh %D%/radiosity.sh %D%/scene_files.sh
+EXTRA_DIST += %D%/common.sh %D%/commands.sh %D%/continue.sh %D%/deep.sh %D%/files.sh %D%/format.sh %D%/interrupt.sh %D%/mesh.sh %D%/options.sh %D%/radiosity.sh %D%/scene_files.sh
+TESTS += %D%/commands.sh %D%/continue.sh %D%/deep.sh %D%/files.sh %D%/format.sh %D%/interrupt.sh %D%/mesh.sh %D%/options.sh %D%/radiosity.sh %D%/scene_files.sh

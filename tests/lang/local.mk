@@ -171,6 +171,7 @@ lang_scenes = \
 	%D%/252-kinds-change.scn \
 	%D%/253-loop-names-change.scn \
 	%D%/254-precision.scn \
+	%D%/265-message-macro.scn \
 	%D%/300-error-undeclared.scn \
 	%D%/301-error-close-name.scn \
 	%D%/302-error-double-equals.scn \
