@@ -46,6 +46,21 @@ static int bits_of(const struct lambert_context *ctx, enum image_type type, bool
     return bits > 16 ? 16 : bits;
 }
 
+static enum dither_method dither_of(const struct lambert_context *ctx)
+{
+    static const char *const words[] = {
+        [DITHER_BAYER_2] = "B2", [DITHER_BAYER_3] = "B3",
+        [DITHER_BAYER_4] = "B4", [DITHER_NEXT] = "D1",
+        [DITHER_HALVES] = "D2",  [DITHER_FLOYD_STEINBERG] = "FS"};
+    const char *word = lambert_option_text(ctx, "dither-method");
+    if (!option_flag(ctx, "dither"))
+        return DITHER_NONE;
+    for (int i = DITHER_BAYER_2; i < DITHER_FLOYD_STEINBERG; i++)
+        if (strncmp(word, words[i], 2) == 0)
+            return (enum dither_method)i;
+    return DITHER_FLOYD_STEINBERG;
+}
+
 enum lambert_status lambert_image_write(struct lambert_context *ctx,
                                         const struct lambert_image *image,
                                         const char *path)
@@ -57,6 +72,7 @@ enum lambert_status lambert_image_write(struct lambert_context *ctx,
     int compression = (int)option_number(ctx, "compression");
     struct image_write_options o = {
         .type = type,
+        .dither = dither_of(ctx),
         .bits = bits_of(ctx, type, grey),
         .alpha = option_flag(ctx, "alpha"),
         .grey = grey && type != IMAGE_EXR,

@@ -55,6 +55,15 @@ static bool asked(struct cmd *c, const char *name)
     return lambert_option_number(c->ctx, name) != 0;
 }
 
+static void say_picture(struct cmd *c, FILE *out, const char *name,
+                        const struct lambert_stats *s)
+{
+    fprintf(out, "%s: %d x %d, %.2f s\n", name,
+            (int)lambert_option_number(c->ctx, "width"),
+            (int)lambert_option_number(c->ctx, "height"),
+            s->parse_seconds + s->build_seconds + s->trace_seconds);
+}
+
 static void say_done(struct cmd *c, const char *path, bool whole)
 {
     struct lambert_stats s;
@@ -69,16 +78,17 @@ static void say_done(struct cmd *c, const char *path, bool whole)
             s.tiles_done, s.tiles_total, name,
             c->keeps ? "; --continue goes on from here" : "");
     else if (!c->quiet)
-        fprintf(stderr, "%s: %d x %d, %.2f s\n", name,
-                (int)lambert_option_number(c->ctx, "width"),
-                (int)lambert_option_number(c->ctx, "height"),
-                s.parse_seconds + s.build_seconds + s.trace_seconds);
+        say_picture(c, stderr, name, &s);
+    if (c->stream[STREAM_RENDER])
+        say_picture(c, c->stream[STREAM_RENDER], name, &s);
 }
 
 static void say_stats(struct cmd *c, const char *path)
 {
     const char *form = lambert_option_text(c->ctx, "stats");
     bool json = form && strcmp(form, "json") == 0;
+    if (c->stream[STREAM_STATISTIC])
+        stats_print(c, c->stream[STREAM_STATISTIC], false, path);
     if (form || c->verbose)
         stats_print(c, json ? stdout : stderr, json, path);
 }

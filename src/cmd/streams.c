@@ -5,10 +5,9 @@
 #include <string.h>
 
 static const char *const stream_options[STREAM_COUNT] = {
-    [STREAM_ALL] = "file-all",
-    [STREAM_DEBUG] = "file-debug",
-    [STREAM_WARNING] = "file-warning",
-    [STREAM_FATAL] = "file-fatal",
+    [STREAM_ALL] = "file-all",         [STREAM_DEBUG] = "file-debug",
+    [STREAM_WARNING] = "file-warning", [STREAM_FATAL] = "file-fatal",
+    [STREAM_RENDER] = "file-render",   [STREAM_STATISTIC] = "file-statistic",
 };
 
 int streams_open(struct cmd *c)

@@ -31,7 +31,7 @@ bool codec_fail(struct codec_error e, const char *fmt, ...)
 // red, green, blue, then alpha when written (spec/lighting.md 3.4, 3.5).
 int quantize_channels(const struct image_write_options *o);
 struct quantizer; // the codes of one set of options; NULL: out of memory
-struct quantizer *quantizer_new(const struct image_write_options *o);
+struct quantizer *quantizer_new(const struct image_write_options *o, int width);
 void quantizer_free(struct quantizer *q);
 void quantize_row(const struct quantizer *q, const struct image *im, int y,
                   const struct image_write_options *o, uint16_t *out);

@@ -51,7 +51,18 @@ struct image_metadata {
     size_t count;
 };
 
+enum dither_method {
+    DITHER_NONE,
+    DITHER_BAYER_2,
+    DITHER_BAYER_3,
+    DITHER_BAYER_4,
+    DITHER_NEXT,
+    DITHER_HALVES,
+    DITHER_FLOYD_STEINBERG
+};
+
 struct image_write_options {
+    enum dither_method dither; // of integer samples
     enum image_type type;
     int bits;   // PNG: 8 or 16; EXR: 16 half or 32 float
     bool alpha; // write the fourth channel

@@ -120,7 +120,7 @@ bool png_encode(const struct image *im, const struct image_write_options *o,
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     size_t n = (size_t)im->width * 4;
-    job.quantizer = quantizer_new(o);
+    job.quantizer = quantizer_new(o, im->width);
     job.samples = malloc(n * sizeof *job.samples);
     job.row = malloc(n * 2);
     volatile bool ok = false;

@@ -33,7 +33,7 @@ bool ppm_encode(const struct image *im, const struct image_write_options *option
     if (o.grey)      // and grey is written without gamma (spec/lighting.md 3.4)
         o.transfer = o.working;
     size_t n = (size_t)im->width * (size_t)quantize_channels(&o);
-    struct quantizer *q = quantizer_new(&o);
+    struct quantizer *q = quantizer_new(&o, im->width);
     uint16_t *samples = malloc(n * sizeof *samples);
     uint8_t *row = malloc(n * 2);
     write_header(out, im, &o);

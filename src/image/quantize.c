@@ -1,5 +1,6 @@
 // From floats to the integers of PNG and PPM files.
 #include "image/codec.h"
+#include "image/dither.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,8 +57,9 @@ enum { TABLE_BITS_MAX = 10 };
 
 struct quantizer {
     double max;
-    double *least;   // least[i]: the least value with code >= i; least[codes] = infinity
-    uint16_t *guess; // the code at the low end of a bucket of float bit patterns
+    double *least; // least[i]: the least value with code >= i; least[codes] = infinity
+    struct dither *dither; // NULL: none, and then the table
+    uint16_t *guess;       // the code at the low end of a bucket of float bit patterns
 };
 
 static double from_bits(uint64_t bits)
@@ -109,12 +111,28 @@ static uint32_t bucket_of(float v)
     return bits <= first ? 0 : bits - first >= BUCKETS ? BUCKETS - 1 : bits - first;
 }
 
-struct quantizer *quantizer_new(const struct image_write_options *o)
+static struct quantizer *dithering(const struct image_write_options *o, int width)
 {
+    struct quantizer *q = calloc(1, sizeof *q);
+    struct dither *d = dither_new(o->dither, width);
+    if (q && d) {
+        q->max = (1 << o->bits) - 1;
+        q->dither = d;
+        return q;
+    }
+    free(q);
+    dither_free(d);
+    return NULL;
+}
+
+struct quantizer *quantizer_new(const struct image_write_options *o, int width)
+{
+    if (o->dither)
+        return dithering(o, width);
     const int codes = 1 << o->bits;
     struct quantizer *q = malloc(sizeof *q);
     if (q && o->bits > TABLE_BITS_MAX) {
-        *q = (struct quantizer){codes - 1, NULL, NULL};
+        *q = (struct quantizer){.max = codes - 1};
         return q;
     }
     double *least = malloc(((size_t)codes + 1) * sizeof *least);
@@ -125,7 +143,7 @@ struct quantizer *quantizer_new(const struct image_write_options *o)
         free(guess);
         return NULL;
     }
-    *q = (struct quantizer){codes - 1, least, guess};
+    *q = (struct quantizer){.max = codes - 1, .least = least, .guess = guess};
     least[0] = -INFINITY;
     for (int i = 1; i < codes; i++)
         least[i] = least_of(o, q->max, i);
@@ -147,6 +165,7 @@ void quantizer_free(struct quantizer *q)
 {
     if (!q)
         return;
+    dither_free(q->dither);
     free(q->least);
     free(q->guess);
     free(q);
@@ -167,6 +186,16 @@ static uint16_t code_of(const struct quantizer *q, const struct image_write_opti
     return (uint16_t)i;
 }
 
+// Of a sample of the pixel (x, y).
+static uint16_t sample_code(const struct quantizer *q,
+                            const struct image_write_options *o, int x, int y, int k,
+                            double v)
+{
+    if (q->dither)
+        return dither_code(q->dither, x, y, k, encode(o, v > 0 ? v : 0) * q->max, q->max);
+    return code_of(q, o, v);
+}
+
 void quantize_row(const struct quantizer *q, const struct image *im, int y,
                   const struct image_write_options *o, uint16_t *out)
 {
@@ -178,10 +207,10 @@ void quantize_row(const struct quantizer *q, const struct image *im, int y,
         if (o->alpha)
             alpha = unpremultiply(c, im->channels == 4 ? (double)p[3] : 1);
         if (o->grey) {
-            *out++ = code_of(q, o, grey(c));
+            *out++ = sample_code(q, o, x, y, 0, grey(c));
         } else {
             for (int k = 0; k < 3; k++)
-                *out++ = code_of(q, o, c[k]);
+                *out++ = sample_code(q, o, x, y, k, c[k]);
         }
         if (o->alpha)
             *out++ = quantize(alpha, q->max);

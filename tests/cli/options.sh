@@ -78,11 +78,42 @@ streams() {
     has all.txt said && has all.txt beware && ! grep -q beware wrong.txt
 }
 check "messages to files" streams
+more_streams() {
+  exits 0 "$lambert" sphere.pov -q +W8 +H6 +GRrender.txt +GSstat.txt && has render.txt 'sphere.png: 8 x 6' &&
+    has stat.txt '^pixels 48,'
+}
+check "Render_File and Statistic_File" more_streams
 appended() {
   "$lambert" check talk.pov +GDsaid.txt +GP >out 2>err
   test "$(grep -c said said.txt)" = 2
 }
 check "Append_File" appended
+cat >ramp.pov <<'EOS'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { orthographic location -z right 64*x up 48*y direction z }
+plane { z, 0 pigment { gradient x color_map { [0 rgb 0.4] [1 rgb 0.5] } scale 64 translate -32*x }
+  finish { ambient 1 diffuse 0 } }
+EOS
+# The mean of 5-bit samples against that of 16 bits; undithered it is further off in parts.
+mean() { tail -c $((64 * 48 * 3 * $2)) "$1" | od -An -v -tu1 -w$((3 * $2)) |
+  awk -v two=$2 '{ v = two == 2 ? $1*256 + $2 : $1; s += v } END { printf "%.5f\n", s/NR/(two == 2 ? 65535 : 31) }'; }
+dithers() {
+  exits 0 "$lambert" ramp.pov +W64 +H48 -q +FP16 -o fine.ppm File_Gamma=1 || return 1
+  "$lambert" ramp.pov +W64 +H48 -q +FP5 -o plain.ppm File_Gamma=1
+  for m in B2 B3 B4 D1 D2 FS; do
+    exits 0 "$lambert" ramp.pov +W64 +H48 -q +FP5 +TH$m -o $m.ppm File_Gamma=1 &&
+      exits 0 "$lambert" ramp.pov +W64 +H48 -q +FP5 +TH$m +WT2 +BS8 -o again.ppm File_Gamma=1 &&
+      cmp $m.ppm again.ppm || return 1
+    cmp -s $m.ppm plain.ppm && return 1
+    echo "$(mean fine.ppm 2) $(mean $m.ppm 1)" | awk '{ exit !($1 - $2 < 0.003 && $2 - $1 < 0.003) }' || {
+      echo "# $m: $(mean fine.ppm 2) $(mean $m.ppm 1)"
+      return 1
+    }
+  done
+}
+check "dithering keeps the mean" dithers
+check "no such method" exits 64 "$lambert" ramp.pov +THXX
 settings() {
   exits 0 "$lambert" sphere.pov +W20 +H10 -q -F +GIkept.ini 'Declare=Name="a b"' Declare=N=3 +A0.2 &&
     has kept.ini '^Width=20$' && has kept.ini "^Declare='Name=\"a b\"'$" &&

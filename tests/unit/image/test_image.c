@@ -32,7 +32,7 @@ static struct image_write_options options(enum image_type type, int bits)
 static void quantize(const struct image *im, const struct image_write_options *o,
                      uint16_t *out)
 {
-    struct quantizer *q = quantizer_new(o);
+    struct quantizer *q = quantizer_new(o, im->width);
     assert_non_null(q);
     quantize_row(q, im, 0, o, out);
     quantizer_free(q);
