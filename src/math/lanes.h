@@ -256,13 +256,15 @@ LANES_INLINE struct real8 r8_floor(struct real8 x)
 #endif
 }
 
-// Four neighbouring doubles at each of eight places, turned: out[k] holds the k-th of each.
-LANES_INLINE void r8_load_rows(const double *const row[8], struct real8 out[4])
+// Four neighbouring doubles past each of eight places, turned: out[k] holds the k-th of
+// each.
+LANES_INLINE void r8_load_rows(const double *const row[8], int past,
+                               struct real8 out[4])
 {
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define R_PAIR(i, j)                                                          \
-    _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[i])),       \
-                       _mm256_loadu_pd(row[j]), 1)
+    _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[i] + past)),       \
+                       _mm256_loadu_pd(row[j] + past), 1)
     const __m512d a = R_PAIR(0, 2), b = R_PAIR(1, 3), c = R_PAIR(4, 6), d = R_PAIR(5, 7);
 #undef R_PAIR
     const __m512d ab = _mm512_unpacklo_pd(a, b), cd = _mm512_unpacklo_pd(c, d);
@@ -274,8 +276,8 @@ LANES_INLINE void r8_load_rows(const double *const row[8], struct real8 out[4])
 #elif defined(__AVX2__)
 #define R_TURN(m, i)                                                                    \
     do {                                                                                \
-        const __m256d a = _mm256_loadu_pd(row[i]), b = _mm256_loadu_pd(row[(i) + 1]);   \
-        const __m256d c = _mm256_loadu_pd(row[(i) + 2]), d = _mm256_loadu_pd(row[(i) + 3]); \
+        const __m256d a = _mm256_loadu_pd(row[i] + past), b = _mm256_loadu_pd(row[(i) + 1] + past);   \
+        const __m256d c = _mm256_loadu_pd(row[(i) + 2] + past), d = _mm256_loadu_pd(row[(i) + 3] + past); \
         const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d);     \
         const __m256d ab1 = _mm256_unpackhi_pd(a, b), cd1 = _mm256_unpackhi_pd(c, d);   \
         out[0].m = _mm256_permute2f128_pd(ab, cd, 0x20);                                \
@@ -290,7 +292,7 @@ LANES_INLINE void r8_load_rows(const double *const row[8], struct real8 out[4])
     double v[4][8];
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 4; k++)
-            v[k][i] = row[i][k];
+            v[k][i] = row[i][past + k];
     for (int k = 0; k < 4; k++)
         out[k] = r8_load(v[k]);
 #endif

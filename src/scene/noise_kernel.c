@@ -43,13 +43,13 @@ static inline const double *corner(unsigned hash_xy, unsigned z)
     return noise_value_table + (noise_hash_table[hash_xy ^ z] & 255);
 }
 
-LANES_INLINE void lattice_of(const double p[3][8], double scale, struct lattice8 *l)
+LANES_INLINE void lattice_of(struct vec8 p, double scale, struct lattice8 *l)
 {
     double cx[8], cy[8], cz[8];
     const struct real8 s = r8_set(scale);
-    l->fx = split8(r8_mul(s, r8_load(p[0])), cx);
-    l->fy = split8(r8_mul(s, r8_load(p[1])), cy);
-    l->fz = split8(r8_mul(s, r8_load(p[2])), cz);
+    l->fx = split8(r8_mul(s, p.x), cx);
+    l->fy = split8(r8_mul(s, p.y), cy);
+    l->fz = split8(r8_mul(s, p.z), cz);
     for (int i = 0; i < 8; i++) {
         const unsigned x = cell_of(cx[i]), y = cell_of(cy[i]), z = cell_of(cz[i]);
         const unsigned h0 = noise_hash_table[x], h1 = noise_hash_table[x + 1];
@@ -105,40 +105,55 @@ LANES_INLINE struct real8 clamp8(struct real8 v)
     return r8_select(r8_lt(v, zero), zero, r8_select(r8_lt(one, v), one, v));
 }
 
-LANES_INLINE struct real8 value_sum8(const double p[3][8], double scale)
+LANES_INLINE struct real8 value_sum8(struct vec8 p, double scale)
 {
     struct lattice8 l;
     struct corner8 k[8];
     struct real8 t[4];
     lattice_of(p, scale, &l);
     corners_of(&l, k);
-    r8_load_rows(l.row[0], t);
+    r8_load_rows(l.row[0], 0, t);
     struct real8 sum = blend8(t, k[0].w, k[0].dx, k[0].dy, k[0].dz);
 #pragma GCC unroll 7
     for (int c = 1; c < 8; c++) {
-        r8_load_rows(l.row[c], t);
+        r8_load_rows(l.row[c], 0, t);
         sum = r8_add(sum, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
     }
     return sum;
 }
 
-static void value(const double p[3][8], double scale, int generator, double out[8])
+// The gradient noise has no lanes.
+static struct real8 perlin8(const double p[3][8], double scale)
 {
-    if (generator == NOISE_PERLIN) {
-        for (int i = 0; i < 8; i++)
-            out[i] = noise_value(vec3(scale * p[0][i], scale * p[1][i], scale * p[2][i]),
-                                 generator);
-        return;
-    }
-    struct real8 sum = value_sum8(p, scale);
-    if (generator == NOISE_RANGE_CORRECTED)
-        sum = r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582));
-    else
-        sum = r8_add(sum, r8_set(0.5));
-    r8_store(out, clamp8(sum));
+    double v[8];
+    for (int i = 0; i < 8; i++)
+        v[i] = noise_value(vec3(scale * p[0][i], scale * p[1][i], scale * p[2][i]),
+                           NOISE_PERLIN);
+    return r8_load(v);
 }
 
-static void vector(const double p[3][8], double scale, double out[3][8])
+LANES_INLINE struct vec8 load8(const double p[3][8])
+{
+    return (struct vec8){r8_load(p[0]), r8_load(p[1]), r8_load(p[2])};
+}
+
+LANES_INLINE struct real8 value8(const double p[3][8], struct vec8 at, double scale,
+                                 int generator)
+{
+    if (generator == NOISE_PERLIN)
+        return perlin8(p, scale);
+    const struct real8 sum = value_sum8(at, scale);
+    return clamp8(generator == NOISE_RANGE_CORRECTED
+                      ? r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582))
+                      : r8_add(sum, r8_set(0.5)));
+}
+
+static void value(const double p[3][8], double scale, int generator, double out[8])
+{
+    r8_store(out, value8(p, load8(p), scale, generator));
+}
+
+LANES_INLINE struct vec8 vector8(struct vec8 p, double scale)
 {
     // The order of noise_vector: it is not that of noise_value.
     static const int order[8] = {0, 1, 3, 2, 6, 7, 5, 4};
@@ -146,19 +161,83 @@ static void vector(const double p[3][8], double scale, double out[3][8])
     struct corner8 k[8];
     lattice_of(p, scale, &l);
     corners_of(&l, k);
-    for (int a = 0; a < 3; a++) {
-        struct real8 sum = r8_set(0), t[4];
+    struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
 #pragma GCC unroll 8
-        for (int i = 0; i < 8; i++) {
-            const int c = order[i];
-            const double *row[8];
-            for (int lane = 0; lane < 8; lane++)
-                row[lane] = l.row[c][lane] + 4 * a;
-            r8_load_rows(row, t);
-            sum = r8_add(sum, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
-        }
-        r8_store(out[a], sum);
+    for (int i = 0; i < 8; i++) {
+        const int c = order[i];
+        struct real8 t[4];
+        r8_load_rows(l.row[c], 0, t);
+        sum.x = r8_add(sum.x, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
+        r8_load_rows(l.row[c], 4, t);
+        sum.y = r8_add(sum.y, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
+        r8_load_rows(l.row[c], 8, t);
+        sum.z = r8_add(sum.z, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
     }
+    return sum;
+}
+
+LANES_INLINE void store8(double out[3][8], struct vec8 v)
+{
+    r8_store(out[0], v.x);
+    r8_store(out[1], v.y);
+    r8_store(out[2], v.z);
+}
+
+static void vector(const double p[3][8], double scale, double out[3][8])
+{
+    store8(out, vector8(load8(p), scale));
+}
+
+// ---- octaves --------------------------------------------------------------------------
+
+// What an octave adds, before its weight. Generators 2 and 3 are about a half.
+LANES_INLINE struct real8 octave8(struct real8 n, int kind, bool centred, bool first)
+{
+    const struct real8 half = r8_set(0.5), two = r8_set(2);
+    if (kind == OCTAVES_FOLDED) {
+        if (!centred)
+            return r8_abs(r8_sub(half, n));
+        n = r8_abs(r8_sub(r8_set(1), r8_mul(two, n)));
+        return r8_select(r8_lt(half, n), half, n);
+    }
+    if (!centred)
+        return n;
+    n = r8_sub(r8_mul(two, n), half);
+    return kind == OCTAVES_STRETCHED || first ? clamp8(n) : n;
+}
+
+static void values(const double p[3][8], const struct noise_octaves *o, int generator,
+                   double out[8])
+{
+    const bool centred = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
+    const struct vec8 at = load8(p);
+    double scale = o->scale, weight = o->weight;
+    struct real8 sum = r8_set(0);
+    int i = 0;
+    do {
+        const struct real8 n = value8(p, at, scale, generator);
+        sum = r8_add(sum, r8_mul(r8_set(weight), octave8(n, o->kind, centred, i == 0)));
+        scale *= o->lambda;
+        weight *= o->omega;
+    } while (++i < o->count);
+    r8_store(out, sum);
+}
+
+static void vectors(const double p[3][8], const struct noise_octaves *o, double out[3][8])
+{
+    const struct vec8 at = load8(p);
+    double scale = o->scale, weight = o->weight;
+    struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
+    int i = 0;
+    do {
+        struct vec8 v = vector8(at, scale);
+        if (o->kind == OCTAVES_FOLDED)
+            v = (struct vec8){r8_abs(v.x), r8_abs(v.y), r8_abs(v.z)};
+        sum = v8_mad(sum, r8_set(weight), v);
+        scale *= o->lambda;
+        weight *= o->omega;
+    } while (++i < o->count);
+    store8(out, sum);
 }
 
 // ---- random points of cells (scene/patterns/crackle.c) --------------------------------
@@ -262,5 +341,5 @@ static void nearest(const double p[3][8], const double cell[3], unsigned lanes,
         r8_store(sum[k], s.sum[k]);
 }
 
-const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA), value, vector,
-                                                         nearest};
+const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA), value,   vector,
+                                                         values,    vectors, nearest};

@@ -3,12 +3,28 @@
 
 // Noise at eight points, compiled once per instruction set (math/lanes.h). The bits are
 // those of scene/noise.h.
+// A sum over octaves: the noise at scale * p, then lambda times that scale and so on, with
+// weights that go down by omega.
+struct noise_octaves {
+    double scale, lambda, weight, omega;
+    int count; // less than 1 is 1
+    enum {
+        OCTAVES_TURBULENCE, // noise_turbulence; the vectors of noise_dturbulence
+        OCTAVES_FOLDED,     // distances from the middle; sizes of vectors
+        OCTAVES_STRETCHED,  // clamped
+    } kind;
+};
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
     void (*value)(const double p[3][8], double scale, int generator, double out[8]);
     // noise_vector at scale * p.
     void (*vector)(const double p[3][8], double scale, double out[3][8]);
+    void (*values)(const double p[3][8], const struct noise_octaves *o, int generator,
+                   double out[8]);
+    void (*vectors)(const double p[3][8], const struct noise_octaves *o,
+                    double out[3][8]);
     // The three smallest of the squares (metric 2) or sums (metric 1) of the distances
     // from points of one cell, those in `lanes`, to the random points of the cells around
     // (scene/patterns/cellular.h). Those after the first `count` may be too large.

@@ -1,6 +1,5 @@
 // Turbulence of eight points at a time, as scene/noise.c does one.
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -27,34 +26,13 @@ const struct noise_kernels *noise_kernels_find(const char *name)
 void noise_turbulence8(const struct noise_kernels *k, const double p[3][8], double lambda,
                        double omega, int octaves, int generator, double out[8])
 {
-    const bool signed_noise =
-        generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
-    double n[8], l = lambda, o = omega;
-    k->value(p, 1, generator, out);
-    for (int i = 0; i < 8 && signed_noise; i++) {
-        const double v = 2 * out[i] - 0.5;
-        out[i] = v < 0 ? 0 : v > 1 ? 1 : v;
-    }
-    for (int octave = 2; octave <= octaves; octave++) {
-        k->value(p, l, generator, n);
-        for (int i = 0; i < 8; i++)
-            out[i] += o * (signed_noise ? 2 * n[i] - 0.5 : n[i]);
-        l *= lambda;
-        o *= omega;
-    }
+    const struct noise_octaves o = {1, lambda, 1, omega, octaves, OCTAVES_TURBULENCE};
+    k->values(p, &o, generator, out);
 }
 
 void noise_dturbulence8(const struct noise_kernels *k, const double p[3][8],
                         double lambda, double omega, int octaves, double out[3][8])
 {
-    double v[3][8], l = lambda, o = omega;
-    k->vector(p, 1, out);
-    for (int octave = 2; octave <= octaves; octave++) {
-        k->vector(p, l, v);
-        for (int a = 0; a < 3; a++)
-            for (int i = 0; i < 8; i++)
-                out[a][i] += o * v[a][i];
-        l *= lambda;
-        o *= omega;
-    }
+    const struct noise_octaves o = {1, lambda, 1, omega, octaves, OCTAVES_TURBULENCE};
+    k->vectors(p, &o, out);
 }

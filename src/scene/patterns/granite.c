@@ -26,19 +26,12 @@ static double value(const struct pattern *p, struct vec3 at,
     return sum;
 }
 
+// 4 and the scales are powers of two: products with them are exact.
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    const int generator = pattern_noise_generator(p);
-    // 4 and the scales are powers of two: their product with a coordinate is the same.
-    double n[8], scale = 1;
-    for (int i = 0; i < 8; i++)
-        out[i] = 0;
-    for (int octave = 0; octave < GRANITE_OCTAVES; octave++, scale *= 2) {
-        k->value(at, 4 * scale, generator, n);
-        for (int i = 0; i < 8; i++)
-            out[i] += folded(n[i], generator) * (1 / scale);
-    }
+    static const struct noise_octaves o = {4, 2, 1, 0.5, GRANITE_OCTAVES, OCTAVES_FOLDED};
+    k->values(at, &o, pattern_noise_generator(p), out);
 }
 
 const struct pattern_ops granite_pattern_ops = {

@@ -41,28 +41,21 @@ static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    const int generator = pattern_noise_generator(p);
-    double n[8], sum[8] = {0}, scale = 1;
-    for (int octave = 0; octave < WRINKLES_OCTAVES; octave++, scale *= 2) {
-        k->value(at, scale, generator, n);
-        for (int i = 0; i < 8; i++)
-            sum[i] += stretched(n[i], generator) * (1 / scale);
-    }
+    static const struct noise_octaves o = {
+        1, 2, 1, 0.5, WRINKLES_OCTAVES, OCTAVES_STRETCHED};
+    k->values(at, &o, pattern_noise_generator(p), out);
     for (int i = 0; i < 8; i++)
-        out[i] = sum[i] / 2;
+        out[i] /= 2;
 }
 
 static void perturbs(const struct pattern *p, const struct noise_kernels *k, float amount,
                      const double at[3][8], double n[3][8])
 {
+    static const struct noise_octaves o = {
+        1, 2, 1, 0.5, WRINKLES_OCTAVES, OCTAVES_FOLDED};
     (void)p;
-    double v[3][8], sum[3][8] = {{0}}, scale = 1;
-    for (int octave = 0; octave < WRINKLES_OCTAVES; octave++, scale *= 2) {
-        k->vector(at, scale, v);
-        for (int a = 0; a < 3; a++)
-            for (int i = 0; i < 8; i++)
-                sum[a][i] += fabs(v[a][i]) * (1 / scale);
-    }
+    double sum[3][8];
+    k->vectors(at, &o, sum);
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 8; i++)
             n[a][i] += amount * sum[a][i];
