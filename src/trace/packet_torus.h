@@ -238,8 +238,8 @@ LANES_INLINE unsigned tube8_chord(const struct tube8 *v, struct real8 oo, struct
     unsigned lanes = m8_bits(r8_lt(zero, reach));
     if (!lanes)
         return 0;
-    const double edge = v->r * (1 + 0x1p-30) + 0x1p-40;
-    const struct real8 chord = r8_add(r8_mul(r8_sqrt(reach), r8_set(1 + 0x1p-40)),
+    const double edge = v->r + TORUS_MARGIN * v->r + 0x1p-40;
+    const struct real8 chord = r8_add(r8_add(r8_sqrt(reach), r8_set(TORUS_MARGIN * v->r)),
                                       r8_set(0x1p-40));
     const struct mask8 down = r8_lt(r8_set(0x1p-20), r8_abs(v->u.y));
     const struct real8 t0 = r8_div(r8_sub(r8_set(-edge), v->o.y), v->u.y);

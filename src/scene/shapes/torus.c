@@ -118,9 +118,11 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const double oo = vec3_dot(o, o), reach = 1 - oo;
     if (!(reach > 0))
         return;
-    // The chord of the ball, cut by the slab |y| <= r: a little wide, as nothing outside
-    // the torus changes the sign.
-    const double chord = sqrt(reach) * (1 + 0x1p-40) + 0x1p-40, edge = r * (1 + 0x1p-30) + 0x1p-40;
+    // The chord of the ball, cut by the slab |y| <= r: wider by a share of the tube, as
+    // nothing outside the torus changes the sign, and the quartic of a thin tube must be
+    // clear of its rounding at the ends, or the outermost root is lost.
+    const double chord = sqrt(reach) + TORUS_MARGIN * r + 0x1p-40;
+    const double edge = r + TORUS_MARGIN * r + 0x1p-40;
     double lo = -chord, hi = chord;
     if (fabs(u.y) > 0x1p-20) {
         const double t0 = (-edge - o.y) / u.y, t1 = (edge - o.y) / u.y;

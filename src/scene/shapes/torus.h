@@ -6,4 +6,7 @@ struct torus {
     double major, minor;
 };
 
+// The search for crossings begins and ends outside by this share of the minor radius.
+#define TORUS_MARGIN 0x1p-3
+
 #endif
