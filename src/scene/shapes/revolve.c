@@ -10,7 +10,11 @@
 // A ray this flat (sine of its slope) is taken as horizontal: the two crossings of a
 // height then lie closer in w than the polynomial can tell, and the error made is below
 // the slope times the radius.
-static const double FLAT = 0x1p-26; // square root of the roundoff
+static const double FLAT = 0x1p-24; // a few square roots of the roundoff
+
+// Up to this slope, segments whose ends are not near the line's heights within the shape
+// are met as by a horizontal line, and the crossings sharpened.
+static const double NEARLY_FLAT = 0x1p-14;
 
 static const double pi = 3.14159265358979323846;
 
@@ -32,11 +36,30 @@ static void hull(const double *c, int degree, double *low, double *high)
     }
 }
 
+static double polynomial_slope(const double *c, int degree, double w)
+{
+    double v = 0;
+    for (int k = degree; k > 0; k--)
+        v = v * w + k * c[k];
+    return v;
+}
+
+// Whether h' keeps its sign: at the ends and, of a cubic, where h' itself turns.
+static bool is_climbing(const struct revolve_segment *s)
+{
+    const double a = polynomial_slope(s->h, s->h_degree, 0);
+    const double b = polynomial_slope(s->h, s->h_degree, 1);
+    double turn = s->h_degree == 3 ? -s->h[2] / (3 * s->h[3]) : 0;
+    turn = turn > 0 && turn < 1 ? turn : 0;
+    return a * b > 0 && a * polynomial_slope(s->h, s->h_degree, turn) > 0;
+}
+
 static void bound_segment(struct revolve_segment *s)
 {
     double least2;
     hull(s->h, s->h_degree, &s->low, &s->high);
     hull(s->r2, s->r2_degree, &least2, &s->most2);
+    s->climbs = is_climbing(s);
     s->low = fmin(s->low, fmin(s->h_end[0], s->h_end[1]));
     s->high = fmax(s->high, fmax(s->h_end[0], s->h_end[1]));
     s->most2 = fmax(s->most2, fmax(s->r2_end[0], s->r2_end[1]));
@@ -116,9 +139,13 @@ struct line {
     const struct revolve *r;
     const struct ray *ray;
     double q, m, p; // |D_xz|^2, D_xz . O_xz, |O_xz|^2
+    // The same at t = `shift`, at the height y there: where the line is nearest to the axis,
+    // or a nearly horizontal line's crossings are lost in the rounding of the cross term.
+    double shift, y, shifted_m, shifted_p;
     double dt;      // the part of the error that all crossings share
     double nearest, nearest2; // where it is nearest to the axis, and how near, squared
     double reach;             // error of t at a height
+    double size;              // of all coordinates
     struct boundary_list *out;
 };
 
@@ -128,16 +155,57 @@ static void add(const struct line *l, double t, double dt, uint32_t part, double
     b->v = w;
 }
 
-// Both points of a circle of squared radius r2 at the height of a horizontal ray.
-static void add_circle(const struct line *l, double r2, uint32_t part, double w)
+// Brings a crossing closer by Newton's method on y(t) = h(w), rho^2(t) = r^2(w): on a
+// nearly horizontal line both crossings of a height have nearly the same w, and a
+// polynomial in w alone loses what tells them apart. *dt becomes what the rounding of both
+// residuals makes of t. False where the Jacobian is too small for that (a graze, an apex
+// on the line) or another crossing would be found: all stay.
+static bool sharpen(const struct line *l, const struct revolve_segment *s, double *t,
+                    double *dt, double *w)
 {
+    const double far = 0x1p-10; // of the segment; more than the errors of w
+    double at = *t, u = *w;
+    for (int i = 0; i < 8; i++) {
+        const double off = at - l->nearest, rho2 = l->nearest2 + l->q * off * off;
+        const double dy = l->ray->d.y, drho2 = 2 * l->q * off;
+        const double dh = polynomial_slope(s->h, s->h_degree, u);
+        const double dr2 = polynomial_slope(s->r2, s->r2_degree, u);
+        const double g = l->ray->o.y + at * dy - polynomial_value(s->h, s->h_degree, u);
+        const double f = rho2 - polynomial_value(s->r2, s->r2_degree, u);
+        const double det = drho2 * dh - dy * dr2;
+        const double by_t = (g * dr2 - f * dh) / det, by_u = (drho2 * g - dy * f) / det;
+        const double noise = (GAMMA(16) * l->size * fabs(dr2) +
+                              GAMMA(32) * (l->size * sqrt(rho2) + s->most2) * fabs(dh)) /
+                             fabs(det);
+        at += by_t;
+        u += by_u;
+        if (!(fabs(u - *w) <= far) || !isfinite(at) || !isfinite(noise))
+            return false;
+        if (fabs(by_t) <= noise) {
+            *t = at;
+            *dt = noise;
+            *w = u < 0 ? 0 : u > 1 ? 1 : u;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Both points of a circle of squared radius r2 at the height of a horizontal ray.
+static void add_circle(const struct line *l, uint32_t i, double w)
+{
+    const struct revolve_segment *s = &l->r->segment[i];
+    const double r2 = polynomial_value(s->r2, s->r2_degree, w);
     const double shift = -l->m / l->q, rest = r2 - (l->p - l->m * l->m / l->q);
     if (!(rest > 0))
         return;
     const double reach = sqrt(rest / l->q);
     const double dt = l->dt * (1 + (r2 + l->p) / fmax(rest, 0x1p-50 * (r2 + l->p)));
-    add(l, shift - reach, dt, part, w);
-    add(l, shift + reach, dt, part, w);
+    for (int side = -1; side <= 1; side += 2) {
+        double t = shift + side * reach, e = dt, v = w;
+        sharpen(l, s, &t, &e, &v);
+        add(l, t, e, REVOLVE_SEGMENT + i, v);
+    }
 }
 
 static void flat_segment(const struct line *l, uint32_t i)
@@ -150,15 +218,25 @@ static void flat_segment(const struct line *l, uint32_t i)
     f[0] -= y;
     bool above[2] = {s->h_end[0] >= y, s->h_end[1] >= y};
     for (int n = crossings(f, s->h_degree, above, w); n > 0; n--)
-        add_circle(l, polynomial_value(s->r2, s->r2_degree, w[n - 1]), REVOLVE_SEGMENT + i,
-                   w[n - 1]);
+        add_circle(l, i, w[n - 1]);
 }
 
-// q s^2 + 2 Dy m s + Dy^2 (p - r^2), s = h - Oy.
-static double conic(const struct line *l, double h, double r2)
+// Whether a nearly horizontal line passes all heights that it has within the shape between
+// the segment's ends, or beside the segment.
+static bool is_clear(const struct line *l, const struct revolve_segment *s)
 {
-    const double s = h - l->ray->o.y, dy = l->ray->d.y;
-    return l->q * s * s + 2 * dy * l->m * s + dy * dy * (l->p - r2);
+    const double y = l->ray->o.y + l->nearest * l->ray->d.y;
+    const double band = 2 * fabs(l->ray->d.y) * l->r->r_max / sqrt(l->q);
+    return s->climbs && fabs(s->h_end[0] - y) > band && fabs(s->h_end[1] - y) > band;
+}
+
+// The sign of q s^2 + 2 Dy m s + Dy^2 (p - r^2), s = h - y: outside of the circle. A point
+// on the axis has nothing inside.
+static bool is_outside(const struct line *l, double h, double r2)
+{
+    const double s = h - l->y, dy = l->ray->d.y;
+    const double rest = dy * dy * (l->shifted_p - r2);
+    return r2 == 0 || l->q * s * s + 2 * dy * l->shifted_m * s + rest >= 0;
 }
 
 // Whether the line stays away from the cylinder around a segment.
@@ -177,27 +255,31 @@ static void sloped_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
     const double dy = l->ray->d.y;
-    if (passes_by(l, s))
+    if (s->most2 == 0 || passes_by(l, s))
         return;
     double f[7] = {0}, h[4], w[8];
     for (int k = 0; k <= s->h_degree; k++)
         h[k] = s->h[k];
-    h[0] -= l->ray->o.y;
+    h[0] -= l->y;
     int degree = 2 * s->h_degree > s->r2_degree ? 2 * s->h_degree : s->r2_degree;
     for (int j = 0; j <= s->h_degree; j++) {
         for (int k = 0; k <= s->h_degree; k++)
             f[j + k] += l->q * h[j] * h[k];
-        f[j] += 2 * dy * l->m * h[j];
+        f[j] += 2 * dy * l->shifted_m * h[j];
     }
-    f[0] += dy * dy * l->p;
+    f[0] += dy * dy * l->shifted_p;
     for (int k = 0; k <= s->r2_degree; k++)
         f[k] -= dy * dy * s->r2[k];
-    bool above[2] = {conic(l, s->h_end[0], s->r2_end[0]) >= 0,
-                     conic(l, s->h_end[1], s->r2_end[1]) >= 0};
+    bool above[2] = {is_outside(l, s->h_end[0], s->r2_end[0]),
+                     is_outside(l, s->h_end[1], s->r2_end[1])};
     for (int n = crossings(f, degree, above, w); n > 0; n--) {
-        const double at = w[n - 1], height = polynomial_value(h, s->h_degree, at);
-        add(l, height / dy, l->dt / fabs(dy) * sqrt(l->q + dy * dy), REVOLVE_SEGMENT + i,
-            at);
+        double at = w[n - 1];
+        double t = l->shift + polynomial_value(h, s->h_degree, at) / dy;
+        const double speed = sqrt(l->q + dy * dy);
+        double dt = l->dt / fabs(dy) * speed;
+        if (!sharpen(l, s, &t, &dt, &at)) // two roots that rounding may have parted
+            dt += 2 * FLAT * l->size / speed;
+        add(l, t, dt, REVOLVE_SEGMENT + i, at);
     }
 }
 
@@ -205,7 +287,7 @@ static void cap(const struct line *l, uint32_t part, double h, double r2)
 {
     const double t = (h - l->ray->o.y) / l->ray->d.y;
     // The same function as the wall's, so that the rim is met once.
-    if (conic(l, h, r2) < 0)
+    if (!is_outside(l, h, r2))
         add(l, t, l->dt / fabs(l->ray->d.y), part, 0);
 }
 
@@ -243,6 +325,7 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     l.p = o.x * o.x + o.z * o.z;
     const double size =
         fmax(vec3_max_abs(o), fmax(r->r_max, fmax(fabs(r->h_min), fabs(r->h_max))));
+    l.size = size;
     l.dt = GAMMA(64) * size / sqrt(l.q + d.y * d.y);
     const bool flat = fabs(d.y) <= FLAT * sqrt(l.q);
     if (flat)
@@ -250,10 +333,16 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     l.nearest = l.q > 0 ? -l.m / l.q : 0;
     const double x = o.x + l.nearest * d.x, z = o.z + l.nearest * d.z;
     l.nearest2 = x * x + z * z;
+    const bool near = fabs(l.nearest * d.y) <= size;
+    l.shift = near ? l.nearest : 0;
+    l.y = o.y + l.shift * d.y;
+    l.shifted_m = near ? 0 : l.m;
+    l.shifted_p = near ? l.nearest2 : l.p;
     l.reach = GAMMA(16) * size / fabs(d.y);
     const uint32_t from = out->count;
+    const bool nearly = fabs(d.y) <= NEARLY_FLAT * sqrt(l.q);
     for (uint32_t i = 0; i < r->count; i++)
-        if (flat)
+        if (flat || (nearly && is_clear(&l, &r->segment[i])))
             flat_segment(&l, i);
         else
             sloped_segment(&l, i);

@@ -22,6 +22,7 @@ struct revolve_segment {
     int h_degree, r2_degree;
     double h_end[2], r2_end[2]; // at w = 0 and 1, shared with the neighbours
     double low, high, most2;    // it lies between these heights, within this radius squared
+    bool climbs;                // h rises or falls all the way
 };
 
 // What a lathe and a sor begin with.
