@@ -19,7 +19,9 @@ enum part_kind { PART_BALL, PART_STRAIGHT, PART_BASE, PART_APEX };
 
 struct component {
     enum part_kind kind;
-    struct vec3 c, axis; // centre or base; unit axis towards the apex
+    // Centre, or base of a cylinder, from where all its parts measure their share of the
+    // axis, so that none overlap and no gap is left; unit axis towards the apex.
+    struct vec3 c, axis;
     double length, r, s;
     struct transform transform; // blob from component space
     const struct texture *texture; // NULL: the blob's
@@ -50,6 +52,8 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
     if (c->kind == PART_STRAIGHT) { // distances from the axis
         v = vec3_mad(v, -along, c->axis);
         d = vec3_mad(d, -slope, c->axis);
+    } else if (c->kind == PART_APEX) {
+        v = vec3_mad(v, -c->length, c->axis);
     }
     const double r2 = c->r * c->r, a = vec3_dot(d, d), b = vec3_dot(v, d);
     *out = (struct stretch){-HUGE_VAL, HUGE_VAL, c->s, 1 - vec3_dot(v, v) / r2,
@@ -71,11 +75,14 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
     if (c->kind == PART_BALL)
         return true;
     // Which part of the axis counts: low <= along + slope t <= high.
-    const double low = c->kind == PART_BASE ? -HUGE_VAL : 0;
-    const double high = c->kind == PART_STRAIGHT ? c->length
-                        : c->kind == PART_BASE ? 0 : HUGE_VAL;
+    const double low = c->kind == PART_BASE       ? -HUGE_VAL
+                       : c->kind == PART_STRAIGHT ? 0
+                                                  : c->length;
+    const double high = c->kind == PART_BASE       ? 0
+                        : c->kind == PART_STRAIGHT ? c->length
+                                                   : HUGE_VAL;
     if (slope == 0)
-        return along >= low && along <= high && out->lo < out->hi;
+        return along >= low && along < high && out->lo < out->hi;
     const double t0 = (low - along) / slope, t1 = (high - along) / slope;
     out->lo = fmax(out->lo, fmin(t0, t1));
     out->hi = fmin(out->hi, fmax(t0, t1));
@@ -112,9 +119,23 @@ static void cross(struct walk *w, double t, double dt)
     w->in = !w->in;
 }
 
+// How far from t the root of the quartic lies whose value at t is but rounding.
+static double joint_error(const double c[5], double t, double rounding)
+{
+    double size = 0;
+    for (int k = 4; k >= 0; k--)
+        size = size * fabs(t) + fabs(c[k]);
+    const double noise = rounding * ROUNDOFF * size;
+    const double slope = ((4 * c[4] * t + 3 * c[3]) * t + 2 * c[2]) * t + c[1];
+    const double bend = (6 * c[4] * t + 3 * c[3]) * t + c[2];
+    return fmin(2 * noise / fabs(slope), 2 * sqrt(noise / fabs(bend)));
+}
+
 static void walk_between(struct walk *w, double lo, double hi)
 {
     const double m = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
+    if (half <= GAMMA(4) * fabs(m)) // joints that rounding has parted
+        return;
     double c[5] = {-w->blob->threshold}, most = 0;
     if (!w->known || !w->in) { // mostly the components around are too weak to reach the threshold
         for (uint32_t i = 0; i < w->count; i++)
@@ -126,17 +147,22 @@ static void walk_between(struct walk *w, double lo, double hi)
             return;
         }
     }
+    double bend = 0; // q2 is -1/radius^2
     for (uint32_t i = 0; i < w->count; i++)
-        if (w->at[i].lo <= lo && w->at[i].hi >= hi)
+        if (w->at[i].lo <= lo && w->at[i].hi >= hi) {
             add_quartic(&w->at[i], m, c);
+            bend = fmax(bend, fabs(w->at[i].q2));
+        }
+    // A place that is off by e changes s q^2 by up to 4 s e/radius.
+    const double rounding = 16 + 4 * (w->noise / ROUNDOFF) * sqrt(bend);
     struct polynomial_root root[4];
-    const int n = polynomial_roots(c, 4, -half, half, 16, root);
+    const int n = polynomial_roots(c, 4, -half, half, rounding, root);
     const bool starts_in = n > 0 ? !root[0].rising : c[0] > 0;
     if (!w->known)
         w->in = starts_in;
     w->known = true;
-    if (starts_in != w->in) // the sign changed at the joint itself, by rounding
-        cross(w, lo, GAMMA(64) * (fabs(lo) + half));
+    if (starts_in != w->in) // the sign changed near the joint, by rounding
+        cross(w, lo, GAMMA(64) * (fabs(lo) + half) + joint_error(c, -half, rounding));
     for (int i = 0; i < n; i++)
         cross(w, m + root[i].t, root[i].dt);
 }
@@ -237,11 +263,12 @@ static double reach(const struct component *c, struct vec3 p, struct vec3 *v)
 {
     *v = vec3_sub(transform_inverse_point(&c->transform, p), c->c);
     const double along = vec3_dot(*v, c->axis);
-    if ((c->kind == PART_STRAIGHT && !(along >= 0 && along <= c->length)) ||
-        (c->kind == PART_BASE && along > 0) || (c->kind == PART_APEX && along < 0))
+    if ((c->kind == PART_STRAIGHT && !(along >= 0 && along < c->length)) ||
+        (c->kind == PART_BASE && along >= 0) ||
+        (c->kind == PART_APEX && along < c->length))
         return 0;
-    if (c->kind == PART_STRAIGHT)
-        *v = vec3_mad(*v, -along, c->axis);
+    if (c->kind == PART_STRAIGHT || c->kind == PART_APEX)
+        *v = vec3_mad(*v, c->kind == PART_APEX ? -c->length : -along, c->axis);
     const double k = 1 - vec3_dot(*v, *v) / (c->r * c->r);
     return k > 0 ? k : 0;
 }
@@ -306,7 +333,7 @@ static struct aabb bounds(const void *shape)
         const struct component *c = &b->at[i];
         const struct vec3 r = vec3(c->r, c->r, c->r);
         struct aabb one = {vec3_sub(c->c, r), vec3_add(c->c, r)};
-        if (c->kind == PART_STRAIGHT) {
+        if (c->kind == PART_STRAIGHT || c->kind == PART_APEX) {
             const struct vec3 end = vec3_mad(c->c, c->length, c->axis);
             one = aabb_join(one, (struct aabb){vec3_sub(end, r), vec3_add(end, r)});
         }
@@ -387,7 +414,6 @@ static bool read_cylinder(struct blob *b, struct args *block, struct arena *a)
     c.kind = PART_BASE;
     *add(b, a) = c;
     c.kind = PART_APEX;
-    c.c = end;
     *add(b, a) = c;
     return true;
 }
