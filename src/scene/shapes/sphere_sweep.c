@@ -227,6 +227,14 @@ static void end(const struct line *l, double t, double shift, double dt, double 
     b->v = u;
 }
 
+// w is off by `noise`, so half the chord of the ball that ends there, h = sqrt(w), by
+// noise/2h or at most its root.
+static double chord_error(const struct chord *c, double u, double noise)
+{
+    const double w = polynomial_value(c->w, c->w_degree, u);
+    return w > noise ? fmin(noise / sqrt(w), 2 * sqrt(noise)) : 2 * sqrt(noise);
+}
+
 static void meet_segment(const struct line *l, const struct segment *g, uint32_t part)
 {
     const struct vec3 to = vec3_sub(g->around.c, l->ray->o);
@@ -252,12 +260,11 @@ static void meet_segment(const struct line *l, const struct segment *g, uint32_t
         if (!in)
             continue;
         cover(&c, i ? root[i - 1].t : 0, i < n ? root[i].t : 1);
-        // w is off by `noise`, half a chord of length h by noise/2h or at most its root.
         const double noise = GAMMA(64) * r * (r + fabs(shift) * 0x1p-20) + error * r;
-        const double h = 0.5 * (c.most - c.least);
-        const double dt = error + fmin(noise / h, 2 * sqrt(noise));
-        end(l, c.least, shift, dt, c.at_least, part, CROSS_ENTER);
-        end(l, c.most, shift, dt, c.at_most, part, CROSS_EXIT);
+        end(l, c.least, shift, error + chord_error(&c, c.at_least, noise), c.at_least, part,
+            CROSS_ENTER);
+        end(l, c.most, shift, error + chord_error(&c, c.at_most, noise), c.at_most, part,
+            CROSS_EXIT);
     }
 }
 
