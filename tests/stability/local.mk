@@ -25,3 +25,13 @@ check_PROGRAMS += test_functions
 test_functions_SOURCES = %D%/test_functions.c $(stability_sources)
 test_functions_CPPFLAGS = $(test_cppflags)
 test_functions_LDADD = $(test_ldadd)
+check_PROGRAMS += test_random_rays
+test_random_rays_SOURCES = %D%/test_random_rays.c $(stability_sources)
+test_random_rays_CPPFLAGS = $(test_cppflags)
+test_random_rays_LDADD = $(test_ldadd)
+# The random tests with many more rays; minutes, so by hand.
+check-long: test_random_rays test_states test_nested
+	LAMBERT_ROUNDS=10000 ./test_random_rays
+	LAMBERT_ROUNDS=20000 ./test_states
+	LAMBERT_ROUNDS=20000 ./test_nested
+.PHONY: check-long
