@@ -16,6 +16,8 @@ struct boundary {
     double u, v;    // the shape's own parameters of the point, for normal and uv
     uint32_t part;  // the shape's own number of the face: box side, cap, triangle
     uint32_t leaf;  // filled by the caller of intersect: index into world leaves
+    uint32_t own;     // within CSG, where dt may be wider: 1 + the place of the shape's
+                      // own dt (trace/scratch.h); else 0
     uint8_t crossing; // enum crossing
     uint8_t drawn;    // 0: changes the inside state but is not a surface (the
                       // missing cap of an open cylinder, a clip's own face)

@@ -161,8 +161,7 @@ static bool is_intersection(const struct world *w, const struct world_object *o)
 static bool is_product(const struct accel *accel, const struct world_object *o)
 {
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
-        if (accel->leaf_shape[i] == PACKET_NONE ||
-            accel->leaf_shape[i] > PACKET_QUADRIC)
+        if (!packet_is_product_shape(accel->leaf_shape[i]))
             return false;
     return o->leaf_count < LARGE_OBJECT;
 }

@@ -23,6 +23,12 @@ enum packet_shape {
     PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };
 
+// Whether a solid of that shape may be part of a PACKET_PRODUCT.
+static inline bool packet_is_product_shape(unsigned shape)
+{
+    return shape >= PACKET_SPHERE && shape <= PACKET_QUADRIC;
+}
+
 // A sphere among the leaves of a large object, copied so that most tests touch nothing else.
 struct accel_ball {
     struct vec3 centre;

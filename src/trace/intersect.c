@@ -32,6 +32,7 @@ void trace_scratch_free(struct trace_scratch *s)
     if (!s)
         return;
     boundary_list_free(&s->crossings);
+    free(s->own_dt);
     free(s->inside);
     free(s->before);
     free(s->stamp);

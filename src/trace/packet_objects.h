@@ -201,12 +201,10 @@ LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
     return m8_bits(r8_le(near, far));
 }
 
-// The lines' spans in a convex leaf, with their errors; odd: lanes for the sweep.
-LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
-                                    enum packet_shape shape, struct mask8 *odd)
+// The lines' spans in a convex shape, with their errors; odd: lanes for the sweep.
+LANES_INLINE struct span8 shape_span(const struct leaf *l, enum packet_shape shape,
+                                     const struct ray8 *ray, struct mask8 *odd)
 {
-    struct ray8 own;
-    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
     *odd = m8_of(0);
     switch (shape) {
     case PACKET_SPHERE: return span8_sphere(l->shape, ray);
@@ -216,6 +214,33 @@ LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
     case PACKET_QUADRIC: return span8_quadric(l->shape, ray, odd);
     default: return span8_plane(l->shape, ray);
     }
+}
+
+// dt and no less than moved_error of trace/sweep.c; ends at infinity stay as they are.
+LANES_INLINE struct real8 moved8(const struct leaf *l, const struct ray8 *ray,
+                                 const struct ray8 *own, struct real8 t, struct real8 dt)
+{
+    const double unit = GAMMA(32) / GAMMA(8) * (1 + 0x1p-18) * l->stretch;
+    const struct real8 size =
+        r8_add(r8_add(ray->o_max, r8_set(2 * vec3_max_abs(l->transform->offset))),
+               r8_mul(r8_abs(t), v8_max_abs(ray->d)));
+    const struct real8 share =
+        r8_div(r8_mul(r8_set(unit), size), r8_add(own->o_max, r8_set(0x1p-900)));
+    const struct mask8 finite = r8_lt(r8_abs(t), r8_set(INFINITY));
+    return r8_select(finite, r8_add(dt, r8_mul(dt, share)), dt);
+}
+
+// The same of a leaf.
+LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
+                                    enum packet_shape shape, struct mask8 *odd)
+{
+    if (l->transform->identity)
+        return shape_span(l, shape, &e->ray, odd);
+    const struct ray8 own = local_ray(l, &e->ray);
+    struct span8 x = shape_span(l, shape, &own, odd);
+    x.in_e = moved8(l, &e->ray, &own, x.in, x.in_e);
+    x.out_e = moved8(l, &e->ray, &own, x.out, x.out_e);
+    return x;
 }
 
 // Takes a CSG object's crossings: 2 i for the entry of its leaf i, 2 i + 1 for its exit.

@@ -8,6 +8,8 @@
 // have grown to their working size.
 struct trace_scratch {
     struct boundary_list crossings;
+    double *own_dt; // of the crossings whose dt was widened
+    uint32_t own_count, own_capacity;
     uint32_t *inside; // children inside, per node of the object at hand
     uint32_t *before; // the same before the batch, where stamped
     uint64_t *stamp;  // batch that last touched the node
@@ -47,5 +49,12 @@ enum stab_result stab_object(const struct world *w, struct trace_scratch *s,
 // All crossings of one leaf with the line, in world terms: inverted leaves turned.
 void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
                     struct boundary_list *out);
+// The same for CSG, into s->crossings: where the leaf has a transform, dt covers its rounding
+// as well, and the shape's own dt goes to s->own_dt.
+void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                           const struct ray *ray);
+// The boundary found, with its shape's own dt.
+struct boundary boundary_as_shape_has_it(const struct trace_scratch *s,
+                                         const struct boundary *b);
 
 #endif

@@ -23,12 +23,13 @@ static bool solid_span(struct stab *v, uint32_t object, enum stab_result *result
     const struct accel_large *a =
         accel_large(v->w->accel, &v->w->object[object], object);
     struct boundary_list *list = &v->s->crossings;
+    v->s->own_count = 0;
     v->here.t = -INFINITY;
     v->end = INFINITY;
     *result = STAB_NOTHING;
     for (uint32_t i = 0; i < a->required_count; i++) {
         list->count = 0;
-        leaf_crossings(v->w, a->required[i], v->ray, list);
+        leaf_crossings_in_csg(v->w, v->s, a->required[i], v->ray);
         v->s->stats.leaf_tests++;
         if (list->count == 0)
             return false;
@@ -130,6 +131,6 @@ enum stab_result stab_object(const struct world *w, struct trace_scratch *s,
         return STAB_UNSURE;
     if (v.here.t > ray->t_max)
         return STAB_NOTHING;
-    *out = v.here;
+    *out = boundary_as_shape_has_it(s, &v.here);
     return STAB_FOUND;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/gamma.h"
 #include "trace/accel.h"
 #include "trace/scratch.h"
 
@@ -24,6 +25,66 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
         b->drawn = b->drawn && l->drawn;
         if (l->inverted && b->crossing != CROSS_TOUCH)
             b->crossing = b->crossing == CROSS_ENTER ? CROSS_EXIT : CROSS_ENTER;
+    }
+}
+
+// The rounding of a ray on its way into the leaf's space moves the whole shape by this
+// much, in that space: coordinates as large as the ray's and the offset, which a chain of
+// transforms has rounded as well, times what the inverse stretches them by. Faces that
+// coincide but for that are met at t that differ by it over the slope. The dt of a shape
+// with a kernel for products allows for a place that is off by GAMMA(8) of the origin's
+// size; in proportion to that, which the lanes use (packet_objects.h), is enough as well.
+static double moved_error(const struct world *w, const struct ray *ray,
+                         const struct ray *local, const struct boundary *b)
+{
+    const struct leaf *l = &w->leaf[b->leaf];
+    struct surface_point at = {.p = ray_at(local, b->t)};
+    l->ops->surface(l->shape, b, at.p, &at);
+    const double error = leaf_position_error(l, vec3_max_abs(ray->o), b->t,
+                                             vec3_max_abs(ray->d));
+    const double slope = fabs(vec3_dot(at.ng, local->d));
+    double dt = error / fmax(slope, GAMMA(12) * vec3_max_abs(local->d));
+    if (packet_is_product_shape(w->accel->leaf_shape[b->leaf]))
+        dt = fmin(dt, b->dt * (error / (GAMMA(8) * vec3_max_abs(local->o))));
+    return dt > 0 ? dt : 0; // of a t that is no number, none
+}
+
+static void keep_own_dt(struct trace_scratch *s, struct boundary *b)
+{
+    if (s->own_count == s->own_capacity) {
+        s->own_capacity = s->own_capacity ? 2 * s->own_capacity : 64;
+        s->own_dt = realloc(s->own_dt, s->own_capacity * sizeof *s->own_dt);
+        if (!s->own_dt)
+            abort();
+    }
+    s->own_dt[s->own_count++] = b->dt;
+    b->own = s->own_count;
+}
+
+struct boundary boundary_as_shape_has_it(const struct trace_scratch *s,
+                                         const struct boundary *b)
+{
+    struct boundary own = *b;
+    if (b->own)
+        own.dt = s->own_dt[b->own - 1];
+    own.own = 0;
+    return own;
+}
+
+void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                           const struct ray *ray)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    struct boundary_list *out = &s->crossings;
+    const uint32_t from = out->count;
+    leaf_crossings(w, leaf, ray, out);
+    if (l->transform->identity || out->count == from)
+        return;
+    const struct ray local = transform_inverse_ray(l->transform, ray);
+    for (uint32_t i = from; i < out->count; i++) {
+        const double moved = moved_error(w, ray, &local, &out->at[i]);
+        keep_own_dt(s, &out->at[i]);
+        out->at[i].dt += moved;
     }
 }
 
@@ -195,7 +256,7 @@ static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
     struct boundary_list *list = &v->s->crossings;
     const struct leaf *l = &v->w->leaf[leaf];
     const uint32_t from = list->count;
-    leaf_crossings(v->w, leaf, ray, list);
+    leaf_crossings_in_csg(v->w, v->s, leaf, ray);
     v->s->stats.leaf_tests++;
     if (!l->solid)
         return;
@@ -255,6 +316,7 @@ static bool start(struct sweep *v, uint32_t object, const struct ray *ray, doubl
     memcpy(s->inside, v->w->accel->base_inside + o->root,
            o->node_count * sizeof *s->inside);
     s->crossings.count = 0;
+    s->own_count = 0;
     s->batch++;
     struct ray near = *ray;
     if (!start_all_required(v, object, ray, limit, &near))
@@ -308,7 +370,7 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
                 found = b;
         }
         if (found) {
-            *out = *found;
+            *out = boundary_as_shape_has_it(s, found);
             return true;
         }
     }

@@ -275,6 +275,15 @@ static const struct transform *shared_transform(struct build *b, const struct tr
     return b->transform;
 }
 
+// The largest factor by which a row vector's largest component can grow.
+static double stretch_of(const struct mat3 *m)
+{
+    double most = 0;
+    for (int j = 0; j < 3; j++)
+        most = fmax(most, fabs(m->m[0][j]) + fabs(m->m[1][j]) + fabs(m->m[2][j]));
+    return most;
+}
+
 static uint32_t add_leaf(struct build *b, const struct object *o, const struct context *c)
 {
     const uint32_t index = b->leaf.count;
@@ -299,6 +308,7 @@ static uint32_t add_leaf(struct build *b, const struct object *o, const struct c
     }
     if (moved)
         l->transform = shared_transform(b, &c->world);
+    l->stretch = stretch_of(&l->transform->inverse);
     l->bounds = shape_placed_bounds(o->ops, l->shape, l->transform);
     return index;
 }

@@ -29,6 +29,10 @@ check_PROGRAMS += test_random_rays
 test_random_rays_SOURCES = %D%/test_random_rays.c $(stability_sources)
 test_random_rays_CPPFLAGS = $(test_cppflags)
 test_random_rays_LDADD = $(test_ldadd)
+check_PROGRAMS += test_chains
+test_chains_SOURCES = %D%/test_chains.c $(stability_sources)
+test_chains_CPPFLAGS = $(test_cppflags)
+test_chains_LDADD = $(test_ldadd)
 # The random tests with many more rays; minutes, so by hand.
 check-long: test_random_rays test_states test_nested
 	LAMBERT_ROUNDS=10000 ./test_random_rays
