@@ -28,24 +28,33 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
     }
 }
 
-// The rounding of a ray on its way into the leaf's space moves the whole shape by this
-// much, in that space: coordinates as large as the ray's and the offset, which a chain of
+// Where a bound in proportion to dt is no more than this many dt, none closer is sought.
+static const double MOVED_ENOUGH = 64;
+
+// The rounding of a ray on its way into the leaf's space moves the whole shape by `error`,
+// in that space: coordinates as large as the ray's and the offset, which a chain of
 // transforms has rounded as well, times what the inverse stretches them by. Faces that
 // coincide but for that are met at t that differ by it over the slope. The dt of a shape
 // with a kernel for products allows for a place that is off by GAMMA(8) of the origin's
 // size; in proportion to that, which the lanes use (packet_objects.h), is enough as well.
 static double moved_error(const struct world *w, const struct ray *ray,
-                         const struct ray *local, const struct boundary *b)
+                          const struct ray *local, const struct boundary *b)
 {
     const struct leaf *l = &w->leaf[b->leaf];
-    struct surface_point at = {.p = ray_at(local, b->t)};
-    l->ops->surface(l->shape, b, at.p, &at);
     const double error = leaf_position_error(l, vec3_max_abs(ray->o), b->t,
                                              vec3_max_abs(ray->d));
+    double most = HUGE_VAL;
+    if (packet_is_product_shape(w->accel->leaf_shape[b->leaf])) {
+        const double share = error / (GAMMA(8) * vec3_max_abs(local->o));
+        most = b->dt * share;
+        if (share <= MOVED_ENOUGH)
+            return most;
+    }
+    struct surface_point at = {.p = ray_at(local, b->t)};
+    l->ops->surface(l->shape, b, at.p, &at);
     const double slope = fabs(vec3_dot(at.ng, local->d));
-    double dt = error / fmax(slope, GAMMA(12) * vec3_max_abs(local->d));
-    if (packet_is_product_shape(w->accel->leaf_shape[b->leaf]))
-        dt = fmin(dt, b->dt * (error / (GAMMA(8) * vec3_max_abs(local->o))));
+    const double dt =
+        fmin(most, error / fmax(slope, GAMMA(12) * vec3_max_abs(local->d)));
     return dt > 0 ? dt : 0; // of a t that is no number, none
 }
 
