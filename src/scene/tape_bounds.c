@@ -3,6 +3,7 @@
 
 #include "scene/tape_steps.h"
 
+#define PI   3.14159265358979323846
 #define ZERO interval_point(0)
 
 // ---- values -------------------------------------------------------------------------
@@ -446,14 +447,51 @@ static void called_values(const struct tape *t, const struct tape_step *s,
         r[s->to + i] = out[i].v;
 }
 
-struct interval tape_bounds(const struct tape *t, const struct interval *argument)
+// The two ways past a jump: what the step gives on either side of it. An angle that jumps
+// is often taken modulo its period, and a sawtooth squared, so that nothing jumps in the
+// end; but the whole range between the two sides would hide that.
+static bool splits(const struct tape_step *s, const struct interval *r,
+                   struct interval side[2])
 {
-    struct interval r[TAPE_REGISTERS_MAX];
-    for (uint32_t i = 0; i < t->constant_count; i++)
-        r[i] = interval_point(t->constant[i]);
-    memcpy(r + t->constant_count, argument, (size_t)t->arguments * sizeof *r);
-    for (const struct tape_step *s = t->step, *end = s + t->step_count; s < end; s++) {
+    const struct interval a = r[s->a], b = r[s->b];
+    if (s->op == TAPE_SELECT && a.lo < 0 && a.hi >= 0) {
+        side[0] = b;
+        side[1] = interval_hull(r[s->c], r[s->d]);
+        return side[0].hi < side[1].lo || side[1].hi < side[0].lo;
+    }
+    if (s->op == TAPE_ATAN2 && a.lo < 0 && a.hi >= 0 && b.hi < 0 &&
+        interval_size(a) < INFINITY) {
+        side[0] = interval_widened(det_atan2(a.hi, b.hi), PI, INTERVAL_ELEMENTARY);
+        side[1] = interval_widened(-PI, det_atan2(a.lo, b.hi), INTERVAL_ELEMENTARY);
+        return true;
+    }
+    if (s->op == TAPE_MOD && interval_is_point(b) && (a.lo >= 0 || a.hi <= 0)) {
+        const double m = fabs(b.lo), p = fmod(a.lo, m), q = fmod(a.hi, m);
+        if (!(a.hi - a.lo < 0.75 * m) || !(q < p))
+            return false;
+        side[0] = interval(p, a.lo >= 0 ? m : 0);
+        side[1] = interval(a.lo >= 0 ? 0 : -m, q);
+        return true;
+    }
+    return false;
+}
+
+static struct interval values(const struct tape *t, struct interval *r, uint32_t first,
+                              int splits_left)
+{
+    for (const struct tape_step *s = t->step + first, *end = t->step + t->step_count;
+         s < end; s++) {
         const struct interval a = r[s->a], b = r[s->b];
+        struct interval side[2];
+        if (splits_left > 0 && splits(s, r, side)) {
+            struct interval other[TAPE_REGISTERS_MAX];
+            const uint32_t next = (uint32_t)(s - t->step) + 1;
+            memcpy(other, r, t->register_count * sizeof *r);
+            other[s->to] = side[0];
+            r[s->to] = side[1];
+            return interval_hull(values(t, other, next, splits_left - 1),
+                                 values(t, r, next, splits_left - 1));
+        }
         switch ((enum tape_op)s->op) {
         case TAPE_ADD: r[s->to] = interval_add(a, b); break;
         case TAPE_SUBTRACT: r[s->to] = interval_subtract(a, b); break;
@@ -471,8 +509,30 @@ struct interval tape_bounds(const struct tape *t, const struct interval *argumen
     return r[t->result[0]];
 }
 
+enum { SPLITS_MAX = 3 }; // one inside the other
+
+struct interval tape_bounds(const struct tape *t, const struct interval *argument)
+{
+    struct interval r[TAPE_REGISTERS_MAX];
+    for (uint32_t i = 0; i < t->constant_count; i++)
+        r[i] = interval_point(t->constant[i]);
+    memcpy(r + t->constant_count, argument, (size_t)t->arguments * sizeof *r);
+    return values(t, r, 0, SPLITS_MAX);
+}
+
 struct tape_slope tape_bounds_slope(const struct tape *t,
                                     const struct tape_slope *argument, int directions)
 {
-    return run(t, argument, directions);
+    struct tape_slope r = run(t, argument, directions);
+    bool jumps = false;
+    for (int i = 0; i < directions; i++)
+        jumps |= interval_is_whole(r.d[i]);
+    if (jumps) { // look at either side
+        struct interval box[TAPE_ARGUMENTS_MAX];
+        for (int i = 0; i < t->arguments; i++)
+            box[i] = argument[i].v;
+        const struct interval v = tape_bounds(t, box);
+        r.v = interval(fmax(r.v.lo, v.lo), fmin(r.v.hi, v.hi));
+    }
+    return r;
 }

@@ -105,6 +105,14 @@ static void look(const struct isosurface *s, struct iso_cell *c, const struct aa
             v = interval_add(v, interval_multiply(d[i], off));
         }
         v = interval(fmax(v.lo, r.lo[l]), fmin(v.hi, r.hi[l]));
+        if (interval_is_whole(d[0]) || interval_is_whole(d[1]) ||
+            interval_is_whole(d[2])) {
+            struct interval in[3];
+            for (int i = 0; i < 3; i++)
+                in[i] = interval(box.lo[i][l], box.hi[i][l]);
+            const struct interval either = tape_bounds(s->f, in);
+            v = interval(fmax(v.lo, either.lo), fmin(v.hi, either.hi));
+        }
         v = interval_subtract(v, interval_point(s->threshold));
         set_kind(&c[l], v, d, depth);
     }

@@ -356,6 +356,44 @@ static void loops_count(void **state)
     arena_free(a);
 }
 
+// (angle modulo a turn - pi)^2 - 1 is positive on both sides of the cut, where the angle
+// jumps from pi to -pi and the remainder from a turn to nothing.
+static void jumps_are_passed(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    struct tape_builder *b = tape_builder_new(a);
+    const double turn = 6.283185307179586;
+    const uint32_t angle =
+        tape_binary(b, TAPE_ATAN2, tape_argument(b, 1), tape_argument(b, 0));
+    const uint32_t twice = tape_binary(b, TAPE_MULTIPLY, angle, tape_constant(b, 2));
+    const uint32_t rest = tape_binary(b, TAPE_MOD, twice, tape_constant(b, turn));
+    const uint32_t saw = tape_select(
+        b, rest, tape_binary(b, TAPE_ADD, rest, tape_constant(b, turn)), rest, rest);
+    const uint32_t off = tape_binary(b, TAPE_SUBTRACT, saw, tape_constant(b, turn / 2));
+    const uint32_t out = tape_binary(b, TAPE_SUBTRACT, tape_unary(b, TAPE_SQUARE, off),
+                                     tape_constant(b, 1));
+    const struct tape *t = tape_finish(b, a, 3, &out, 1);
+    const struct interval box[2][3] = {{{-1.1, -1}, {-0.1, 0.1}, {0, 0}},
+                                       {{1, 1.1}, {-0.1, 0.1}, {0, 0}}};
+    for (int i = 0; i < 2; i++) {
+        struct tape_slope in[3] = {0};
+        for (int k = 0; k < 3; k++) {
+            in[k].v = box[i][k];
+            in[k].d[k] = interval_point(1);
+        }
+        assert_true(tape_bounds(t, box[i]).lo > 0);
+        const struct tape_slope s = tape_bounds_slope(t, in, 3);
+        assert_true(s.v.lo > 0 && interval_is_whole(s.d[1]));
+        for (double y = -0.1; y < 0.1; y += 0.01) {
+            double v;
+            tape_run(t, (const double[]){box[i][0].lo, y, 0}, &v);
+            assert_true(interval_has(s.v, v));
+        }
+    }
+    arena_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -366,6 +404,7 @@ int main(void)
         cmocka_unit_test(code_is_shared),
         cmocka_unit_test(code_does_not_explode),
         cmocka_unit_test(loops_count),
+        cmocka_unit_test(jumps_are_passed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
