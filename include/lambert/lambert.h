@@ -108,12 +108,16 @@ typedef void (*lambert_message_fn)(void *user, const struct lambert_message *mes
 LAMBERT_API void lambert_set_message_function(struct lambert_context *ctx,
                                               lambert_message_fn fn, void *user);
 
-// Called after each finished tile, from the thread that did it, never twice at once.
+// Called after each finished tile, from the thread that did it, never twice at once; while
+// radiosity is solved, whenever it is a little further (thousandths).
 // Returning false cancels.
 typedef bool (*lambert_progress_fn)(void *user, uint32_t done, uint32_t total);
 LAMBERT_API void lambert_set_progress_function(struct lambert_context *ctx,
                                                lambert_progress_fn fn, void *user);
-// Stops lambert_render after the tiles in hand. May be called from any thread and
+// What `done` and `total` count in such a call.
+enum lambert_phase { LAMBERT_PHASE_TILES, LAMBERT_PHASE_RADIOSITY };
+LAMBERT_API enum lambert_phase lambert_progress_phase(const struct lambert_context *ctx);
+// Stops lambert_render after the tiles or the piece of radiosity in hand. May be called from any thread and
 // from a signal handler.
 LAMBERT_API void lambert_cancel(struct lambert_context *ctx);
 
@@ -157,7 +161,8 @@ LAMBERT_API void lambert_get_stats(const struct lambert_context *ctx,
 // --- Meshes -----------------------------------------------------------------
 
 struct lambert_mesh_stats {
-    uint32_t objects, left_out; // left out: no bounds, or a kind of sheet without triangles
+    uint32_t objects,
+        left_out; // left out: no bounds, or a kind of sheet without triangles
     uint64_t vertices, triangles;
 };
 // Writes the objects of what was loaded as triangle meshes, one for each object: closed,

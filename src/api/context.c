@@ -77,6 +77,11 @@ void lambert_set_progress_function(struct lambert_context *ctx, lambert_progress
     ctx->progress_user = user;
 }
 
+enum lambert_phase lambert_progress_phase(const struct lambert_context *ctx)
+{
+    return ctx->phase;
+}
+
 void lambert_cancel(struct lambert_context *ctx) { ctx->cancel = true; }
 
 void lambert_get_stats(const struct lambert_context *ctx, struct lambert_stats *out)

@@ -21,7 +21,7 @@ struct option_value {
 };
 
 struct lambert_context {
-    struct arena *arena;        // options
+    struct arena *arena;              // options
     struct option_value *value;       // one per option
     struct option_value *scene_value; // what the scene itself asks for
     char error[1024];
@@ -32,6 +32,7 @@ struct lambert_context {
     void *progress_user;
     volatile bool cancel;
     const char *state_path; // of a render that may be continued; NULL: none
+    enum lambert_phase phase; // that progress is about
 
     // Of the scene that is loaded.
     struct arena *scene_arena;

@@ -91,6 +91,16 @@ static void report(struct lambert_context *ctx, const struct radiosity *r)
     ctx->message(ctx->message_user, &m);
 }
 
+// In thousandths; tiles are counted anew afterwards.
+static void tell_progress(void *user, double share)
+{
+    enum { WHOLE = 1000 };
+    struct lambert_context *ctx = user;
+    if (ctx->progress &&
+        !ctx->progress(ctx->progress_user, (uint32_t)(WHOLE * share), WHOLE))
+        ctx->cancel = true;
+}
+
 static enum lambert_status write_files(struct lambert_context *ctx, const struct gi *g)
 {
     const char *save = text_of(ctx, "gi-save"), *ply = text_of(ctx, "gi-ply");
@@ -112,7 +122,7 @@ static enum lambert_status write_aov(struct lambert_context *ctx, const struct g
     if (!image_init(&im, width, height, 3))
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
     struct trace_scratch *s = trace_scratch_new(job->world);
-    for (int i = 0; i < width * height; i++) {
+    for (int i = 0; i < width * height && !ctx->cancel; i++) {
         struct ray_query q = {.hidden_by = OBJECT_NO_IMAGE};
         if (!camera_ray(job->camera, i % width + .5, i / width + .5, width, height,
                         &q.ray))
@@ -146,13 +156,17 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
                             "'%s' is no value for --error; it takes a percentage such as "
                             "1%%, or a fraction below 1",
                             text_of(ctx, "error"));
+    struct watch watch = {&ctx->cancel, tell_progress, ctx, 0, 1, 0};
+    o.watch = &watch;
     struct gi *g = calloc(1, sizeof *g);
     if (!g)
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory");
     g->arena = arena_new(4096);
     job_init(&g->job, g->arena, ctx->world, settings);
+    ctx->phase = LAMBERT_PHASE_RADIOSITY;
     g->radiosity = radiosity_new(&g->job, &o, text_of(ctx, "gi-load"), ctx->error,
                                  sizeof ctx->error);
+    ctx->phase = LAMBERT_PHASE_TILES;
     enum lambert_status status = LAMBERT_OK;
     if (!g->radiosity)
         status = text_of(ctx, "gi-load") ? LAMBERT_ERROR_INPUT : LAMBERT_ERROR_MEMORY;
@@ -163,6 +177,10 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
     }
     if (status == LAMBERT_OK && aov)
         status = write_aov(ctx, g, aov);
+    if (ctx->cancel) {
+        ctx->cancel = false;
+        status = context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
+    }
     if (status != LAMBERT_OK) {
         gi_free(g);
         return status;

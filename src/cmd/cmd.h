@@ -27,6 +27,7 @@ struct progress {
     double start, shown_at;
     uint32_t before; // tiles that were there from the start
     unsigned shown_percent;
+    enum lambert_phase phase;
     bool terminal, on, started;
 };
 

@@ -50,9 +50,12 @@ static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
     memset(bar, '#', full);
     memset(bar + full, '.', 20 - full);
     bar[20] = 0;
-    fprintf(stderr, "\r[%s] %3u%%  %u/%u tiles  ", bar, (unsigned)(100.0 * done / total),
-            done, total);
-    if (done < total) {
+    const unsigned percent = (unsigned)(100.0 * done / total);
+    if (p->phase == LAMBERT_PHASE_RADIOSITY)
+        fprintf(stderr, "\r[%s] radiosity: %u %%  ", bar, percent);
+    else
+        fprintf(stderr, "\r[%s] %3u%%  %u/%u tiles  ", bar, percent, done, total);
+    if (done < total && p->phase == LAMBERT_PHASE_TILES) {
         fputs("ETA ", stderr);
         print_duration(stderr, left(p, done, total, elapsed));
     }
@@ -62,6 +65,12 @@ static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
 static void print_line(const struct progress *p, uint32_t done, uint32_t total,
                        double elapsed)
 {
+    if (p->phase == LAMBERT_PHASE_RADIOSITY) {
+        fprintf(stderr, "lambert: radiosity: %u %%, ", (unsigned)(100.0 * done / total));
+        print_duration(stderr, elapsed);
+        fputs(" gone\n", stderr);
+        return;
+    }
     fprintf(stderr, "lambert: %u%% (%u of %u tiles), ", (unsigned)(100.0 * done / total),
             done, total);
     print_duration(stderr, elapsed);
@@ -75,6 +84,13 @@ bool progress_show(void *user, uint32_t done, uint32_t total)
     struct cmd *c = user;
     struct progress *p = &c->progress;
     double now = cmd_seconds(), since = now - p->shown_at;
+    if (p->phase != lambert_progress_phase(c->ctx)) {
+        // What is left of a phase is judged by its own time.
+        p->phase = lambert_progress_phase(c->ctx);
+        p->start = p->shown_at = now;
+        p->shown_percent = 0;
+        p->started = false;
+    }
     if (!p->started)
         p->before = done - (done > 0);
     p->started = true;

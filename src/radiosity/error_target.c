@@ -100,6 +100,9 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
     r->settings.solver.tolerance = target / 4;
     for (uint32_t level = 0; level < LEVELS_MOST; level++, count *= 4) {
         r->settings.patches.count = count;
+        // How many levels there will be is not known: each is half of what is left.
+        const double begin = 1 - exp2(-(double)level), end = 1 - exp2(-(double)level - 1);
+        watch_part(r->settings.watch, begin, begin + .1 * (end - begin));
         if (level)
             radiosity_level_free(r);
         r->patches = patches_build(job, &r->settings.patches);
@@ -112,6 +115,7 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
         r->lamps = solver_alloc(r->patches->element_count, sizeof *r->lamps);
         lamps_gather(r->patches, r->settings.lamp_rays, r->settings.solver.threads,
                      r->lamps);
+        watch_part(r->settings.watch, begin + .15 * (end - begin), end);
         if (!radiosity_level(r, error, error_size)) {
             level_free(&last);
             return false;

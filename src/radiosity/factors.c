@@ -182,6 +182,8 @@ bool factors_compute(struct factors *f, const struct enclosure *e,
     struct assembly a = {f, e, s, &methods[form_factor_find(s->method)], rays};
     const struct parallel p = {.threads = s->threads,
                                .piece = 4,
+                               .watch = s->watch,
+                               .tells = true,
                                .user = &a,
                                .begin = begin,
                                .end = end,
@@ -191,7 +193,8 @@ bool factors_compute(struct factors *f, const struct enclosure *e,
     for (size_t i = 0; i < n; i++)
         f->rays += rays[i];
     free(rays);
-    measure(f, e);
+    if (!watch_cancelled(s->watch))
+        measure(f, e);
     return true;
 }
 
@@ -222,7 +225,7 @@ void factors_symmetrize(struct factors *f, const struct enclosure *e)
     f->symmetric = true;
 }
 
-double factors_balance(struct factors *f, const struct enclosure *e)
+double factors_balance(struct factors *f, const struct enclosure *e, struct watch *watch)
 {
     enum { ROUNDS = 100 };
     static const double exact = 1e-6; // floats hold no more
@@ -234,7 +237,7 @@ double factors_balance(struct factors *f, const struct enclosure *e)
         factors_symmetrize(f, e);
     for (size_t i = 0; i < n; i++)
         scale[i] = 1;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < ROUNDS && !watch_cancelled(watch); round++) {
         worst = 0;
         for (size_t i = 0; i < n; i++) {
             double sum = 0;

@@ -2,6 +2,7 @@
 #define RADIOSITY_FORM_FACTOR_H
 
 #include "radiosity/enclosure.h"
+#include "radiosity/watch.h"
 
 struct form_factor_settings {
     const char *method; // a name of form_factors.def
@@ -13,6 +14,7 @@ struct form_factor_settings {
     int resolution;     // pixels along a side of the hemicube
     uint32_t seed;
     int threads; // 0: all cores
+    struct watch *watch;
 };
 extern const struct form_factor_settings form_factor_defaults;
 
@@ -87,6 +89,6 @@ void factors_symmetrize(struct factors *f, const struct enclosure *e);
 // Scales a symmetric matrix from both sides until every row of elements that see
 // anything sums to 1 (Sinkhorn 1967); right in closed enclosures only. Returns the
 // greatest remaining error of a row.
-double factors_balance(struct factors *f, const struct enclosure *e);
+double factors_balance(struct factors *f, const struct enclosure *e, struct watch *watch);
 
 #endif

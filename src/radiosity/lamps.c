@@ -134,6 +134,8 @@ void lamps_gather(const struct patches *p, uint32_t points, int threads, double 
         g.points = 16 * points;
     const struct parallel run = {.threads = threads,
                                  .piece = 64,
+                                 .watch = p->settings.watch,
+                                 .tells = true,
                                  .user = &g,
                                  .begin = begin,
                                  .end = end,

@@ -345,6 +345,7 @@ void patches_neighbours(struct patches *p)
         abort();
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 64,
+                                 .watch = p->settings.watch,
                                  .user = p,
                                  .begin = neighbours_begin,
                                  .end = neighbours_end,

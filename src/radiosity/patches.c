@@ -380,6 +380,8 @@ static void cells_sample(struct patches *p, uint32_t first, int depth)
         abort();
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 64,
+                                 .watch = p->settings.watch,
+                                 .tells = true,
                                  .user = &s,
                                  .begin = sampling_begin,
                                  .end = sampling_end,
@@ -439,7 +441,7 @@ static void charts_build(struct patches *p)
 static double size_for(const struct patches *p)
 {
     double area = 0, side[2];
-    for (uint32_t i = 0; i < p->chart_count; i++)
+    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(p->settings.watch); i++)
         area += chart_area(p, &p->chart[i], side);
     return sqrt(area / fmax(p->settings.count, 1));
 }
@@ -462,7 +464,7 @@ static struct patches *build(const struct job *job, const struct patch_settings 
         return NULL;
     }
     find_rooms(p);
-    for (uint32_t i = 0; i < p->chart_count; i++)
+    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
         chart_cells(p, i);
     cells_sample(p, 0, p->settings.depth);
     patches_enclosure(p);

@@ -3,6 +3,7 @@
 
 #include "radiosity/chart.h"
 #include "radiosity/enclosure.h"
+#include "radiosity/watch.h"
 #include "trace/job.h"
 
 struct tracer;
@@ -16,6 +17,7 @@ struct patch_settings {
     int samples;  // along a side of a cell, for area and colour
     int depth;    // how often cells that exist in part are quartered
     int threads;
+    struct watch *watch;
 };
 extern const struct patch_settings patch_defaults;
 

@@ -45,7 +45,7 @@ static void look_around(struct search *s, struct vec3 from)
 
 static void look_from_elements(struct search *s)
 {
-    for (uint32_t i = 0; i < s->count; i++) {
+    for (uint32_t i = 0; i < s->count && !watch_cancelled(s->p->settings.watch); i++) {
         const uint32_t e = s->queue[i];
         for (uint32_t k = 0; k < ELEMENT_RAYS; k++) {
             struct element_point from;

@@ -112,10 +112,17 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
                  bytes_needed("stochastic", n) / gib);
         return false;
     }
+    // Shares of the time as they are where factors are stored; a solver without a
+    // matrix takes all of it.
+    struct watch *const watch = r->settings.watch;
+    const double from = watch ? watch->from : 0, to = watch ? watch->to : 1;
+    if (watch_cancelled(watch))
+        return false;
     report->solver = solver.solver;
     report->method = r->settings.factors.method;
     report->closed = r->settings.closure != CLOSURE_REPORT && is_closed(r->patches, 4096);
     if (solver_needs_matrix(solver_find(solver.solver))) {
+        watch_part(watch, from, from + .9 * (to - from));
         if (!factors_compute(&f, e, &r->settings.factors)) {
             snprintf(error, error_size, "no memory for %.1f GiB of form factors",
                      factors_bytes(n) / gib);
@@ -126,11 +133,12 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
         report->asymmetry = f.asymmetry;
         if (r->settings.closure == CLOSURE_ENFORCE ||
             (r->settings.closure == CLOSURE_AUTO && report->closed))
-            factors_balance(&f, e);
+            factors_balance(&f, e, r->settings.watch);
         else if (!f.symmetric)
             factors_symmetrize(&f, e);
         report->balanced = f.balanced;
         system.f = &f;
+        watch_part(watch, from + .9 * (to - from), to);
     }
     const bool ok = radiosity_solve(&r->solution, &system, &solver);
     report->rays += f.rays + r->solution.rays;
@@ -141,9 +149,10 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
     report->error = r->solution.error;
     report->converged = r->solution.converged;
     factors_free(&f);
+    watch_tell(watch, 1);
     if (!ok)
         snprintf(error, error_size, "no memory for %u patches", n);
-    return ok;
+    return ok && !watch_cancelled(watch);
 }
 
 // Few emitters are lit exactly per pixel, many by the mesh.
@@ -203,18 +212,21 @@ void radiosity_level_free(struct radiosity *r)
 static bool single_level(struct radiosity *r, const struct job *job, const char *saved,
                          char *error, size_t error_size)
 {
+    watch_part(r->settings.watch, 0, .1);
     r->patches = patches_build(job, &r->settings.patches);
     if (!r->patches || !r->patches->element_count) {
         snprintf(error, error_size, "no surface of the scene can be cut into patches");
         return false;
     }
     r->lamps = solver_alloc(r->patches->element_count, sizeof *r->lamps);
+    watch_part(r->settings.watch, .1, .15);
     lamps_gather(r->patches, r->settings.lamp_rays, r->settings.solver.threads, r->lamps);
     r->key = radiosity_key(r);
     if (saved) {
         r->report.loaded = radiosity_load(r, saved, error, error_size);
         return r->report.loaded;
     }
+    watch_part(r->settings.watch, .15, 1);
     return radiosity_level(r, error, error_size);
 }
 
@@ -227,11 +239,13 @@ struct radiosity *radiosity_new(const struct job *job,
     if (!r)
         abort();
     r->settings = *settings;
+    r->settings.patches.watch = r->settings.factors.watch = r->settings.solver.watch =
+        settings->watch;
     r->report.error = -1;
     const bool ok = settings->error > 0 && !saved
                         ? radiosity_to_error(r, job, error, error_size)
                         : single_level(r, job, saved, error, error_size);
-    if (!ok) {
+    if (!ok || watch_cancelled(settings->watch)) {
         radiosity_free(r);
         return NULL;
     }

@@ -17,9 +17,10 @@ struct radiosity_options {
     double error;                  // wanted relative error; 0: one solution as set
     enum emitters emitters;
     enum closure closure;
-    uint32_t gather;    // rays of a final gathering per hit; 0: none
-    uint32_t lamp_rays; // points of an element at which lamps are looked at
-    double memory;      // bytes that may be taken; 0: half of the machine's
+    struct watch *watch; // NULL: nobody waits
+    uint32_t gather;     // rays of a final gathering per hit; 0: none
+    uint32_t lamp_rays;  // points of an element at which lamps are looked at
+    double memory;       // bytes that may be taken; 0: half of the machine's
 };
 extern const struct radiosity_options radiosity_defaults;
 
@@ -49,7 +50,7 @@ struct radiosity {
 
 // Solves the scene of a job, which must live as long. `saved` (NULL: none) is a file of
 // radiosity_save that is used when it belongs to the same scene and settings. NULL: it
-// cannot be solved, with the reason in error.
+// cannot be solved, with the reason in error, or it was cancelled.
 struct radiosity *radiosity_new(const struct job *job,
                                 const struct radiosity_options *settings,
                                 const char *saved, char *error, size_t error_size);

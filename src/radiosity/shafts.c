@@ -85,8 +85,11 @@ void patches_shafts(struct patches *p)
     p->shaft = calloc(p->element_count + 1, sizeof *p->shaft);
     if (!p->shaft)
         abort();
-    const struct parallel run = {
-        .threads = p->settings.threads, .piece = 256, .user = p, .work = shafts};
+    const struct parallel run = {.threads = p->settings.threads,
+                                 .piece = 256,
+                                 .watch = p->settings.watch,
+                                 .user = p,
+                                 .work = shafts};
     parallel_run(&run, p->element_count);
 }
 

@@ -26,9 +26,9 @@ static void matrix_fill(const struct radiosity_system *s, int channel, double *m
 
 // Eliminates below the diagonal, in place, with x as three right sides. No pivots are
 // needed: rows sum to at least 1 - rho, the diagonal dominates.
-static void eliminate(double *m, double (*x)[3], size_t n)
+static void eliminate(double *m, double (*x)[3], size_t n, struct watch *watch)
 {
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < n && !watch_cancelled(watch); k++) {
         const double *pivot = m + k * n;
         for (size_t i = k + 1; i < n; i++) {
             double *row = m + i * n;
@@ -71,7 +71,7 @@ void solve_elimination(struct radiosity_solution *out, const struct radiosity_sy
     for (int c = 0; c < (grey ? 1 : 3); c++) {
         system_source(s, x);
         matrix_fill(s, c, m);
-        eliminate(m, x, n);
+        eliminate(m, x, n, settings->watch);
         for (size_t i = 0; i < n; i++)
             for (int k = 0; k < 3; k++)
                 if (grey || k == c)
@@ -150,7 +150,7 @@ void solve_cg(struct radiosity_solution *out, const struct radiosity_system *s,
             rho_most[c] = fmax(rho_most[c], reflectance(s, i, c));
     dot(g.r, g.r, n, first);
     memcpy(now, first, sizeof now);
-    while (out->steps < most && !out->converged) {
+    while (out->steps < most && !out->converged && !watch_cancelled(settings->watch)) {
         cg_apply(&g, settings->threads);
         dot(g.p, g.q, n, pq);
         for (size_t i = 0; i < n; i++) {

@@ -287,18 +287,22 @@ static void links_build(struct hierarchy *t, struct radiosity_solution *out)
 {
     const struct parallel run = {.threads = t->settings->threads,
                                  .piece = 64,
+                                 .watch = t->settings->watch,
+                                 .tells = true,
                                  .user = t,
                                  .begin = begin,
                                  .end = end,
                                  .work = judge};
     link_add(t, 0, 0);
-    while (t->pending < t->link_count) {
+    while (t->pending < t->link_count && !watch_cancelled(t->settings->watch)) {
         const size_t from = t->pending, to = t->link_count;
         t->rays = solver_alloc(to - from, sizeof *t->rays);
         parallel_run(&run, (uint32_t)(to - from));
         for (size_t i = 0; i < to - from; i++)
             out->rays += t->rays[i];
         free(t->rays);
+        if (watch_cancelled(t->settings->watch))
+            break;
         for (size_t i = from; i < to; i++)
             if (!t->link[i].final) {
                 const struct link l = t->link[i];
@@ -360,7 +364,7 @@ static void iterate(struct hierarchy *t, struct radiosity_solution *out,
     const uint32_t n = out->count;
     const uint32_t most = t->settings->steps_max ? t->settings->steps_max : 10000;
     double previous = 0;
-    while (out->steps < most && !out->converged) {
+    while (out->steps < most && !out->converged && !watch_cancelled(t->settings->watch)) {
         double change = 0, reflected = 0;
         elements_set(t, out->b);
         gather(t);
@@ -428,6 +432,9 @@ void solve_hierarchical(struct radiosity_solution *out, const struct radiosity_s
     system_source(s, source);
     expect(&t, source);
     links_build(&t, out);
+    // Links that were not judged carry nothing.
+    if (watch_cancelled(settings->watch))
+        t.link_count = 0;
     memcpy(out->b, source, n * sizeof *source);
     iterate(&t, out, source);
     for (uint32_t i = 0; i < n; i++)

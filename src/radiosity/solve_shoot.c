@@ -163,11 +163,13 @@ void solve_shooting(struct radiosity_solution *out, const struct radiosity_syste
         w.area += s->e->element[i].area;
     out->error = error_left(&w);
     // The estimate costs as much as a shot from a matrix.
-    for (out->converged = n == 0; !out->converged && out->steps < most;) {
+    for (out->converged = n == 0;
+         !out->converged && out->steps < most && !watch_cancelled(settings->watch);) {
         step(&w);
         out->steps++;
         out->error = error_left(&w);
         out->converged = out->error <= settings->tolerance;
+        watch_tell(settings->watch, fmin(1, settings->tolerance / out->error));
     }
     if (settings->ambient) {
         double ambient[3];

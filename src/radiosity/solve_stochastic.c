@@ -175,6 +175,7 @@ static void shots_step(struct shots *w, double rays, double (*h)[3])
         atomic_store_explicit(&w->received[k], 0, memory_order_relaxed);
     const struct parallel run = {.threads = w->settings->threads,
                                  .piece = 1,
+                                 .watch = w->settings->watch,
                                  .user = w,
                                  .begin = begin,
                                  .end = end,
@@ -309,7 +310,8 @@ void solve_stochastic(struct radiosity_solution *out, const struct radiosity_sys
         shots_init(&w[k], s, settings, k);
         half[k] = solver_alloc(n, sizeof *half[k]);
     }
-    while (out->steps < most && !out->converged && n) {
+    while (out->steps < most && !out->converged && n &&
+           !watch_cancelled(settings->watch)) {
         const double weight = rays / (done + rays);
         for (int k = 0; k < 2; k++) {
             shots_pass(&w[k], rays);
@@ -322,6 +324,9 @@ void solve_stochastic(struct radiosity_solution *out, const struct radiosity_sys
         out->steps++;
         out->error = halves_error(s, half[0], half[1]);
         out->converged = settings->rays || out->error <= settings->tolerance;
+        // Four times the rays halve the error.
+        const double left = out->error / settings->tolerance;
+        watch_tell(settings->watch, out->converged ? 1 : 1 / (left * left));
     }
     for (uint32_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++)

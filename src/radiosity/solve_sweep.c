@@ -172,8 +172,11 @@ static void count_change(struct sweep *w, size_t i, const double b[3])
 
 static void jacobi_sweep(struct sweep *w)
 {
-    const struct parallel run = {
-        .threads = w->settings->threads, .piece = 64, .user = w, .work = jacobi_rows};
+    const struct parallel run = {.threads = w->settings->threads,
+                                 .piece = 64,
+                                 .watch = w->settings->watch,
+                                 .user = w,
+                                 .work = jacobi_rows};
     parallel_run(&run, w->s->e->count);
     for (size_t i = 0; i < w->s->e->count; i++)
         count_change(w, i, w->next[i]);
@@ -181,7 +184,7 @@ static void jacobi_sweep(struct sweep *w)
 
 static void gauss_seidel_sweep(struct sweep *w)
 {
-    for (size_t i = 0; i < w->s->e->count; i++) {
+    for (size_t i = 0; i < w->s->e->count && !watch_cancelled(w->settings->watch); i++) {
         double b[3];
         row_gather(w, i, b);
         count_change(w, i, b);
@@ -195,7 +198,7 @@ static void sweeps(struct radiosity_solution *out, const struct radiosity_system
     struct sweep w;
     const uint32_t most = settings->steps_max ? settings->steps_max : 100000;
     sweep_begin(&w, s, settings, out);
-    while (out->steps < most && !out->converged) {
+    while (out->steps < most && !out->converged && !watch_cancelled(settings->watch)) {
         memcpy(w.previous, w.change, sizeof w.previous);
         memset(w.change, 0, sizeof w.change);
         sweep(&w);

@@ -26,6 +26,7 @@ struct solver_settings {
     double link_error;  // hierarchical: allowed error of a link, relative
     uint32_t seed;
     int threads;
+    struct watch *watch;
 };
 extern const struct solver_settings solver_defaults;
 

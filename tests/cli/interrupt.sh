@@ -14,4 +14,27 @@ interrupted()
 check "interrupted" interrupted
 whole() { ls | grep -q '\.part$' && return 1; exits 0 "$lambert" compare big.png big.png; }
 check "the picture is a whole file" whole
+
+cat >room.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <.5, .5, .5> look_at <.5, .5, 1> }
+difference { box { -1, 2 } box { 0, 1 } pigment { rgb 1 } finish { ambient 0 diffuse .5 emission .25 } }
+END
+# SIG: while form factors are computed, once the first tenth has been told.
+solving()
+{
+  "$lambert" room.pov +W8 +H8 +WT1 --gi=radiosity --gi-patches=4000 --gi-solver=gauss-seidel -o room.png 2>err &
+  pid=$!
+  waited=0
+  while ! grep -q 'radiosity: [1-9]0* %' err && test $waited -lt 60; do
+    sleep 0.5
+    waited=$((waited + 1))
+  done
+  kill -$1 $pid
+  wait $pid
+  test $? = 2 && has err 'radiosity: [1-9][0-9]* %' && has err 'stopped on request' && ! grep -q 'patches,' err && ! test -e room.png
+}
+check "radiosity is stopped before it is solved" solving INT
+check "by SIGTERM too" solving TERM
 finish

@@ -20,10 +20,10 @@ struct scene_run {
     "#macro M(Rho, E) texture { pigment { rgb 1 }"                                       \
     " finish { ambient 0 diffuse Rho emission E } } #end\n"
 
-static struct scene_run solve(const char *text, const struct radiosity_options *options)
+static struct scene_run load(const char *text)
 {
     struct scene_run s = {.ctx = lambert_context_new(), .arena = arena_new(4096)};
-    char path[] = "/tmp/lambert-radiosity-XXXXXX", error[512] = "";
+    char path[] = "/tmp/lambert-radiosity-XXXXXX";
     const int file = mkstemp(path);
     assert_true(file >= 0);
     assert_true(write(file, text, strlen(text)) == (ssize_t)strlen(text));
@@ -33,6 +33,13 @@ static struct scene_run solve(const char *text, const struct radiosity_options *
     if (status != LAMBERT_OK)
         fail_msg("%s: %s", lambert_error(s.ctx), text);
     job_init(&s.job, s.arena, s.ctx->world, &render_settings_default);
+    return s;
+}
+
+static struct scene_run solve(const char *text, const struct radiosity_options *options)
+{
+    char error[512] = "";
+    struct scene_run s = load(text);
     s.r = radiosity_new(&s.job, options, NULL, error, sizeof error);
     if (!s.r)
         fail_msg("%s", error);
@@ -385,14 +392,8 @@ static void error_target(void **state)
 static void memory_is_predicted(void **state)
 {
     (void)state;
-    struct scene_run s = {.ctx = lambert_context_new(), .arena = arena_new(4096)};
-    char path[] = "/tmp/lambert-radiosity-XXXXXX", error[512] = "";
-    const int file = mkstemp(path);
-    assert_true(write(file, CUBE, strlen(CUBE)) == (ssize_t)strlen(CUBE));
-    close(file);
-    assert_int_equal(lambert_load_file(s.ctx, path), LAMBERT_OK);
-    unlink(path);
-    job_init(&s.job, s.arena, s.ctx->world, &render_settings_default);
+    char error[512] = "";
+    struct scene_run s = load(CUBE);
     struct radiosity_options o = with(100, "elimination");
     o.memory = 1e5;
     assert_null(radiosity_new(&s.job, &o, NULL, error, sizeof error));
@@ -400,6 +401,51 @@ static void memory_is_predicted(void **state)
     assert_non_null(strstr(error, "'elimination' needs"));
     assert_non_null(strstr(error, "'stochastic'"));
     run_free(&s);
+}
+
+// ---- cancelling --------------------------------------------------------------------------
+struct waiting {
+    double stop_at, told;
+    bool cancel, rising;
+    uint32_t calls;
+};
+
+static void hear(void *user, double share)
+{
+    struct waiting *w = user;
+    w->rising = w->rising && share > w->told && share <= 1;
+    w->told = share;
+    w->calls++;
+    w->cancel = w->cancel || share >= w->stop_at;
+}
+
+// Wherever a solution is stopped, nothing comes of it and nothing is left behind; not
+// stopped, it tells how far it is up to the end.
+static void cancelled(void **state)
+{
+    (void)state;
+    static const double stops[] = {0, .3, 2};
+    for (int k = 0; k < SOLVER_COUNT; k++) {
+        for (size_t i = 0; i < sizeof stops / sizeof stops[0]; i++) {
+            struct waiting w = {stops[i], 0, stops[i] == 0, true, 0};
+            struct watch watch = {&w.cancel, hear, &w, 0, 1, 0};
+            char error[512] = "";
+            struct scene_run s = load(CUBE);
+            struct radiosity_options o = with(100, solver_name(k));
+            o.watch = &watch;
+            o.solver.tolerance = .05;
+            s.r = radiosity_new(&s.job, &o, NULL, error, sizeof error);
+            assert_true(w.rising);
+            if (stops[i] > 1) {
+                assert_non_null(s.r);
+                assert_near(w.told, 1, 1e-12);
+                assert_true(w.calls > 4);
+            } else {
+                assert_null(s.r);
+            }
+            run_free(&s);
+        }
+    }
 }
 
 int main(void)
@@ -414,6 +460,7 @@ int main(void)
         cmocka_unit_test(enclosed_f15_f16),
         cmocka_unit_test(error_target),
         cmocka_unit_test(memory_is_predicted),
+        cmocka_unit_test(cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

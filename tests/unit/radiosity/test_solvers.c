@@ -27,7 +27,7 @@ static struct solved solve(struct mesh *m, const struct form_factor_settings *ff
     if (solver_needs_matrix(solver_find(settings->solver))) {
         assert_true(factors_compute(&r.f, &m->e, ff));
         if (balance)
-            factors_balance(&r.f, &m->e);
+            factors_balance(&r.f, &m->e, NULL);
         system.f = &r.f;
     }
     assert_true(radiosity_solve(&r.s, &system, settings));
