@@ -187,6 +187,13 @@ static bool loop(struct compiler *c, const struct ast *n, uint32_t *to)
     const struct ast *from = n->list->next, *end = from->next;
     if (!compile(c, from, &first) || !compile(c, end, &last))
         return false;
+    double at[2];
+    if (tape_is_constant(c->b, first, &at[0]) && tape_is_constant(c->b, last, &at[1]) &&
+        tape_turns(at[0], at[1]) > TAPE_TURNS_MAX) {
+        diag_at(c->e->diags, DIAG_LOOP_TURNS, n->where,
+                n->word == WORD_prod ? "this prod" : "this sum", TAPE_TURNS_MAX);
+        return false;
+    }
     const struct tape *body = loop_body(c, n->list, end->next);
     if (!body)
         return false;
@@ -611,7 +618,11 @@ bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width)
         if (!eval_float(e, a, &argument[i++]))
             return false;
     memset(out, 0, 5 * sizeof *out);
-    tape_run(f, argument, out);
+    if (!tape_run(f, argument, out)) {
+        diag_at(e->diags, DIAG_LOOP_TURNS, n->where, "a sum or prod of this function",
+                TAPE_TURNS_MAX);
+        return false;
+    }
     *width = tape_width(f);
     return true;
 }

@@ -31,7 +31,11 @@ int tape_width(const struct tape *t); // results: 1, or those of a vector functi
 bool tape_is_opaque(const struct tape *t);
 uint32_t tape_length(const struct tape *t); // steps
 
-void tape_run(const struct tape *t, const double *argument, double *out);
+// False: sum and prod, all loops inside of one together, would take more turns than this;
+// what hangs on them is no number then.
+bool tape_run(const struct tape *t, const double *argument, double *out);
+enum { TAPE_TURNS_MAX = 1000000 };
+double tape_turns(double from, double to); // of one loop; infinite: no counter can do it
 void tape_run_packet(const struct tape *t, const double (*argument)[TAPE_LANES],
                      double (*out)[TAPE_LANES]);
 // d out[0] / d argument[i] for the first `partials` (up to 3) arguments; returns out[0].

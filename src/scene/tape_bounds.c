@@ -270,7 +270,7 @@ static struct tape_slope looped(const struct tape *body, bool product,
     struct tape_slope args[TAPE_LIST_MAX], total = {.v = interval_point(product)};
     const struct interval from = in[0].v, to = in[1].v;
     if (!interval_is_point(from) || floor(to.lo - from.lo) != floor(to.hi - from.lo) ||
-        !(to.hi - from.lo < TURNS_MAX))
+        !(tape_turns(from.lo, to.hi) <= TURNS_MAX))
         return nothing_known(n);
     memcpy(args + 1, in + 2, (count - 2) * sizeof *args);
     for (double k = from.lo; k <= to.lo; k++) {

@@ -352,8 +352,9 @@ static bool unroll(struct tape_builder *b, bool product, const struct tape *body
                    double from, double to, const uint32_t *more, int count, uint32_t *out)
 {
     uint32_t in[TAPE_LIST_MAX], total = tape_constant(b, product), term;
-    if (!(to - from < TAPE_UNROLL_MAX) ||
-        b->count + (to - from + 1) * body->node_count > TAPE_INLINE_MAX)
+    const double turns = tape_turns(from, to);
+    if (!(turns <= TAPE_UNROLL_MAX) ||
+        b->count + turns * body->node_count > TAPE_INLINE_MAX)
         return false;
     memcpy(in + 1, more, (size_t)count * sizeof *in);
     for (double k = from; k <= to; k++) {

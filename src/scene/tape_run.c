@@ -10,21 +10,35 @@ uint32_t tape_length(const struct tape *t) { return t->step_count; }
 
 // ---- one point ----------------------------------------------------------------------
 
-static double looped(const struct tape *body, bool product, const double *in,
-                     uint32_t count)
+// Beyond 2^53 adding 1 changes nothing.
+double tape_turns(double from, double to)
 {
-    double args[TAPE_LIST_MAX], total = product, term;
-    memcpy(args + 1, in + 2, (count - 2) * sizeof *args);
-    uint32_t turn = 0;
-    for (double k = in[0]; k <= in[1] && turn < TAPE_LOOP_MAX; k++, turn++) {
-        args[0] = k;
-        tape_run(body, args, &term);
-        total = product ? total * term : total + term;
-    }
-    return total;
+    if (!(from <= to))
+        return 0;
+    return from >= -0x1p53 && to <= 0x1p53 ? floor(to - from) + 1 : INFINITY;
 }
 
-static void called(const struct tape *t, const struct tape_step *s, double *r)
+// `left`: the turns that loops may still take; false: not enough, and no number comes of it.
+static bool run(const struct tape *t, const double *argument, double *out, double *left);
+
+static bool looped(const struct tape *body, bool product, const double *in,
+                   uint32_t count, double *left, double *out)
+{
+    double args[TAPE_LIST_MAX], total = product, term;
+    *left -= tape_turns(in[0], in[1]);
+    bool whole = *left >= 0;
+    memcpy(args + 1, in + 2, (count - 2) * sizeof *args);
+    for (double k = in[0]; whole && k <= in[1]; k++) {
+        args[0] = k;
+        whole = run(body, args, &term, left);
+        total = product ? total * term : total + term;
+    }
+    *out = whole ? total : NAN;
+    return whole;
+}
+
+static bool called(const struct tape *t, const struct tape_step *s, double *r,
+                   double *left)
 {
     double in[TAPE_LIST_MAX], out[TAPE_WIDTH_MAX];
     for (uint32_t i = 0; i < s->count; i++)
@@ -33,16 +47,17 @@ static void called(const struct tape *t, const struct tape_step *s, double *r)
         const struct tape_extern *f = s->callee;
         f->value(s->data, in, out);
         memcpy(r + s->to, out, (size_t)f->width * sizeof *r);
-    } else if (s->op == TAPE_CALL) {
-        tape_run(s->callee, in, r + s->to);
-    } else {
-        r[s->to] = looped(s->callee, s->op == TAPE_PRODUCT, in, s->count);
+        return true;
     }
+    if (s->op == TAPE_CALL)
+        return run(s->callee, in, r + s->to, left);
+    return looped(s->callee, s->op == TAPE_PRODUCT, in, s->count, left, r + s->to);
 }
 
-void tape_run(const struct tape *t, const double *argument, double *out)
+static bool run(const struct tape *t, const double *argument, double *out, double *left)
 {
     double r[TAPE_REGISTERS_MAX];
+    bool whole = true;
     for (uint32_t i = 0; i < t->constant_count; i++)
         r[i] = t->constant[i];
     for (int i = 0; i < t->arguments; i++)
@@ -60,11 +75,18 @@ void tape_run(const struct tape *t, const double *argument, double *out)
 #undef BINARY
         case TAPE_LENGTH: r[s->to] = sqrt(a); break;
         case TAPE_SELECT: r[s->to] = a < 0 ? b : a == 0 ? r[s->c] : r[s->d]; break;
-        default: called(t, s, r);
+        default: whole &= called(t, s, r, left);
         }
     }
     for (int i = 0; i < t->width; i++)
         out[i] = r[t->result[i]];
+    return whole;
+}
+
+bool tape_run(const struct tape *t, const double *argument, double *out)
+{
+    double left = TAPE_TURNS_MAX;
+    return run(t, argument, out, &left);
 }
 
 double tape_at(const void *tape, struct vec3 p)
@@ -92,7 +114,8 @@ static void called_packet(const struct tape *t, const struct tape_step *s, lanes
         } else if (s->op == TAPE_CALL) {
             tape_run(s->callee, in, out);
         } else {
-            out[0] = looped(s->callee, s->op == TAPE_PRODUCT, in, s->count);
+            double left = TAPE_TURNS_MAX;
+            looped(s->callee, s->op == TAPE_PRODUCT, in, s->count, &left, out);
         }
         for (int i = 0; i < width; i++)
             r[s->to + i][l] = out[i];
@@ -224,9 +247,10 @@ static struct dual looped_dual(const struct tape *body, bool product,
                                const struct dual *in, uint32_t count)
 {
     struct dual args[TAPE_LIST_MAX], total = {.v = product};
+    if (!(tape_turns(in[0].v, in[1].v) <= TAPE_TURNS_MAX))
+        return (struct dual){.v = NAN};
     memcpy(args + 1, in + 2, (count - 2) * sizeof *args);
-    uint32_t turn = 0;
-    for (double k = in[0].v; k <= in[1].v && turn < TAPE_LOOP_MAX; k++, turn++) {
+    for (double k = in[0].v; k <= in[1].v; k++) {
         args[0] = in[0];
         args[0].v = k;
         const struct dual term = run_dual(body, args);

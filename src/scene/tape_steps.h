@@ -63,7 +63,6 @@ enum {
     TAPE_DEPTH_MAX = 16,
     TAPE_LIST_MAX = 128,
     TAPE_UNROLL_MAX = 64,
-    TAPE_LOOP_MAX = 1000000000, // turns of sum and prod
 };
 
 #define TAPE_LOG10_E 0.43429448190325182765

@@ -172,6 +172,7 @@ lang_scenes = \
 	%D%/253-loop-names-change.scn \
 	%D%/254-precision.scn \
 	%D%/265-message-macro.scn \
+	%D%/255-error-loop-turns.scn \
 	%D%/300-error-undeclared.scn \
 	%D%/301-error-close-name.scn \
 	%D%/302-error-double-equals.scn \
