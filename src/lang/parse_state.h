@@ -37,11 +37,7 @@ struct parse {
 
 enum {
     PARSE_NEST_MAX = 2400, // brackets open at once
-#ifdef __SANITIZE_ADDRESS__ // its frames are several times larger
-    PARSE_RUNS_MAX = 500,
-#else
     PARSE_RUNS_MAX = 2400, // runs of the grammar inside each other
-#endif
 };
 
 // Runs the grammar once; NULL after an error, which was reported and skipped over.
