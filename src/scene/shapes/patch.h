@@ -53,4 +53,18 @@ enum { PATCH_HITS = 18 }; // a line meets a bicubic patch no more often
 int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *ray,
                     struct patch_hit hit[PATCH_HITS]);
 
+// The cubic Bernstein polynomials at w, and their derivatives.
+static inline void basis(double w, double b[4], double d[4])
+{
+    const double z = 1 - w;
+    b[0] = z * z * z;
+    b[1] = 3 * w * z * z;
+    b[2] = 3 * w * w * z;
+    b[3] = w * w * w;
+    d[0] = -3 * z * z;
+    d[1] = 3 * z * (z - 2 * w);
+    d[2] = 3 * w * (2 * z - w);
+    d[3] = 3 * w * w;
+}
+
 #endif

@@ -150,19 +150,6 @@ static bool measure(const struct net *n, struct frame *f, double noise)
     return true;
 }
 
-static void basis(double w, double b[4], double d[4])
-{
-    const double z = 1 - w;
-    b[0] = z * z * z;
-    b[1] = 3 * w * z * z;
-    b[2] = 3 * w * w * z;
-    b[3] = w * w * w;
-    d[0] = -3 * z * z;
-    d[1] = 3 * z * (z - 2 * w);
-    d[2] = 3 * w * (2 * z - w);
-    d[3] = 3 * w * w;
-}
-
 // The axes from `from` to before `to`.
 static inline void evaluate(const struct net *n, const double st[2], int from, int to,
                             double at[AXES], double du[AXES], double dv[AXES])

@@ -139,19 +139,6 @@ void patch_build(struct patch *p, struct arena *arena)
     arena_free(scratch);
 }
 
-static void basis(double w, double b[4], double d[4])
-{
-    const double z = 1 - w;
-    b[0] = z * z * z;
-    b[1] = 3 * w * z * z;
-    b[2] = 3 * w * w * z;
-    b[3] = w * w * w;
-    d[0] = -3 * z * z;
-    d[1] = 3 * z * (z - 2 * w);
-    d[2] = 3 * w * (2 * z - w);
-    d[3] = 3 * w * w;
-}
-
 void patch_derivatives(const struct patch *p, double u, double v, struct vec3 *at,
                        struct vec3 *du, struct vec3 *dv)
 {
