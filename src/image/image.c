@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE // madvise
 // Pictures in memory and the curves between linear light and file numbers.
 #include "image/image.h"
 
