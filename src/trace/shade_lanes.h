@@ -13,6 +13,8 @@
 #include "math/transform.h"
 #include "math/lanes.h"
 
+static const double zero = 1e-10; // spec/lighting.md 0
+
 #if defined(__AVX__)
 #define Q_SPREAD _mm256_add_ps
 #elif defined(__SSE2__)

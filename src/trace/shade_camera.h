@@ -1,0 +1,37 @@
+#ifndef TRACE_SHADE_CAMERA_H
+#define TRACE_SHADE_CAMERA_H
+
+// Rays of cameras, eight at a time: camera_ray.
+#include "trace/shade_kernel.h"
+#include "trace/shade_lanes.h"
+
+static void camera(const struct job *job, const struct vec2 *position, uint32_t count,
+                   struct ray_batch *out)
+{
+    const struct camera *c = job->camera;
+    const struct real8 width = r8_set(job->settings.width),
+                       height = r8_set(job->settings.height), half = r8_set(0.5);
+    const struct vec8 right = V8_SET(c->right), up = V8_SET(c->up);
+    const struct vec8 location = V8_SET(c->location), direction = V8_SET(c->direction);
+    for (uint32_t i = 0; i < count; i += 8) {
+        double px[8], py[8];
+        for (uint32_t k = 0; k < 8; k++) {
+            const struct vec2 *p = &position[i + k < count ? i + k : i];
+            px[k] = p->u;
+            py[k] = p->v;
+        }
+        const struct real8 u = r8_sub(r8_div(r8_load(px), width), half);
+        const struct real8 v = r8_sub(half, r8_div(r8_load(py), height));
+        const struct vec8 d = v8_normalize(v8_mad(v8_mad(direction, u, right), v, up));
+        r8_store(out->o[0] + i, location.x);
+        r8_store(out->o[1] + i, location.y);
+        r8_store(out->o[2] + i, location.z);
+        r8_store(out->d[0] + i, d.x);
+        r8_store(out->d[1] + i, d.y);
+        r8_store(out->d[2] + i, d.z);
+        for (uint32_t k = 0; k < 8; k++)
+            out->hidden_by[i + k] = OBJECT_NO_IMAGE;
+    }
+}
+
+#endif

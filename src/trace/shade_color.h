@@ -1,0 +1,134 @@
+#ifndef TRACE_SHADE_COLOR_H
+#define TRACE_SHADE_COLOR_H
+
+// Colours and normals of the patterns at eight hits.
+#include "scene/noise_kernel.h"
+#include "trace/shade_kernel.h"
+#include "trace/shade_lanes.h"
+
+// A checker of two colours in the lanes of `bits`; false: the pattern needs the general
+// rule.
+LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface *x,
+                           struct simple_group *g, unsigned bits)
+{
+    static const double far = 1e8; // what pattern_warp clamps to lies beyond
+    const double edge = 1e-10;     // as the pattern's
+    const struct transform *m = &s->texture_transform;
+    struct vec8 p = v8_load((const double(*)[8])g->p);
+    if (!m->identity)
+        p = v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+    for (const struct warp *w = x->pigment->pattern->warps; w; w = w->next)
+        if (!w->transform.identity)
+            p = v8_row_times(v8_sub(p, V8_SET(w->transform.offset)),
+                             &w->transform.inverse);
+    if (bits & ~m8_bits(r8_le(v8_max_abs(p), r8_set(far))))
+        return false;
+    const struct real8 e = r8_set(edge);
+    const struct real8 cell =
+        r8_add(r8_add(r8_floor(r8_add(p.x, e)), r8_floor(r8_add(p.y, e))),
+               r8_floor(r8_add(p.z, e)));
+    const struct real8 even = r8_mul(r8_floor(r8_mul(cell, r8_set(0.5))), r8_set(2));
+    const unsigned odd = m8_bits(r8_lt(even, cell));
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        const struct rgb c = x->color[odd >> i & 1];
+        g->color[0][i] = c.r;
+        g->color[1][i] = c.g;
+        g->color[2][i] = c.b;
+    }
+    return true;
+}
+
+// The points of a group as patterns see them, and in the space of the texture.
+LANES_INLINE struct pattern_packet packet_of(const struct simple_group *g)
+{
+    return (struct pattern_packet){&PASTE(noise_kernels_, ISA), (const double(*)[8])g->p,
+                                   (const double(*)[8])g->n, (const double(*)[8])g->d};
+}
+
+LANES_INLINE struct vec8 texture_place8(const struct surface *s,
+                                        const struct simple_group *g)
+{
+    const struct transform *m = &s->texture_transform;
+    const struct vec8 p = v8_load((const double(*)[8])g->p);
+    return m->identity ? p : v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+}
+
+// The normals of a layer in the lanes of `bits`.
+static void normals8(const struct surface *s, const struct simple_surface *x,
+                     struct simple_group *g, unsigned bits)
+{
+    const struct pattern_packet packet = packet_of(g);
+    const struct transform *m = &s->texture_transform;
+    const struct vec8 before = v8_load((const double(*)[8])g->n);
+    double place[3][8], v[3][8];
+    v8_store(place, texture_place8(s, g));
+    v8_store(v, m->identity ? before : v8_times_column(&m->linear, before));
+    normal_perturb8(x->normal, &packet, (const double(*)[8])place, v);
+    struct vec8 n = v8_load((const double(*)[8])v);
+    if (!m->identity)
+        n = v8_times_column(&m->inverse, n);
+    v8_store(g->n, v8_select(m8_of(bits), v8_normalize(n), before));
+}
+
+// The colours of a pattern with its colour map, in the lanes of `bits`.
+static void pattern8(const struct surface *s, const struct simple_surface *x,
+                     struct simple_group *g, unsigned bits)
+{
+    const struct pattern_packet packet = packet_of(g);
+    double place[3][8];
+    float color[3][8];
+    v8_store(place, texture_place8(s, g));
+    pigment_colors8(x->pigment, &packet, (const double(*)[8])place, color);
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        for (int c = 0; c < 3; c++)
+            g->color[c][i] = color[c][i];
+    }
+}
+
+// The colours of lanes that share a surface.
+LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_group *g,
+                            unsigned bits)
+{
+    const struct simple_surface *x = &t->job->simple[surface];
+    const struct surface *s = &t->job->world->surface[surface];
+    if (x->normal)
+        normals8(s, x, g, bits);
+    if (bits == 255 && x->kind == SIMPLE_SOLID) {
+        f8_store(g->color[0], f8_set(x->color[0].r));
+        f8_store(g->color[1], f8_set(x->color[0].g));
+        f8_store(g->color[2], f8_set(x->color[0].b));
+        f8_store(g->att, f8_set(x->att));
+        return;
+    }
+    for (unsigned m = bits; m; m &= m - 1)
+        g->att[__builtin_ctz(m)] = x->att;
+    if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
+        return;
+    if (x->kind != SIMPLE_SOLID) {
+        pattern8(s, x, g, bits);
+        return;
+    }
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        g->color[0][i] = x->color[0].r;
+        g->color[1][i] = x->color[0].g;
+        g->color[2][i] = x->color[0].b;
+    }
+}
+
+static void colors(struct tracer *t, const struct leaf *const leaf[8],
+                   struct simple_group *g)
+{
+    for (unsigned left = 255; left;) {
+        const uint32_t surface = leaf[__builtin_ctz(left)]->surface;
+        unsigned bits = 0;
+        for (unsigned i = 0; i < 8; i++)
+            bits |= (unsigned)(leaf[i]->surface == surface) << i;
+        colors_of(t, surface, g, bits);
+        left &= ~bits;
+    }
+}
+
+#endif

@@ -1,0 +1,114 @@
+#ifndef TRACE_SHADE_LIT_H
+#define TRACE_SHADE_LIT_H
+
+// What eight surfaces make of the light from one direction.
+#include "trace/shade.h"
+#include "trace/shade_kernel.h"
+#include "trace/shade_lanes.h"
+
+// highlight_power in the lanes of `bits`; 0 elsewhere.
+LANES_INLINE struct float8 powers8(struct real8 q, double n, unsigned bits)
+{
+    static const double dark = 40, by_squares = 4096;
+    bits &= m8_bits(r8_le(r8_mul(r8_set(n), r8_sub(r8_set(1), q)), r8_set(dark)));
+    struct real8 power = r8_set(bits ? 1 : 0);
+    if (bits && n == floor(n) && n >= 0 && n <= by_squares) {
+        for (uint32_t k = (uint32_t)n; k; k >>= 1) {
+            if (k & 1)
+                power = r8_mul(power, q);
+            q = r8_mul(q, q);
+        }
+    } else if (bits) {
+        power = r8_pow_single(r8_select(m8_of(bits), q, r8_set(1)), n);
+    }
+    return f8_of(r8_select(m8_of(bits), power, r8_set(0)));
+}
+
+// The sum of phong and specular (highlights of trace/shade_light.c).
+LANES_INLINE struct float8 highlights8(const struct finish *f, struct vec8 d,
+                                       struct vec8 n, struct vec8 to, unsigned live)
+{
+    struct float8 sum = f8_set(0);
+    if (f->phong != 0) {
+        const double least = f->phong_size < 60 ? 0 : 0.0008;
+        const struct vec8 r = v8_mad(d, r8_mul(r8_set(-2), v8_dot(d, n)), n);
+        const struct real8 q = v8_dot(r, to);
+        const unsigned bits = live & m8_bits(r8_lt(r8_set(least), q));
+        if (bits)
+            sum = f8_add(
+                sum, f8_mul(f8_set(f->phong), powers8(q, (double)f->phong_size, bits)));
+    }
+    if (f->specular != 0) {
+        const struct vec8 h = v8_sub(to, d);
+        const struct real8 q = v8_dot(h, n), length = r8_sqrt(v8_dot(h, h));
+        const unsigned bits =
+            live & m8_bits(m8_and(r8_lt(r8_set(0), q), r8_lt(r8_set(0), length)));
+        if (bits)
+            sum = f8_add(sum,
+                         f8_mul(f8_set(f->specular),
+                                powers8(r8_div(q, length), (double)f->roughness, bits)));
+    }
+    return sum;
+}
+
+// Metals tint their highlights, lane by lane.
+static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
+                          struct float8 sum, struct real8 facing)
+{
+    float s[8], c[3][8];
+    double cosine[8];
+    f8_store(s, sum);
+    r8_store(cosine, facing);
+    for (int i = 0; i < 8; i++) {
+        struct rgb x = rgb_gray(s[i]);
+        if (s[i] != 0)
+            x = metal_tint(x, rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
+                           f->metallic, cosine[i]);
+        c[0][i] = x.r;
+        c[1][i] = x.g;
+        c[2][i] = x.b;
+    }
+    return rgb8_load((const float(*)[8])c);
+}
+
+// layer_lit. Takes lanes that get nothing out of *live.
+LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *lamp,
+                              const struct simple_group *g, struct vec8 to,
+                              unsigned *live)
+{
+    const struct finish *f = k->finish;
+    const struct vec8 n = v8_load((const double(*)[8])g->n);
+    const struct real8 facing = v8_dot(n, to);
+    unsigned back = 0;
+    if (k->side_test) {
+        back = *live & m8_bits(r8_lt(facing, r8_set(zero)));
+        if (f->diffuse_back == 0) {
+            *live &= ~back;
+            back = 0;
+        }
+    }
+    struct rgb8 c = rgb8_set((struct rgb){0, 0, 0});
+    if (!*live)
+        return c;
+    if (f->diffuse > 0 || back) {
+        struct real8 cosine = r8_abs(facing);
+        if (f->brilliance != 1)
+            cosine = r8_pow_single(cosine, (double)f->brilliance);
+        float strength[8];
+        for (int i = 0; i < 8; i++)
+            strength[i] = fmaxf(0, back >> i & 1 ? f->diffuse_back : f->diffuse);
+        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(f8_load(strength), f8_load(g->att))),
+                       rgb8_load((const float(*)[8])g->color));
+    }
+    if (!lamp->light->shadowless) {
+        const struct vec8 d = v8_load((const double(*)[8])g->d);
+        const struct float8 sum = highlights8(f, d, n, to, *live & ~back);
+        if (f->metallic != 0)
+            c = rgb8_add(c, tinted(f, g, sum, facing));
+        else
+            c = rgb8_add(c, (struct rgb8){sum, sum, sum});
+    }
+    return c;
+}
+
+#endif
