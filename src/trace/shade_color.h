@@ -55,10 +55,11 @@ LANES_INLINE struct vec8 texture_place8(const struct surface *s,
 }
 
 // The normals of a layer in the lanes of `bits`.
-static void normals8(const struct surface *s, const struct simple_surface *x,
-                     struct simple_group *g, unsigned bits)
+static void normals8(const struct tracer *t, const struct surface *s,
+                     const struct simple_surface *x, struct simple_group *g,
+                     unsigned bits)
 {
-    const struct pattern_packet packet = packet_of(g);
+    const struct pattern_packet packet = packet_of(t, g);
     const struct transform *m = &s->texture_transform;
     const struct vec8 before = v8_load((const double(*)[8])g->n);
     double place[3][8], v[3][8];
@@ -72,10 +73,11 @@ static void normals8(const struct surface *s, const struct simple_surface *x,
 }
 
 // The colours of a pattern with its colour map, in the lanes of `bits`.
-static void pattern8(const struct surface *s, const struct simple_surface *x,
-                     struct simple_group *g, unsigned bits)
+static void pattern8(const struct tracer *t, const struct surface *s,
+                     const struct simple_surface *x, struct simple_group *g,
+                     unsigned bits)
 {
-    const struct pattern_packet packet = packet_of(g);
+    const struct pattern_packet packet = packet_of(t, g);
     double place[3][8];
     float color[3][8];
     v8_store(place, texture_place8(s, g));
@@ -94,7 +96,7 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
     const struct simple_surface *x = &t->job->simple[surface];
     const struct surface *s = &t->job->world->surface[surface];
     if (x->normal)
-        normals8(s, x, g, bits);
+        normals8(t, s, x, g, bits);
     if (bits == 255 && x->kind == SIMPLE_SOLID) {
         f8_store(g->color[0], f8_set(x->color[0].r));
         f8_store(g->color[1], f8_set(x->color[0].g));
@@ -107,7 +109,7 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
     if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
         return;
     if (x->kind != SIMPLE_SOLID) {
-        pattern8(s, x, g, bits);
+        pattern8(t, s, x, g, bits);
         return;
     }
     for (; bits; bits &= bits - 1) {

@@ -248,5 +248,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
     return met;
 }
 
-const struct shade_kernels PASTE(shade_kernels_, ISA) = {TEXT(ISA), camera, place, own,
-                                                         light,     bounce, meets};
+const struct shade_kernels PASTE(shade_kernels_, ISA) = {
+    TEXT(ISA), &PASTE(noise_kernels_, ISA), camera, place, own, light, bounce, meets};
