@@ -40,9 +40,10 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
 }
 
 // The points of a group as patterns see them, and in the space of the texture.
-LANES_INLINE struct pattern_packet packet_of(const struct simple_group *g)
+LANES_INLINE struct pattern_packet packet_of(const struct tracer *t,
+                                             const struct simple_group *g)
 {
-    return (struct pattern_packet){&PASTE(noise_kernels_, ISA), (const double(*)[8])g->p,
+    return (struct pattern_packet){t->job->kernels->noise, (const double(*)[8])g->p,
                                    (const double(*)[8])g->n, (const double(*)[8])g->d};
 }
 
