@@ -29,6 +29,7 @@ include %D%/tables/local.mk
 include %D%/fuzz/local.mk
 include %D%/harness/local.mk
 include %D%/perf/local.mk
+include %D%/perf/accuracy/local.mk
 include %D%/perf/radiosity/local.mk
 
 TESTS += $(check_PROGRAMS)
