@@ -45,6 +45,8 @@ struct enclosure {
     // this part of the element does not exist.
     bool (*point)(void *state, uint32_t element, double u, double v,
                   struct element_point *out);
+    // The same without regard to what exists; NULL: the polygon has it.
+    bool (*surface)(void *state, uint32_t element, double u, double v, struct vec3 *p);
     // Whether anything can come between points of two elements; NULL: it may.
     bool (*may_hide)(void *state, uint32_t a, uint32_t b);
     // Whether something opaque lies on each ray.

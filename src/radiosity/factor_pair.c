@@ -1,5 +1,5 @@
 // Form factors of two elements with nothing between.
-#include "radiosity/form_factor.h"
+#include "radiosity/factor_nodes.h"
 #include "radiosity/polygon.h"
 
 static const double pi = 3.14159265358979323846;
@@ -43,40 +43,54 @@ static bool node_at(const struct factor_state *s, uint32_t element, double u, do
     return element_at(s, element, u, v, out);
 }
 
-// Part of the small element's parameter square.
+// Part of an element's parameter square.
 struct panel {
     double u, v, side;
 };
+
+// What is seen from there: the polygon of an element that is flat and whole, else pieces.
+struct target {
+    const struct vec3 (*corner)[4];
+    uint32_t count, corners;
+    double scale;
+};
+
+static double target_factor(const struct target *t, const struct element_point *from)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < t->count; i++)
+        sum += lambert_polygon(from->p, from->normal, t->corner[i], t->corners);
+    return sum * t->scale;
+}
 
 // Sums over the panel: of area, and of area times the factor of the points.
 struct panel_sum {
     double area, factor;
 };
 
-static struct panel_sum panel_integral(const struct factor_state *s, uint32_t small,
-                                       const struct element *big, struct panel at, int k)
+static struct panel_sum panel_integral(const struct factor_state *s, uint32_t from,
+                                       const struct target *to, struct panel at, int k)
 {
     const struct gauss *g = gauss_rule(k);
     struct panel_sum sum = {0, 0};
     for (int i = 0; i < k; i++) {
         for (int j = 0; j < k; j++) {
-            struct element_point from;
+            struct element_point node;
             double jacobian;
-            if (!node_at(s, small, at.u + at.side * g->at[i], at.v + at.side * g->at[j],
-                         &from, &jacobian))
+            if (!node_at(s, from, at.u + at.side * g->at[i], at.v + at.side * g->at[j],
+                         &node, &jacobian))
                 continue;
             const double w = g->weight[i] * g->weight[j] * jacobian * at.side * at.side;
             sum.area += w;
-            sum.factor +=
-                w * lambert_polygon(from.p, from.normal, big->corner, big->corner_count);
+            sum.factor += w * target_factor(to, &node);
         }
     }
     return sum;
 }
 
 // Quarters the panel until that changes less than `allowed`.
-static struct panel_sum panel_refine(const struct factor_state *s, uint32_t small,
-                                     const struct element *big, struct panel at,
+static struct panel_sum panel_refine(const struct factor_state *s, uint32_t from,
+                                     const struct target *to, struct panel at,
                                      struct panel_sum whole, double allowed, int depth)
 {
     const int k = s->settings->points + 1;
@@ -85,7 +99,7 @@ static struct panel_sum panel_refine(const struct factor_state *s, uint32_t smal
     for (int i = 0; i < 4; i++) {
         const double half = at.side / 2;
         part[i] = (struct panel){at.u + (i & 1) * half, at.v + (i >> 1) * half, half};
-        quarter[i] = panel_integral(s, small, big, part[i], k);
+        quarter[i] = panel_integral(s, from, to, part[i], k);
         sum.area += quarter[i].area;
         sum.factor += quarter[i].factor;
     }
@@ -94,28 +108,74 @@ static struct panel_sum panel_refine(const struct factor_state *s, uint32_t smal
     sum = (struct panel_sum){0, 0};
     for (int i = 0; i < 4; i++) {
         const struct panel_sum q =
-            panel_refine(s, small, big, part[i], quarter[i], allowed / 2, depth - 1);
+            panel_refine(s, from, to, part[i], quarter[i], allowed / 2, depth - 1);
         sum.area += q.area;
         sum.factor += q.factor;
     }
     return sum;
 }
 
+// From points of an element to a target about `distance` away.
+static double points_factor(struct factor_state *s, uint32_t from,
+                            const struct target *to, double distance)
+{
+    const struct panel all = {0, 0, 1};
+    const bool near = distance < 3 * polygon_radius(&s->enclosure->element[from]);
+    const int k = s->settings->points;
+    struct panel_sum sum = panel_integral(s, from, to, all, near ? k + 1 : k);
+    if (near && sum.area > 0) {
+        const double allowed = s->settings->tolerance * fmax(sum.factor, 1e-3 * sum.area);
+        sum = panel_refine(s, from, to, all, sum, allowed, s->settings->depth);
+    }
+    if (sum.area > 0)
+        return sum.factor / sum.area;
+    // A sliver that the grid missed.
+    const struct element_nodes *n = nodes_of(s, from);
+    for (uint32_t i = 0; i < n->count; i++) {
+        sum.area += n->weight[i];
+        sum.factor += n->weight[i] * target_factor(to, &n->at[i]);
+    }
+    return sum.area > 0 ? sum.factor / sum.area : 0;
+}
+
+static bool is_plain(const struct element *e) { return !e->curved && !e->partial; }
+
+static double polygon_factor(struct factor_state *s, uint32_t from, uint32_t to,
+                             double distance)
+{
+    const struct element *e = &s->enclosure->element[to];
+    const struct target t = {&e->corner, 1, e->corner_count, (double)e->coverage};
+    return points_factor(s, from, &t, distance - polygon_radius(e));
+}
+
+static double pieces_factor(struct factor_state *s, uint32_t from, uint32_t to,
+                            double distance)
+{
+    const struct element *e = &s->enclosure->element[to];
+    const struct element_pieces *p = pieces_of(s, to);
+    const struct target t = {(const struct vec3(*)[4])p->corner, p->count, 4, p->scale};
+    return points_factor(s, from, &t, distance - polygon_radius(e));
+}
+
 double factor_analytic(struct factor_state *s, uint32_t small, uint32_t big)
 {
+    // The polygon formula is exact for what is flat and whole. Of two others, points of
+    // both will do where they are apart by more than their sizes, and on one smooth
+    // surface, where the kernel is bounded.
+    static const double apart = 1;
     const struct element *a = &s->enclosure->element[small];
     const struct element *b = &s->enclosure->element[big];
     const double distance = vec3_length(vec3_sub(b->centre, a->centre));
-    const double radius = polygon_radius(a);
-    const struct panel all = {0, 0, 1};
-    const bool near = distance - polygon_radius(b) < 3 * radius;
-    const int k = s->settings->points;
-    struct panel_sum sum = panel_integral(s, small, b, all, near ? k + 1 : k);
-    if (near && sum.area > 0) {
-        const double allowed = s->settings->tolerance * fmax(sum.factor, 1e-3 * sum.area);
-        sum = panel_refine(s, small, b, all, sum, allowed, s->settings->depth);
-    }
-    return sum.area > 0 ? sum.factor / sum.area * (double)b->coverage : 0;
+    if (is_plain(b))
+        return polygon_factor(s, small, big, distance);
+    const double ra = polygon_radius(a), rb = polygon_radius(b);
+    const bool smooth = a->curved && b->curved && a->surface == b->surface;
+    if (smooth || distance > ra + rb + 2 * apart * fmax(ra, rb))
+        return is_plain(a) ? polygon_factor(s, big, small, distance) * b->area / a->area
+                           : nodes_factor(s, small, big);
+    if (is_plain(a) && 4 * ra > rb)
+        return polygon_factor(s, big, small, distance) * b->area / a->area;
+    return pieces_factor(s, small, big, distance);
 }
 
 double point_kernel(const struct element_point *a, const struct element_point *b)

@@ -22,19 +22,29 @@ struct vec3 cosine_direction(struct vec3 n, double u, double v)
 
 struct seen {
     double all, visible;
-    uint32_t hidden, rays;
 };
+
+static void look_batch(struct factor_state *s, const double *weight, struct seen *seen)
+{
+    s->enclosure->occluded(s->of_enclosure, s->rays, s->hidden);
+    s->ray_count += s->rays->count;
+    for (uint32_t i = 0; i < s->rays->count; i++) {
+        seen->all += weight[i];
+        if (!s->hidden[i])
+            seen->visible += weight[i];
+    }
+    s->rays->count = 0;
+}
 
 // Shadow rays [begin, end) of a pair's sequence.
 static void look(struct factor_state *s, uint32_t a, uint32_t b, uint32_t begin,
                  uint32_t end, struct seen *seen)
 {
-    enum { MOST = 256 };
-    double weight[MOST];
+    enum { BATCH = 256 };
+    double weight[BATCH];
     const uint32_t seed = sequence_seed(sequence_seed(a, b), s->settings->seed);
-    struct ray_batch *rays = s->rays;
-    rays->count = 0;
-    for (uint32_t i = begin; i < end && rays->count < MOST; i++) {
+    s->rays->count = 0;
+    for (uint32_t i = begin; i < end; i++) {
         struct element_point from, to;
         double x[4];
         sobol_point(i, seed, x);
@@ -43,34 +53,41 @@ static void look(struct factor_state *s, uint32_t a, uint32_t b, uint32_t begin,
         const double w = point_kernel(&from, &to);
         if (w <= 0)
             continue;
-        weight[rays->count] = w;
-        ray_put_between(rays, &from, &to);
+        weight[s->rays->count] = w;
+        ray_put_between(s->rays, &from, &to);
+        if (s->rays->count == BATCH)
+            look_batch(s, weight, seen);
     }
-    if (!rays->count)
-        return;
-    s->enclosure->occluded(s->of_enclosure, rays, s->hidden);
-    s->ray_count += rays->count;
-    for (uint32_t i = 0; i < rays->count; i++) {
-        seen->all += weight[i];
-        seen->rays++;
-        if (s->hidden[i])
-            seen->hidden++;
-        else
-            seen->visible += weight[i];
-    }
+    if (s->rays->count)
+        look_batch(s, weight, seen);
 }
 
-double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b)
+// Rays that keep the error of the factor below `visibility`: scrambled Sobol points err
+// about as their number to the power -.8. What rays meet has no part in it: to stop where
+// the first few agree would make rare gaps and rare obstacles vanish.
+static uint32_t shadow_rays(const struct form_factor_settings *s, double factor)
 {
+    enum { MOST = 4096 };
+    const double ratio = factor / (2 * s->visibility);
+    const double wanted = ratio * sqrt(sqrt(ratio)), least = s->shadow_rays;
+    uint32_t count = 1; // powers of 2 fill the square evenly
+    while (count < wanted && count < MOST)
+        count *= 2;
+    return count > least ? count : (uint32_t)least;
+}
+
+double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b, double factor)
+{
+    enum { TIMES = 5 }; // more for slivers, of which few points exist
     if (!s->enclosure->occluded)
         return 1;
     if (s->enclosure->may_hide && !s->enclosure->may_hide(s->of_enclosure, a, b))
         return 1;
-    const uint32_t few = (uint32_t)s->settings->shadow_rays;
-    struct seen seen = {0, 0, 0, 0};
-    look(s, a, b, 0, few, &seen);
-    if (seen.rays == 0 || (seen.hidden && seen.hidden < seen.rays))
-        look(s, a, b, few, 5 * few, &seen);
+    const uint32_t count = shadow_rays(s->settings, factor);
+    struct seen seen = {0, 0};
+    look(s, a, b, 0, count, &seen);
+    if (seen.all <= 0)
+        look(s, a, b, count, TIMES * count, &seen);
     return seen.all > 0 ? seen.visible / seen.all : 0;
 }
 

@@ -15,6 +15,7 @@ const struct form_factor_settings form_factor_defaults = {
     .tolerance = 1e-4,
     .depth = 8,
     .shadow_rays = 8,
+    .visibility = 2.5e-4,
     .rays = 4096,
     .resolution = 128,
 };
@@ -62,6 +63,7 @@ void factor_state_free(struct factor_state *s)
         s->enclosure->thread_end(s->of_enclosure);
     ray_batch_free(s->rays);
     hemicube_free(s->hemicube);
+    free(s->nodes);
     free(s->hidden);
     free(s->met);
     free(s);
@@ -70,6 +72,8 @@ void factor_state_free(struct factor_state *s)
 static double pair_of(struct factor_state *s, pair_function *pair, uint32_t i, uint32_t j)
 {
     const struct element *a = &s->enclosure->element[i], *b = &s->enclosure->element[j];
+    if (i == j)
+        return factor_self(s, i);
     if (a->area <= 0 || pair_is_dark(a, b))
         return 0;
     // From the smaller one: its points see the larger whole.
@@ -77,7 +81,7 @@ static double pair_of(struct factor_state *s, pair_function *pair, uint32_t i, u
     const double f = turned ? pair(s, j, i) : pair(s, i, j);
     if (f <= 0)
         return 0;
-    const double seen = f * pair_visibility(s, i < j ? i : j, i < j ? j : i);
+    const double seen = f * pair_visibility(s, i < j ? i : j, i < j ? j : i, f);
     return turned ? seen * b->area / a->area : seen;
 }
 
@@ -95,7 +99,7 @@ void factor_row(struct factor_state *s, uint32_t i, float *row)
         return;
     }
     for (uint32_t j = 0; j < s->enclosure->count; j++)
-        row[j] = i == j ? 0 : (float)pair_of(s, m->pair, i, j);
+        row[j] = (float)pair_of(s, m->pair, i, j);
 }
 
 double factors_bytes(uint32_t count) { return (double)count * count * sizeof(float); }
@@ -131,7 +135,7 @@ static void rows(void *user, void *state, uint32_t first, uint32_t last)
             a->method->row(s, (uint32_t)i, a->f->f + i * n);
         } else {
             // Reciprocity gives the other half.
-            for (size_t j = i + 1; j < n; j++) {
+            for (size_t j = i; j < n; j++) {
                 const double f = pair_of(s, a->method->pair, (uint32_t)i, (uint32_t)j);
                 a->f->f[i * n + j] = (float)f;
                 if (f > 0)

@@ -9,7 +9,8 @@ struct form_factor_settings {
     int points;         // Gauss points along each side of an element
     double tolerance;   // relative, of pairs close to each other
     int depth;          // how often such an element is quartered at most
-    int shadow_rays;    // of a pair; four times as many where it is partly hidden
+    int shadow_rays;    // of a pair, at least
+    double visibility;  // error of a factor by what hides it; heavy pairs have more rays
     int rays;           // of an element
     int resolution;     // pixels along a side of the hemicube
     uint32_t seed;
@@ -30,6 +31,7 @@ const char *form_factor_name(enum form_factor_method m);
 
 // What one thread needs.
 struct hemicube;
+struct node_cache;
 struct factor_state {
     const struct enclosure *enclosure;
     const struct form_factor_settings *settings;
@@ -38,6 +40,7 @@ struct factor_state {
     uint8_t *hidden;
     uint32_t *met;
     struct hemicube *hemicube;
+    struct node_cache *nodes; // NULL: not used so far
     uint64_t ray_count;
 };
 struct factor_state *factor_state_new(const struct enclosure *e,
@@ -56,8 +59,11 @@ bool element_at(const struct factor_state *s, uint32_t element, double u, double
 // Unit vector with probability cosine / pi about n.
 struct vec3 cosine_direction(struct vec3 n, double u, double v);
 // How much of the light between two elements gets through, by shadow rays between points
-// of both, weighted by the kernel of the form factor.
-double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b);
+// of both, weighted by the kernel of the form factor; the larger the factor with nothing
+// between, the more rays.
+double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b, double factor);
+// F from a curved element to itself.
+double factor_self(struct factor_state *s, uint32_t element);
 // The kernel cos cos / (pi r^2) of two points; 0 when one does not see the other.
 double point_kernel(const struct element_point *a, const struct element_point *b);
 // Whether both elements lie wholly behind each other, or in one plane.

@@ -248,6 +248,17 @@ static bool point(void *state, uint32_t element, double u, double v,
     return true;
 }
 
+static bool bare_surface(void *state, uint32_t element, double u, double v,
+                         struct vec3 *p)
+{
+    const struct of_thread *t = state;
+    const struct cell *c = &t->p->cell[t->p->element_cell[element] / 2];
+    const struct chart *chart = &t->p->chart[c->chart];
+    struct vec3 n;
+    return chart_point(chart, &t->p->job->world->leaf[chart->leaf], c->u + u * c->du,
+                       c->v + v * c->dv, p, &n);
+}
+
 static bool may_hide(void *state, uint32_t a, uint32_t b)
 {
     const struct of_thread *t = state;
@@ -333,6 +344,7 @@ void patches_enclosure(struct patches *p)
                                       .thread_begin = thread_begin,
                                       .thread_end = thread_end,
                                       .point = point,
+                                      .surface = bare_surface,
                                       .may_hide = may_hide,
                                       .occluded = occluded,
                                       .closest = closest};

@@ -218,7 +218,7 @@ static void cell_split(struct patches *p, uint32_t index)
 }
 
 // ---- elements ----------------------------------------------------------------------
-enum { SAMPLES_MOST = 8 };
+enum { SAMPLES_MOST = 8, SAMPLES_PART = 16 };
 
 // What sampling found of one side of a cell.
 struct found {
@@ -226,6 +226,7 @@ struct found {
     struct rgb reflectance, emission;
     uint32_t members, tried;
     struct vec3 normal, centre;
+    bool crossed; // a wall stands on it
 };
 
 static bool mixed(const struct found *f) { return f->members && f->members < f->tried; }
@@ -237,6 +238,52 @@ struct sampling {
     bool last;      // cells that exist in part are measured closely, not quartered
     struct found (*found)[2];
 };
+
+// Whether the ways from the middle to the rim, just above the cell, are not all free: then
+// a wall stands on it, and light would get from one side to the other.
+enum { RIM = 8 };
+static bool is_crossed(const struct patches *p, struct tracer *t, const struct found *f,
+                       struct vec3 middle, const struct vec3 rim[RIM])
+{
+    static const double above = 1e-3; // of the cell's size
+    const struct vec3 n = vec3_normalize(f->normal);
+    double top = 0;
+    for (int k = 0; k < RIM; k++)
+        top = fmax(top, vec3_dot(vec3_sub(rim[k], middle), n));
+    top += above * sqrt(f->area);
+    const struct vec3 o = vec3_mad(middle, top, n);
+    for (int k = 0; k < RIM; k++) {
+        const double height = vec3_dot(vec3_sub(rim[k], middle), n);
+        const struct vec3 to = vec3_mad(rim[k], top - height, n);
+        const struct ray_query q = {{o, vec3_sub(to, o), 0, 1}, OBJECT_NO_RADIOSITY};
+        if (trace_occluded_1(p->job->world, t->scratch, &q))
+            return true;
+    }
+    return false;
+}
+
+static void sample_rim(const struct patches *p, struct tracer *t, const struct cell *c,
+                       int side, struct found *f)
+{
+    // What cuts a cell mostly cuts a corner or an edge.
+    static const double in = 1e-3, out = 1 - 1e-3;
+    static const double rim[RIM][2] = {{in, in}, {out, in}, {out, out}, {in, out},
+                                       {.5, in}, {out, .5}, {.5, out},  {in, .5}};
+    const struct patch_probe probe = {t->scratch, p};
+    struct vec3 at[RIM];
+    struct element_point x;
+    struct hit hit;
+    struct ray ray;
+    for (int k = 0; k < RIM; k++) {
+        if (!patch_point(&probe, c, side, rim[k][0], rim[k][1], &x, &hit, &ray)) {
+            f->tried++;
+            return;
+        }
+        at[k] = x.p;
+    }
+    if (patch_point(&probe, c, side, .5, .5, &x, &hit, &ray))
+        f->crossed = is_crossed(p, t, f, x.p, at);
+}
 
 static void sample_cell(const struct patches *p, struct tracer *t, uint32_t index,
                         int side, int n, struct found *f)
@@ -265,17 +312,8 @@ static void sample_cell(const struct patches *p, struct tracer *t, uint32_t inde
         f->centre = vec3_mad(f->centre, area, at.p);
         f->members++;
     }
-    // What cuts a cell mostly cuts a corner or an edge.
-    static const double in = 1e-3, out = 1 - 1e-3;
-    const double rim[8][2] = {{in, in}, {out, in}, {out, out}, {in, out},
-                              {.5, in}, {out, .5}, {.5, out},  {in, .5}};
-    for (int k = 0; k < 8 && f->members == f->tried; k++) {
-        struct element_point at;
-        struct hit hit;
-        struct ray ray;
-        if (!patch_point(&probe, c, side, rim[k][0], rim[k][1], &at, &hit, &ray))
-            f->tried++;
-    }
+    if (f->members == f->tried)
+        sample_rim(p, t, c, side, f);
 }
 
 static void *sampling_begin(void *user)
@@ -298,7 +336,7 @@ static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
             struct found *f = &s->found[i][side];
             sample_cell(s->p, state, s->first + i, side, s->samples, f);
             if (s->last && mixed(f))
-                sample_cell(s->p, state, s->first + i, side, SAMPLES_MOST, f);
+                sample_cell(s->p, state, s->first + i, side, SAMPLES_PART, f);
         }
     }
 }
@@ -368,7 +406,7 @@ static void element_add(struct patches *p, uint32_t index, int side,
 }
 
 // Samples cells [first, end of list) and makes elements of them; those that exist in part
-// are quartered instead, to a depth.
+// or have a wall on them are quartered instead, to a depth.
 static void cells_sample(struct patches *p, uint32_t first, int depth)
 {
     const uint32_t end = p->cell_count;
@@ -389,7 +427,7 @@ static void cells_sample(struct patches *p, uint32_t first, int depth)
     parallel_run(&run, end - first);
     for (uint32_t i = first; i < end; i++) {
         const struct found *f = s.found[i - first];
-        if (depth > 0 && (mixed(&f[0]) || mixed(&f[1]))) {
+        if (depth > 0 && (mixed(&f[0]) || mixed(&f[1]) || f[0].crossed || f[1].crossed)) {
             cell_split(p, i);
             continue;
         }
@@ -474,7 +512,8 @@ static struct patches *build(const struct job *job, const struct patch_settings 
 
 struct patches *patches_build(const struct job *job, const struct patch_settings *s)
 {
-    enum { TRIAL = 400 };
+    enum { TRIAL = 400, RETRIES = 3 };
+    static const double most = 1.15; // elements, of those wanted
     struct patch_settings settings = *s;
     if (s->size <= 0) {
         // How much of the surfaces takes part is known from a coarse trial.
@@ -489,6 +528,17 @@ struct patches *patches_build(const struct job *job, const struct patch_settings
         settings.size = sqrt(area / fmax(s->count, 1));
     }
     struct patches *p = settings.size > 0 ? build(job, &settings) : NULL;
+    // Cells that are quartered and small charts may be more than was counted on.
+    for (int k = 0; k < RETRIES && p && s->size <= 0 &&
+                    p->element_count > most * s->count && !watch_cancelled(s->watch);
+         k++) {
+        const uint32_t before = p->element_count;
+        settings.size *= sqrt(before / s->count);
+        patches_free(p);
+        p = build(job, &settings);
+        if (p && p->element_count > .9 * before)
+            break;
+    }
     if (!p)
         return NULL;
     patches_neighbours(p);

@@ -16,6 +16,7 @@ const struct radiosity_options radiosity_defaults = {
                 .tolerance = 1e-3,
                 .depth = 4,
                 .shadow_rays = 8,
+                .visibility = 2.5e-4,
                 .rays = 4096,
                 .resolution = 128},
     .solver = {.solver = "auto",
@@ -121,6 +122,8 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
     report->solver = solver.solver;
     report->method = r->settings.factors.method;
     report->closed = r->settings.closure != CLOSURE_REPORT && is_closed(r->patches, 4096);
+    system.closed = r->settings.closure == CLOSURE_ENFORCE ||
+                    (r->settings.closure == CLOSURE_AUTO && report->closed);
     if (solver_needs_matrix(solver_find(solver.solver))) {
         watch_part(watch, from, from + .9 * (to - from));
         if (!factors_compute(&f, e, &r->settings.factors)) {
@@ -131,8 +134,7 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
         report->row_sum_least = f.row_sum_least;
         report->row_sum_most = f.row_sum_most;
         report->asymmetry = f.asymmetry;
-        if (r->settings.closure == CLOSURE_ENFORCE ||
-            (r->settings.closure == CLOSURE_AUTO && report->closed))
+        if (system.closed)
             factors_balance(&f, e, r->settings.watch);
         else if (!f.symmetric)
             factors_symmetrize(&f, e);

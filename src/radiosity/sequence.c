@@ -59,25 +59,20 @@ static const uint32_t directions[3][32] = {
      0x200200a2u, 0x50050093u},
 };
 
-static uint32_t sobol_bits(const uint32_t v[32], uint32_t index)
-{
-    uint32_t x = 0;
-    for (; index; index >>= 1, v++)
-        if (index & 1)
-            x ^= *v;
-    return x;
-}
-
 void sobol_point(uint32_t index, uint32_t seed, double out[4])
 {
     // The order is shuffled in the same way, so that sequences of different seeds have
     // nothing to do with each other.
     index = scramble(index, seed);
-    out[0] = scramble(reverse(index), sequence_seed(seed, 1)) * (1.0 / 4294967296.0);
-    for (uint32_t d = 0; d < 3; d++)
-        out[d + 1] =
-            scramble(sobol_bits(directions[d], index), sequence_seed(seed, d + 2)) *
-            (1.0 / 4294967296.0);
+    uint32_t x[4] = {reverse(index), 0, 0, 0};
+    for (uint32_t left = index; left; left &= left - 1) {
+        const int bit = __builtin_ctz(left);
+        x[1] ^= directions[0][bit];
+        x[2] ^= directions[1][bit];
+        x[3] ^= directions[2][bit];
+    }
+    for (uint32_t d = 0; d < 4; d++)
+        out[d] = scramble(x[d], sequence_seed(seed, d + 1)) * (1.0 / 4294967296.0);
 }
 
 void random_point(uint32_t index, uint32_t seed, double out[4])

@@ -10,7 +10,7 @@
 #include "radiosity/sequence.h"
 #include "radiosity/solver.h"
 
-enum { LINK_SAMPLES = 8, GROUP_NONE = UINT32_MAX };
+enum { JUDGE_SAMPLES = 8, LINK_SAMPLES = 16, GROUP_NONE = UINT32_MAX };
 
 struct group {
     uint32_t first, count; // in `order`
@@ -35,6 +35,7 @@ struct hierarchy {
     size_t link_count, link_capacity;
     size_t pending; // first of the links at hand
     double (*b)[3], (*h)[3];
+    double *scale;    // of elements
     double *bright;   // radiosity expected of a group, greatest channel
     double reference; // irradiance that counts as 1
     uint64_t *rays;   // of links at hand
@@ -171,28 +172,46 @@ static uint32_t element_in(const struct hierarchy *t, const struct group *g, dou
     return t->order[g->first + k];
 }
 
-// Samples the kernel between two groups: mean and spread, visibility included.
-static void link_sample(const struct hierarchy *t, struct factor_state *s,
-                        const struct link *l, double *mean, double *spread)
+// A point of the group, uniform in area but for the number of its elements; share
+// corrects that. False: a sliver without points.
+static bool group_point(const struct hierarchy *t, struct factor_state *s,
+                        const struct group *g, uint32_t k, uint32_t seed, double u,
+                        double v, double *share, struct element_point *out)
+{
+    enum { TRIES = 64 };
+    const uint32_t i = element_in(t, g, u, &u);
+    *share = t->s->e->element[i].area * g->count / g->area;
+    double x[4] = {u, v, 0, 0};
+    // Where an element does not exist another point is drawn.
+    for (uint32_t n = 0; n < TRIES; n++) {
+        if (element_at(s, i, x[0], x[1], out))
+            return true;
+        random_point(k, sequence_seed(seed, n + 1), x);
+    }
+    return false;
+}
+
+// Samples [first, first + count) of the kernel between two groups, visibility included:
+// mean and spread.
+static double link_sample(const struct hierarchy *t, struct factor_state *s,
+                          const struct link *l, uint32_t first, uint32_t count,
+                          double *spread)
 {
     const struct group *a = &t->group[l->a], *b = &t->group[l->b];
     const uint32_t seed = sequence_seed(sequence_seed(l->a, l->b), t->settings->seed);
     double value[LINK_SAMPLES], most = 0, least = INFINITY, sum = 0;
     uint32_t ray[LINK_SAMPLES];
     s->rays->count = 0;
-    for (uint32_t k = 0; k < LINK_SAMPLES; k++) {
+    for (uint32_t k = 0; k < count; k++) {
         struct element_point from, to;
-        double x[4];
-        sobol_point(k, seed, x);
-        const uint32_t i = element_in(t, a, x[0], &x[0]);
-        const uint32_t j = element_in(t, b, x[2], &x[2]);
+        double x[4], share_a, share_b;
+        sobol_point(first + k, seed, x);
         value[k] = 0;
         ray[k] = UINT32_MAX;
-        if (!element_at(s, i, x[0], x[1], &from) || !element_at(s, j, x[2], x[3], &to))
+        if (!group_point(t, s, a, first + k, seed, x[0], x[1], &share_a, &from) ||
+            !group_point(t, s, b, first + k, ~seed, x[2], x[3], &share_b, &to))
             continue;
-        const double share = t->s->e->element[i].area * a->count / a->area *
-                             t->s->e->element[j].area * b->count / b->area;
-        value[k] = share * point_kernel(&from, &to);
+        value[k] = share_a * share_b * point_kernel(&from, &to);
         if (value[k] <= 0)
             continue;
         ray[k] = s->rays->count;
@@ -201,17 +220,17 @@ static void link_sample(const struct hierarchy *t, struct factor_state *s,
     if (t->s->e->occluded && s->rays->count) {
         t->s->e->occluded(s->of_enclosure, s->rays, s->hidden);
         s->ray_count += s->rays->count;
-        for (uint32_t k = 0; k < LINK_SAMPLES; k++)
+        for (uint32_t k = 0; k < count; k++)
             if (ray[k] != UINT32_MAX && s->hidden[ray[k]])
                 value[k] = 0;
     }
-    for (uint32_t k = 0; k < LINK_SAMPLES; k++) {
+    for (uint32_t k = 0; k < count; k++) {
         sum += value[k];
         most = fmax(most, value[k]);
         least = fmin(least, value[k]);
     }
-    *mean = sum / LINK_SAMPLES;
     *spread = most - least;
+    return sum / count;
 }
 
 // Whether groups may touch: samples then miss how steep the kernel is.
@@ -224,23 +243,26 @@ static bool close_by(const struct group *a, const struct group *b)
 static void link_judge(struct hierarchy *t, struct factor_state *s, struct link *l)
 {
     const struct group *a = &t->group[l->a], *b = &t->group[l->b];
-    if (l->a == l->b) {
-        l->final = a->count == 1;
-        return;
-    }
     if (a->count == 1 && b->count == 1) {
         const uint32_t i = t->order[a->first], j = t->order[b->first];
         l->exchange = a->area * pair_factor(s, i, j);
         l->final = true;
         return;
     }
-    double mean, spread;
-    link_sample(t, s, l, &mean, &spread);
-    l->exchange = mean * a->area * b->area;
+    if (l->a == l->b || close_by(a, b))
+        return;
+    double spread;
+    link_sample(t, s, l, 0, JUDGE_SAMPLES, &spread);
     // The light that constant values put wrong on either side.
     const double off =
         spread * fmax(b->area * t->bright[l->b], a->area * t->bright[l->a]);
-    l->final = !close_by(a, b) && off <= t->settings->link_error * t->reference;
+    if (off > t->settings->link_error * t->reference)
+        return;
+    // Others than those that spoke for it: links whose samples miss a peak are taken more
+    // often than those that meet it.
+    l->exchange =
+        link_sample(t, s, l, JUDGE_SAMPLES, LINK_SAMPLES, &spread) * a->area * b->area;
+    l->final = true;
 }
 
 static void *begin(void *user)
@@ -332,7 +354,8 @@ static void gather(struct hierarchy *t)
         const double to_b = l->exchange / t->group[l->b].area;
         for (int c = 0; c < 3; c++) {
             t->h[l->a][c] += to_a * t->b[l->b][c];
-            t->h[l->b][c] += to_b * t->b[l->a][c];
+            if (l->a != l->b)
+                t->h[l->b][c] += to_b * t->b[l->a][c];
         }
     }
     // Children come after their parents.
@@ -358,17 +381,59 @@ static void elements_get(const struct hierarchy *t, double (*h)[3])
             memcpy(h[t->order[t->group[k].first]], t->h[k], sizeof *h);
 }
 
+// Irradiance by radiosities, every exchange times the scales of both elements.
+static void exchange(struct hierarchy *t, double (*b)[3], double (*h)[3],
+                     double (*scaled)[3])
+{
+    const uint32_t n = t->s->e->count;
+    for (uint32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++)
+            scaled[i][c] = b[i][c] * t->scale[i];
+    elements_set(t, scaled);
+    gather(t);
+    elements_get(t, h);
+    for (uint32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++)
+            h[i][c] *= t->scale[i];
+}
+
+// Scales both sides until what every element gets of a world of radiosity 1 is 1, as
+// factors_balance does with a matrix.
+static void balance(struct hierarchy *t)
+{
+    enum { ROUNDS = 100 };
+    static const double exact = 1e-6;
+    const uint32_t n = t->s->e->count;
+    double(*one)[3] = solver_alloc(n, sizeof *one);
+    double(*h)[3] = solver_alloc(n, sizeof *h);
+    double(*scaled)[3] = solver_alloc(n, sizeof *scaled), worst = INFINITY;
+    for (uint32_t i = 0; i < n; i++)
+        one[i][0] = 1;
+    for (int k = 0; k < ROUNDS && worst > exact && !watch_cancelled(t->settings->watch);
+         k++) {
+        worst = 0;
+        exchange(t, one, h, scaled);
+        for (uint32_t i = 0; i < n; i++) {
+            if (h[i][0] <= 0)
+                continue;
+            worst = fmax(worst, fabs(h[i][0] - 1));
+            t->scale[i] /= sqrt(h[i][0]);
+        }
+    }
+    free(one);
+    free(h);
+    free(scaled);
+}
+
 static void iterate(struct hierarchy *t, struct radiosity_solution *out,
                     double (*source)[3])
 {
     const uint32_t n = out->count;
     const uint32_t most = t->settings->steps_max ? t->settings->steps_max : 10000;
-    double previous = 0;
+    double previous = 0, (*scaled)[3] = solver_alloc(n, sizeof *scaled);
     while (out->steps < most && !out->converged && !watch_cancelled(t->settings->watch)) {
         double change = 0, reflected = 0;
-        elements_set(t, out->b);
-        gather(t);
-        elements_get(t, out->h);
+        exchange(t, out->b, out->h, scaled);
         for (uint32_t i = 0; i < n; i++) {
             double rho[3];
             element_reflectance(&t->s->e->element[i], rho);
@@ -385,6 +450,10 @@ static void iterate(struct hierarchy *t, struct radiosity_solution *out,
         previous = change;
         out->steps++;
     }
+    for (uint32_t i = 0; i < n; i++)
+        element_emission(&t->s->e->element[i], source[i]);
+    exchange(t, source, out->h_emitted, scaled);
+    free(scaled);
 }
 
 // What groups may be expected to radiate: their source, and the ambient reflected.
@@ -436,13 +505,14 @@ void solve_hierarchical(struct radiosity_solution *out, const struct radiosity_s
     if (watch_cancelled(settings->watch))
         t.link_count = 0;
     memcpy(out->b, source, n * sizeof *source);
-    iterate(&t, out, source);
+    t.scale = solver_alloc(n, sizeof *t.scale);
     for (uint32_t i = 0; i < n; i++)
-        element_emission(&s->e->element[i], source[i]);
-    elements_set(&t, source);
-    gather(&t);
-    elements_get(&t, out->h_emitted);
+        t.scale[i] = 1;
+    if (s->closed)
+        balance(&t);
+    iterate(&t, out, source);
     free(source);
+    free(t.scale);
     free(t.order);
     free(t.group);
     free(t.link);

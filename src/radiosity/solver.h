@@ -14,6 +14,7 @@ struct radiosity_system {
     const double (*lamps)[3];                   // irradiance per element; NULL: none
     const struct factors *f;                    // NULL where the solver needs none
     const struct form_factor_settings *factors; // for solvers that compute their own
+    bool closed; // nothing leaves: rows may be scaled to sum to 1 (hierarchical)
 };
 
 struct solver_settings {

@@ -89,6 +89,7 @@ static struct mean mean_of(const struct scene_run *s,
 
 static bool flat_up(const struct element *e) { return e->normal.z > .999 && !e->curved; }
 static bool curved(const struct element *e) { return e->curved; }
+static bool small_sphere(const struct element *e) { return e->centre.z > .5; }
 
 // make check takes the short way; `make check-radiosity` all of it.
 static bool in_full(void) { return getenv("LAMBERT_RADIOSITY_FULL") != NULL; }
@@ -183,7 +184,7 @@ static void caps(void **state)
             print_message("S%zu %s: %.5f %.5f, areas %.5f %.5f, %u patches\n", i + 5,
                           solvers[k], dome.b, base.b, dome.area, base.area,
                           s.r->report.elements);
-            const double off = k == 0 ? .005 : k == 1 ? .01 : .04;
+            const double off = k == 1 ? .01 : .005;
             assert_near(dome.b / cases[i].dome, 1, off);
             assert_near(base.b / cases[i].base, 1, off);
             // F14: elements cut by the edge have the area that exists.
@@ -245,6 +246,21 @@ static void discs_c4(void **state)
 }
 
 // ---- failures of section 4 ------------------------------------------------------------------
+// What few rays reach takes part: T12, a small sphere over a large disc, seen from afar.
+static void small_over_large_t12(void **state)
+{
+    (void)state;
+    const char *text = HEAD "camera { location <0, -30, 20> look_at 0 }\n"
+                            "disc { 0, z, 10 M(.5, 1) } sphere { z, .02 M(.5, 0) }";
+    struct radiosity_options o = with(150, "gauss-seidel");
+    struct scene_run s = solve(text, &o);
+    const struct mean m = mean_of(&s, small_sphere);
+    print_message("T12: %.5f, area %.6f\n", m.h, m.area);
+    assert_near(m.area / (4 * 3.14159265 * .0004), 1, 1e-3);
+    assert_near(m.h / .450248, 1, .02);
+    run_free(&s);
+}
+
 static bool dark_room(const struct element *e) { return e->centre.x > .06; }
 static bool lit_room(const struct element *e) { return e->centre.x < -.06; }
 
@@ -455,6 +471,7 @@ int main(void)
         cmocka_unit_test(caps),
         cmocka_unit_test(concentric_s4),
         cmocka_unit_test(discs_c4),
+        cmocka_unit_test(small_over_large_t12),
         cmocka_unit_test(leaks_f9),
         cmocka_unit_test(contact_f10),
         cmocka_unit_test(enclosed_f15_f16),
