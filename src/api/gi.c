@@ -130,7 +130,7 @@ static enum lambert_status write_aov(struct lambert_context *ctx, const struct g
         const struct hit hit = trace_closest_1(job->world, s, &q);
         if (!(hit.b.t < INFINITY))
             continue;
-        const struct rgb c = radiosity_of_hit(g->radiosity, &q.ray, &hit);
+        const struct rgb c = radiosity_of_hit(g->radiosity, s, &q.ray, &hit);
         float *pixel = image_at(&im, i % width, i / width);
         pixel[0] = c.r;
         pixel[1] = c.g;

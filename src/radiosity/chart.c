@@ -318,13 +318,26 @@ static void mesh_charts(struct charts *list, const struct mesh *m)
     }
 }
 
-// Lines along each axis through the box of the shape.
-static void projected_charts(struct charts *list)
+static struct aabb in_shape_space(const struct leaf *l, const struct aabb *world)
+{
+    struct aabb b = aabb_empty();
+    for (int i = 0; i < 8; i++)
+        b = aabb_add(b, transform_inverse_point(
+                            l->transform, vec3(i & 1 ? world->max.x : world->min.x,
+                                               i & 2 ? world->max.y : world->min.y,
+                                               i & 4 ? world->max.z : world->min.z)));
+    return b;
+}
+
+// Lines along each axis through the box of the shape, of what is not cut off.
+static void projected_charts(struct charts *list, const struct aabb *limit)
 {
     const struct leaf *l = list->leaf;
-    const struct aabb b = shape_surface_bounds(l->ops, l->shape);
+    struct aabb b = shape_surface_bounds(l->ops, l->shape);
+    if (aabb_is_finite(*limit))
+        b = aabb_meet(b, in_shape_space(l, limit));
     const struct vec3 d = vec3_sub(b.max, b.min);
-    if (!(vec3_max_abs(d) < INFINITY))
+    if (aabb_is_empty(b) || !(vec3_max_abs(d) < INFINITY))
         return;
     const struct vec3 side[3] = {{d.x, 0, 0}, {0, d.y, 0}, {0, 0, d.z}};
     for (int axis = 0; axis < 3; axis++) {
@@ -364,7 +377,7 @@ uint32_t leaf_charts(const struct world *w, uint32_t leaf, const struct aabb *li
     else if (l->ops == &mesh_ops || l->ops == &mesh2_ops)
         mesh_charts(&list, l->shape);
     else
-        projected_charts(&list);
+        projected_charts(&list, limit);
     return list.count;
 }
 

@@ -55,12 +55,12 @@ static struct rgb emitters_light(const struct radiosity *r, struct tracer *t,
 }
 
 // Irradiance by elements, interpolated.
-static struct rgb mesh_light(const struct radiosity *r, const struct ray *ray,
-                             const struct hit *hit)
+static struct rgb mesh_light(const struct radiosity *r, struct tracer *t,
+                             const struct ray *ray, const struct hit *hit)
 {
     uint32_t element[4];
     double weight[4], sum[3] = {0, 0, 0};
-    const uint32_t n = patch_around(r->patches, ray, hit, element, weight);
+    const uint32_t n = patch_around(r->patches, t->scratch, ray, hit, element, weight);
     for (uint32_t k = 0; k < n; k++)
         for (int c = 0; c < 3; c++)
             sum[c] += weight[k] * r->shown[element[k]][c];
@@ -80,7 +80,7 @@ static struct rgb gathered_light(const struct radiosity *r, struct tracer *t,
         const struct hit hit = trace_closest_1(t->job->world, t->scratch, &q);
         if (!(hit.b.t < INFINITY))
             continue;
-        const uint32_t e = patch_of_hit(r->patches, &q.ray, &hit);
+        const uint32_t e = patch_of_hit(r->patches, t->scratch, &q.ray, &hit);
         if (e == ELEMENT_NONE)
             continue;
         element_emission(&r->patches->element[e], own);
@@ -102,7 +102,7 @@ static struct rgb irradiance(const void *data, struct tracer *t, const struct ra
     const struct vec3 o = trace_offset(at, side);
     (void)n;
     struct rgb c = r->settings.gather ? gathered_light(r, t, o, side, hash)
-                                      : mesh_light(r, ray, hit);
+                                      : mesh_light(r, t, ray, hit);
     if (r->emitter_count)
         c = rgb_add(c, emitters_light(r, t, o, side, hash));
     return c;
@@ -113,9 +113,9 @@ struct indirect radiosity_indirect(const struct radiosity *r)
     return (struct indirect){r, irradiance};
 }
 
-struct rgb radiosity_of_hit(const struct radiosity *r, const struct ray *ray,
-                            const struct hit *hit)
+struct rgb radiosity_of_hit(const struct radiosity *r, struct trace_scratch *scratch,
+                            const struct ray *ray, const struct hit *hit)
 {
-    const uint32_t e = patch_of_hit(r->patches, ray, hit);
+    const uint32_t e = patch_of_hit(r->patches, scratch, ray, hit);
     return e == ELEMENT_NONE ? rgb(0, 0, 0) : of_double(r->solution.b[e]);
 }

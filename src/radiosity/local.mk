@@ -3,7 +3,7 @@ liblambert_a_SOURCES += \
 	%D%/enclosure.h %D%/factor_hemicube.c %D%/factor_nodes.c %D%/factor_nodes.h %D%/factor_pair.c %D%/factor_rays.c \
 	%D%/factors.c %D%/form_factor.h %D%/form_factors.def %D%/hemicube.h \
 	%D%/parallel.c %D%/parallel.h %D%/polygon.c %D%/polygon.h %D%/ray_put.h \
-	%D%/display.c %D%/error_target.c %D%/lamps.c %D%/radiosity.c %D%/radiosity.h %D%/store.c \
+	%D%/display.c %D%/elements.c %D%/error_target.c %D%/lamps.c %D%/radiosity.c %D%/radiosity.h %D%/store.c \
 	%D%/prune.c %D%/shafts.c \
 	%D%/sequence.c %D%/sequence.h %D%/solve_dense.c %D%/solve_hierarchical.c \
 	%D%/solve_shoot.c %D%/solve_stochastic.c %D%/solve_sweep.c %D%/solver.c \

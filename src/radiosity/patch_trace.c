@@ -77,6 +77,7 @@ struct place {
     const struct chart *chart;
     double u, v;
     int side;
+    struct vec3 p;
 };
 
 static bool place_of(const struct patches *p, const struct ray *ray,
@@ -95,6 +96,7 @@ static bool place_of(const struct patches *p, const struct ray *ray,
         return false;
     chart_locate(out->chart, &w->leaf[leaf], at.p, &out->u, &out->v);
     out->side = vec3_dot(at.ng, ray->d) > 0;
+    out->p = at.p;
     return true;
 }
 
@@ -102,32 +104,46 @@ static bool place_of(const struct patches *p, const struct ray *ray,
 static const int steps[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
                                 {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
 
-// The element at a place; where sampling missed a sliver of surface, one beside it.
-static uint32_t element_near(const struct patches *p, const struct place *at)
+static uint32_t element_of(const struct patches *p, struct trace_scratch *scratch,
+                           uint32_t cell, const struct place *at)
 {
-    const struct cell *c = &p->cell[cell_at(p, at->chart, at->u, at->v)];
-    if (c->element[at->side] != ELEMENT_NONE)
+    const struct cell *c = &p->cell[cell];
+    if (!c->part)
         return c->element[at->side];
+    c = &p->cell[c->part];
+    return c[anchor_sees(p, scratch, c->anchor, at->side, at->p) ? 0 : 1]
+        .element[at->side];
+}
+
+// The element at a place; where sampling missed a sliver of surface, one beside it.
+static uint32_t element_near(const struct patches *p, struct trace_scratch *scratch,
+                             const struct place *at)
+{
+    const uint32_t cell = cell_at(p, at->chart, at->u, at->v);
+    const struct cell *c = &p->cell[cell];
+    const uint32_t own = element_of(p, scratch, cell, at);
+    if (own != ELEMENT_NONE)
+        return own;
     for (int k = 0; k < 8; k++) {
         double u = at->u + steps[k][0] * c->du, v = at->v + steps[k][1] * c->dv;
         if (at->chart->wrap)
             u -= floor(u);
         if (u < 0 || u > 1 || v < 0 || v > 1)
             continue;
-        const uint32_t e = p->cell[cell_at(p, at->chart, u, v)].element[at->side];
+        const uint32_t e = element_of(p, scratch, cell_at(p, at->chart, u, v), at);
         if (e != ELEMENT_NONE)
             return e;
     }
     return ELEMENT_NONE;
 }
 
-uint32_t patch_of_hit(const struct patches *p, const struct ray *ray,
-                      const struct hit *hit)
+uint32_t patch_of_hit(const struct patches *p, struct trace_scratch *scratch,
+                      const struct ray *ray, const struct hit *hit)
 {
     struct place at;
     if (!place_of(p, ray, hit, &at))
         return ELEMENT_NONE;
-    return element_near(p, &at);
+    return element_near(p, scratch, &at);
 }
 
 static int step_number(int su, int sv)
@@ -136,7 +152,8 @@ static int step_number(int su, int sv)
     return k < 4 ? k : k - 1;
 }
 
-static uint32_t neighbour(const struct patches *p, uint32_t element, int su, int sv)
+static uint32_t neighbour(const struct patches *p, uint32_t element, int su, int sv,
+                          unsigned part)
 {
     const struct cell *c = &p->cell[p->element_cell[element] / 2];
     const struct chart *chart = &p->chart[c->chart];
@@ -145,23 +162,27 @@ static uint32_t neighbour(const struct patches *p, uint32_t element, int su, int
         u -= floor(u);
     if (u < 0 || u > 1 || v < 0 || v > 1)
         return ELEMENT_NONE;
-    return p->cell[cell_at(p, chart, u, v)].element[p->element_cell[element] & 1];
+    const uint32_t at = cell_at(p, chart, u, v);
+    const struct cell *to = &p->cell[p->cell[at].part ? p->cell[at].part + part : at];
+    return to->element[p->element_cell[element] & 1];
 }
 
 uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k)
 {
     if (!((p->neighbours[element] >> k) & 1))
         return ELEMENT_NONE;
-    return neighbour(p, element, steps[k][0], steps[k][1]);
+    return neighbour(p, element, steps[k][0], steps[k][1],
+                     (p->neighbours[element] >> (8 + k)) & 1);
 }
 
-uint32_t patch_around(const struct patches *p, const struct ray *ray,
-                      const struct hit *hit, uint32_t element[4], double weight[4])
+uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
+                      const struct ray *ray, const struct hit *hit, uint32_t element[4],
+                      double weight[4])
 {
     struct place at;
     if (!place_of(p, ray, hit, &at))
         return 0;
-    const uint32_t own = element_near(p, &at);
+    const uint32_t own = element_near(p, scratch, &at);
     if (own == ELEMENT_NONE)
         return 0;
     const struct cell *c = &p->cell[p->element_cell[own] / 2];
@@ -175,9 +196,7 @@ uint32_t patch_around(const struct patches *p, const struct ray *ray,
     for (int k = 0; k < 4; k++) {
         uint32_t e = own;
         if (k) {
-            if (!((p->neighbours[own] >> step_number(step[k][0], step[k][1])) & 1))
-                continue;
-            e = neighbour(p, own, step[k][0], step[k][1]);
+            e = patch_neighbour(p, own, step_number(step[k][0], step[k][1]));
         }
         if (e == ELEMENT_NONE)
             continue;
@@ -283,8 +302,9 @@ static void closest(void *state, const struct ray_batch *rays, uint32_t *out)
         const struct ray ray = {vec3(rays->o[0][i], rays->o[1][i], rays->o[2][i]),
                                 vec3(rays->d[0][i], rays->d[1][i], rays->d[2][i]), 0,
                                 INFINITY};
-        out[i] = t->hit[i].b.t < INFINITY ? patch_of_hit(t->p, &ray, &t->hit[i])
-                                          : ELEMENT_NONE;
+        out[i] = t->hit[i].b.t < INFINITY
+                     ? patch_of_hit(t->p, t->scratch, &ray, &t->hit[i])
+                     : ELEMENT_NONE;
     }
 }
 
@@ -314,16 +334,17 @@ static void find_neighbours(void *user, void *state, uint32_t begin, uint32_t en
         // Lifted, so that the way between two points of a hollow surface is free.
         const double lift = .05 * sqrt(p->element[i].area);
         from.p = vec3_mad(from.p, lift, from.normal);
-        for (int k = 0; k < 8; k++) {
-            const uint32_t j = neighbour(p, i, steps[k][0], steps[k][1]);
-            if (j == ELEMENT_NONE || !middle(t, j, &to))
+        for (unsigned k = 0; k < 16; k++) {
+            const unsigned step = k % 8, part = k / 8;
+            const uint32_t j = neighbour(p, i, steps[step][0], steps[step][1], part);
+            if (j == ELEMENT_NONE || (p->neighbours[i] >> step) & 1 || !middle(t, j, &to))
                 continue;
             to.p = vec3_mad(to.p, lift, to.normal);
             const struct vec3 o = point_lifted(&from);
             const struct ray_query q = {{o, vec3_sub(point_lifted(&to), o), 0, 1},
                                         OBJECT_NO_RADIOSITY};
             if (!trace_occluded_1(p->job->world, t->scratch, &q))
-                p->neighbours[i] |= (uint8_t)(1u << k);
+                p->neighbours[i] |= (uint16_t)((1u | part << 8) << step);
         }
     }
 }
@@ -352,7 +373,7 @@ void patches_enclosure(struct patches *p)
 
 void patches_neighbours(struct patches *p)
 {
-    p->neighbours = calloc(p->element_count + 1, 1);
+    p->neighbours = calloc(p->element_count + 1, sizeof *p->neighbours);
     if (!p->neighbours)
         abort();
     const struct parallel run = {.threads = p->settings.threads,

@@ -49,7 +49,7 @@ bool patch_point(const struct patch_probe *probe, const struct cell *c, int side
     trace_interaction(p->job->world, ray, hit, &at);
     out->p = at.p;
     out->error = 2 * at.error;
-    return true;
+    return !c->anchor || anchor_sees(p, probe->scratch, c->anchor, side, at.p) != c->twin;
 }
 
 // ---- rooms -------------------------------------------------------------------------
@@ -134,18 +134,6 @@ static void find_rooms(struct patches *p)
 }
 
 // ---- cells -------------------------------------------------------------------------
-static void *grow(void *at, uint32_t *capacity, uint32_t need, size_t size)
-{
-    if (need <= *capacity)
-        return at;
-    while (*capacity < need)
-        *capacity = *capacity ? *capacity + *capacity / 2 : 1024;
-    at = realloc(at, *capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 static double chart_area(const struct patches *p, const struct chart *c, double side[2])
 {
     enum { N = 8 };
@@ -191,253 +179,14 @@ static void chart_cells(struct patches *p, uint32_t index)
     chart_grid(p, c);
     c->first_cell = p->cell_count;
     const uint32_t n = c->nu * c->nv;
-    p->cell = grow(p->cell, &p->cell_capacity, p->cell_count + n, sizeof *p->cell);
+    struct cell *cell = cells_add(p, n);
     for (uint32_t i = 0; i < n; i++)
-        p->cell[p->cell_count++] = (struct cell){.u = (double)(i % c->nu) / c->nu,
-                                                 .v = (double)(i / c->nu) / c->nv,
-                                                 .du = 1.0 / c->nu,
-                                                 .dv = 1.0 / c->nv,
-                                                 .chart = index,
-                                                 .element = {ELEMENT_NONE, ELEMENT_NONE}};
-}
-
-static void cell_split(struct patches *p, uint32_t index)
-{
-    p->cell = grow(p->cell, &p->cell_capacity, p->cell_count + 4, sizeof *p->cell);
-    struct cell *c = &p->cell[index];
-    c->child = p->cell_count;
-    for (int k = 0; k < 4; k++) {
-        struct cell *s = &p->cell[p->cell_count++];
-        *s = *c;
-        s->child = 0;
-        s->du = c->du / 2;
-        s->dv = c->dv / 2;
-        s->u = c->u + (k & 1) * s->du;
-        s->v = c->v + (k >> 1) * s->dv;
-    }
-}
-
-// ---- elements ----------------------------------------------------------------------
-enum { SAMPLES_MOST = 8, SAMPLES_PART = 16 };
-
-// What sampling found of one side of a cell.
-struct found {
-    double area;
-    struct rgb reflectance, emission;
-    uint32_t members, tried;
-    struct vec3 normal, centre;
-    bool crossed; // a wall stands on it
-};
-
-static bool mixed(const struct found *f) { return f->members && f->members < f->tried; }
-
-struct sampling {
-    struct patches *p;
-    uint32_t first; // cell
-    int samples;    // along a side; more in the first round, which must find all there is
-    bool last;      // cells that exist in part are measured closely, not quartered
-    struct found (*found)[2];
-};
-
-// Whether the ways from the middle to the rim, just above the cell, are not all free: then
-// a wall stands on it, and light would get from one side to the other.
-enum { RIM = 8 };
-static bool is_crossed(const struct patches *p, struct tracer *t, const struct found *f,
-                       struct vec3 middle, const struct vec3 rim[RIM])
-{
-    static const double above = 1e-3; // of the cell's size
-    const struct vec3 n = vec3_normalize(f->normal);
-    double top = 0;
-    for (int k = 0; k < RIM; k++)
-        top = fmax(top, vec3_dot(vec3_sub(rim[k], middle), n));
-    top += above * sqrt(f->area);
-    const struct vec3 o = vec3_mad(middle, top, n);
-    for (int k = 0; k < RIM; k++) {
-        const double height = vec3_dot(vec3_sub(rim[k], middle), n);
-        const struct vec3 to = vec3_mad(rim[k], top - height, n);
-        const struct ray_query q = {{o, vec3_sub(to, o), 0, 1}, OBJECT_NO_RADIOSITY};
-        if (trace_occluded_1(p->job->world, t->scratch, &q))
-            return true;
-    }
-    return false;
-}
-
-static void sample_rim(const struct patches *p, struct tracer *t, const struct cell *c,
-                       int side, struct found *f)
-{
-    // What cuts a cell mostly cuts a corner or an edge.
-    static const double in = 1e-3, out = 1 - 1e-3;
-    static const double rim[RIM][2] = {{in, in}, {out, in}, {out, out}, {in, out},
-                                       {.5, in}, {out, .5}, {.5, out},  {in, .5}};
-    const struct patch_probe probe = {t->scratch, p};
-    struct vec3 at[RIM];
-    struct element_point x;
-    struct hit hit;
-    struct ray ray;
-    for (int k = 0; k < RIM; k++) {
-        if (!patch_point(&probe, c, side, rim[k][0], rim[k][1], &x, &hit, &ray)) {
-            f->tried++;
-            return;
-        }
-        at[k] = x.p;
-    }
-    if (patch_point(&probe, c, side, .5, .5, &x, &hit, &ray))
-        f->crossed = is_crossed(p, t, f, x.p, at);
-}
-
-static void sample_cell(const struct patches *p, struct tracer *t, uint32_t index,
-                        int side, int n, struct found *f)
-{
-    const struct cell *c = &p->cell[index];
-    const struct chart *chart = &p->chart[c->chart];
-    const struct leaf *l = &p->job->world->leaf[chart->leaf];
-    const struct patch_probe probe = {t->scratch, p};
-    *f = (struct found){.tried = (uint32_t)(n * n)};
-    for (int i = 0; i < n * n; i++) {
-        const double u = (i % n + .5) / n, v = (i / n + .5) / n;
-        struct element_point at;
-        struct hit hit;
-        struct ray ray;
-        struct rgb reflectance, emission;
-        if (!patch_point(&probe, c, side, u, v, &at, &hit, &ray))
-            continue;
-        const double area = chart_density(chart, l, c->u + u * c->du, c->v + v * c->dv,
-                                          1e-3 * c->du, 1e-3 * c->dv) *
-                            c->du * c->dv / (n * n);
-        patch_colour(t, &ray, &hit, &reflectance, &emission);
-        f->area += area;
-        f->reflectance = rgb_add(f->reflectance, rgb_scale((float)area, reflectance));
-        f->emission = rgb_add(f->emission, rgb_scale((float)area, emission));
-        f->normal = vec3_mad(f->normal, area, at.normal);
-        f->centre = vec3_mad(f->centre, area, at.p);
-        f->members++;
-    }
-    if (f->members == f->tried)
-        sample_rim(p, t, c, side, f);
-}
-
-static void *sampling_begin(void *user)
-{
-    const struct sampling *s = user;
-    return tracer_new(s->p->job);
-}
-
-static void sampling_end(void *user, void *state)
-{
-    (void)user;
-    tracer_free(state);
-}
-
-static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
-{
-    const struct sampling *s = user;
-    for (uint32_t i = begin; i < end; i++) {
-        for (int side = 0; side < 2; side++) {
-            struct found *f = &s->found[i][side];
-            sample_cell(s->p, state, s->first + i, side, s->samples, f);
-            if (s->last && mixed(f))
-                sample_cell(s->p, state, s->first + i, side, SAMPLES_PART, f);
-        }
-    }
-}
-
-static void element_corners(const struct patches *p, const struct cell *c, int side,
-                            struct element *e)
-{
-    const struct chart *chart = &p->chart[c->chart];
-    const struct leaf *l = &p->job->world->leaf[chart->leaf];
-    static const double at[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    e->corner_count = 4;
-    for (int k = 0; k < 4; k++) {
-        struct vec3 n;
-        if (!chart_point(chart, l, c->u + at[k][0] * c->du, c->v + at[k][1] * c->dv,
-                         &e->corner[k], &n)) {
-            // Off the surface: on the tangent plane, along the axis.
-            const struct vec3 o = transform_point(
-                l->transform,
-                vec3_mad(vec3_mad(chart->o, c->u + at[k][0] * c->du, chart->a),
-                         c->v + at[k][1] * c->dv, chart->b));
-            const struct vec3 axis = transform_vector(
-                l->transform, vec3(chart->axis == 0, chart->axis == 1, chart->axis == 2));
-            const double slope = vec3_dot(axis, e->normal);
-            const double t =
-                slope != 0 ? vec3_dot(vec3_sub(e->centre, o), e->normal) / slope : 0;
-            e->corner[k] = vec3_mad(o, t, axis);
-        }
-    }
-    (void)side;
-    // Counter-clockwise about the normal of this side.
-    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
-                                        vec3_sub(e->corner[3], e->corner[1]));
-    if (vec3_dot(turn, e->normal) < 0) {
-        const struct vec3 swap = e->corner[1];
-        e->corner[1] = e->corner[3];
-        e->corner[3] = swap;
-    }
-}
-
-static void element_add(struct patches *p, uint32_t index, int side,
-                        const struct found *f)
-{
-    if (p->element_count == p->element_capacity) {
-        uint32_t capacity = p->element_capacity;
-        p->element_cell = grow(p->element_cell, &capacity, p->element_count + 1,
-                               sizeof *p->element_cell);
-        p->element = grow(p->element, &p->element_capacity, p->element_count + 1,
-                          sizeof *p->element);
-    }
-    struct cell *c = &p->cell[index];
-    const uint32_t i = p->element_count++;
-    const float share = (float)(1 / f->area);
-    struct element *e = &p->element[i];
-    *e = (struct element){.centre = vec3_scale(1 / f->area, f->centre),
-                          .normal = vec3_normalize(f->normal),
-                          .area = f->area,
-                          .reflectance = rgb_scale(share, f->reflectance),
-                          .emission = rgb_scale(share, f->emission),
-                          .surface = 2 * c->chart + (uint32_t)side,
-                          .curved = p->chart[c->chart].curved,
-                          .partial = f->members < f->tried};
-    element_corners(p, c, side, e);
-    const double outline = polygon_area(e);
-    e->coverage = outline > 0 ? (float)(e->area / outline) : 1;
-    c->element[side] = i;
-    p->element_cell[i] = 2 * index + (uint32_t)side;
-}
-
-// Samples cells [first, end of list) and makes elements of them; those that exist in part
-// or have a wall on them are quartered instead, to a depth.
-static void cells_sample(struct patches *p, uint32_t first, int depth)
-{
-    const uint32_t end = p->cell_count;
-    const int few = p->settings.samples;
-    const int samples = first ? few : 2 * few < SAMPLES_MOST ? 2 * few : SAMPLES_MOST;
-    struct sampling s = {p, first, samples, depth == 0,
-                         calloc(end - first + 1, sizeof *s.found)};
-    if (!s.found)
-        abort();
-    const struct parallel run = {.threads = p->settings.threads,
-                                 .piece = 64,
-                                 .watch = p->settings.watch,
-                                 .tells = true,
-                                 .user = &s,
-                                 .begin = sampling_begin,
-                                 .end = sampling_end,
-                                 .work = sampling_work};
-    parallel_run(&run, end - first);
-    for (uint32_t i = first; i < end; i++) {
-        const struct found *f = s.found[i - first];
-        if (depth > 0 && (mixed(&f[0]) || mixed(&f[1]) || f[0].crossed || f[1].crossed)) {
-            cell_split(p, i);
-            continue;
-        }
-        for (int side = 0; side < 2; side++)
-            if (f[side].area > 0)
-                element_add(p, i, side, &f[side]);
-    }
-    free(s.found);
-    if (p->cell_count > end)
-        cells_sample(p, end, depth - 1);
+        cell[i] = (struct cell){.u = (double)(i % c->nu) / c->nu,
+                                .v = (double)(i / c->nu) / c->nv,
+                                .du = 1.0 / c->nu,
+                                .dv = 1.0 / c->nv,
+                                .chart = index,
+                                .element = {ELEMENT_NONE, ELEMENT_NONE}};
 }
 
 // ---- the whole ---------------------------------------------------------------------
@@ -452,10 +201,68 @@ static struct aabb scene_limit(const struct job *job)
     return b;
 }
 
+// Where a point can be inside of a node, or outside.
+static struct aabb node_box(const struct world *w, uint32_t node, bool inside)
+{
+    const struct csg_node *n = &w->node[node];
+    if (n->op == NODE_LEAF) {
+        const struct leaf *l = &w->leaf[n->leaf];
+        return l->inverted == inside ? aabb_infinite()
+               : l->solid            ? l->bounds
+                                     : aabb_empty();
+    }
+    const bool all = (n->op == NODE_INTERSECTION) == inside;
+    struct aabb box = all ? aabb_infinite() : aabb_empty();
+    for (uint32_t k = 0; k < n->child_count; k++) {
+        const struct aabb c = node_box(w, n->first_child + k, inside);
+        box = all ? aabb_meet(box, c) : aabb_join(box, c);
+    }
+    return box;
+}
+
+// What the others leave of the surfaces of the leaves below a node: of an intersection
+// what is inside of them, of a merge what is outside.
+static void node_limits(const struct world *w, uint32_t node, struct aabb limit,
+                        struct aabb *out)
+{
+    const struct csg_node *n = &w->node[node];
+    if (n->op == NODE_LEAF) {
+        out[n->leaf] = aabb_meet(limit, n->bounds);
+        return;
+    }
+    for (uint32_t k = 0; k < n->child_count; k++) {
+        struct aabb own = limit;
+        for (uint32_t i = 0; i < n->child_count && n->op != NODE_UNION; i++)
+            if (i != k)
+                own = aabb_meet(
+                    own, node_box(w, n->first_child + i, n->op == NODE_INTERSECTION));
+        node_limits(w, n->first_child + k, own, out);
+    }
+}
+
+// Where the surface of each leaf can be drawn: what cuts it ends what has no end.
+static struct aabb *leaf_limits(const struct job *job)
+{
+    const struct world *w = job->world;
+    const struct aabb limit = scene_limit(job);
+    struct aabb *out = malloc((w->leaf_count + 1) * sizeof *out);
+    if (!out)
+        abort();
+    for (uint32_t l = 0; l < w->leaf_count; l++)
+        out[l] = w->object[w->leaf[l].object].bounds;
+    for (uint32_t o = 0; o < w->object_count; o++)
+        if (w->object[o].is_csg)
+            node_limits(w, w->object[o].root, w->object[o].bounds, out);
+    for (uint32_t l = 0; l < w->leaf_count; l++)
+        if (!aabb_is_finite(out[l]))
+            out[l] = aabb_meet(out[l], limit);
+    return out;
+}
+
 static void charts_build(struct patches *p)
 {
     const struct world *w = p->job->world;
-    const struct aabb limit = scene_limit(p->job);
+    struct aabb *limit = leaf_limits(p->job);
     p->leaf_first = calloc(w->leaf_count + 1, sizeof *p->leaf_first);
     if (!p->leaf_first)
         abort();
@@ -463,17 +270,16 @@ static void charts_build(struct patches *p)
         uint32_t count = 0;
         for (uint32_t l = 0; l < w->leaf_count; l++) {
             const struct world_object *o = &w->object[w->leaf[l].object];
-            const struct aabb bounds =
-                aabb_is_finite(o->bounds) ? o->bounds : aabb_meet(o->bounds, limit);
             p->leaf_first[l] = count;
             if (w->leaf[l].drawn && !(o->flags & OBJECT_NO_RADIOSITY))
-                count += leaf_charts(w, l, &bounds, p->chart ? p->chart + count : NULL);
+                count += leaf_charts(w, l, &limit[l], p->chart ? p->chart + count : NULL);
         }
         p->leaf_first[w->leaf_count] = count;
         p->chart_count = count;
         if (!p->chart && !(p->chart = calloc(count + 1, sizeof *p->chart)))
             abort();
     }
+    free(limit);
 }
 
 static double size_for(const struct patches *p)
@@ -493,8 +299,6 @@ static struct patches *build(const struct job *job, const struct patch_settings 
     p->settings = *s;
     if (p->settings.samples < 1)
         p->settings.samples = 1;
-    if (p->settings.samples > SAMPLES_MOST)
-        p->settings.samples = SAMPLES_MOST;
     charts_build(p);
     p->size = s->size > 0 ? s->size : size_for(p);
     if (!(p->size > 0 && p->size < INFINITY)) {
@@ -504,7 +308,7 @@ static struct patches *build(const struct job *job, const struct patch_settings 
     find_rooms(p);
     for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
         chart_cells(p, i);
-    cells_sample(p, 0, p->settings.depth);
+    elements_find(p);
     patches_enclosure(p);
     patches_prune(p);
     return p;
@@ -556,6 +360,7 @@ void patches_free(struct patches *p)
     free(p->element);
     free(p->element_cell);
     free(p->neighbours);
+    free(p->anchor);
     free(p->shaft);
     free(p->room);
     free(p);

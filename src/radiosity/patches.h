@@ -26,7 +26,16 @@ struct cell {
     double u, v, du, dv;
     uint32_t chart;
     uint32_t child;      // first of four; 0: none
+    uint32_t part;       // first of two of the same place, a wall between; 0: none
+    uint32_t anchor;     // of such a part; 0: none
+    bool twin;           // what the anchor does not see
     uint32_t element[2]; // on the outer and inner side; ELEMENT_NONE: none
+};
+
+// A cell that a wall stands on is parted by what a point above it sees, and what it does
+// not: by side; n is the normal there, 0 where the side is whole.
+struct anchor {
+    struct vec3 o[2], n[2];
 };
 
 // The box of an element, and the objects (bits) that cannot hide anything from it
@@ -45,9 +54,11 @@ struct patches {
     uint32_t *leaf_first; // charts of leaf l: leaf_first[l] up to leaf_first[l + 1]
     struct cell *cell;
     uint32_t cell_count, cell_capacity;
+    struct anchor *anchor; // from 1
+    uint32_t anchor_count, anchor_capacity;
     struct element *element;
     uint32_t *element_cell; // cell of an element; the side is the lowest bit
-    uint8_t *neighbours;    // bit k: neighbour k is seen from the element (patch_seen)
+    uint16_t *neighbours;   // bit k: neighbour k is seen; bit 8 + k: its second part
     uint32_t element_count, element_capacity;
     uint32_t *room; // objects in which light can be
     uint32_t room_count;
@@ -61,12 +72,13 @@ struct patches *patches_build(const struct job *job, const struct patch_settings
 void patches_free(struct patches *p);
 
 // The element a ray ran into; ELEMENT_NONE: none.
-uint32_t patch_of_hit(const struct patches *p, const struct ray *ray,
-                      const struct hit *hit);
+uint32_t patch_of_hit(const struct patches *p, struct trace_scratch *scratch,
+                      const struct ray *ray, const struct hit *hit);
 // Elements around a hit and how much each counts there (bilinear within one chart, none
 // that the hit's own element does not see). Returns how many, at most 4; 0: no element.
-uint32_t patch_around(const struct patches *p, const struct ray *ray,
-                      const struct hit *hit, uint32_t element[4], double weight[4]);
+uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
+                      const struct ray *ray, const struct hit *hit, uint32_t element[4],
+                      double weight[4]);
 
 // The neighbour of an element in direction k, 0 to 7; ELEMENT_NONE: none that it sees.
 uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k);
@@ -80,6 +92,13 @@ struct patch_probe {
 bool patch_point(const struct patch_probe *probe, const struct cell *c, int side,
                  double u, double v, struct element_point *out, struct hit *hit,
                  struct ray *ray);
+// Room for more cells, at the end of the list; pointers to others are void.
+struct cell *cells_add(struct patches *p, uint32_t count);
+// Whether the anchor sees a point of its cell.
+bool anchor_sees(const struct patches *p, struct trace_scratch *scratch, uint32_t anchor,
+                 int side, struct vec3 at);
+// Makes elements of the cells, and quarters and parts cells where that is needed.
+void elements_find(struct patches *p);
 // Reflectance and emission at a hit, as the picture has them.
 void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
                   struct rgb *reflectance, struct rgb *emission);

@@ -68,8 +68,8 @@ bool radiosity_save(const struct radiosity *r, const char *path, char *error,
 bool radiosity_load(struct radiosity *r, const char *path, char *error,
                     size_t error_size);
 // The radiosity of the element that a hit lies on; black where there is none.
-struct rgb radiosity_of_hit(const struct radiosity *r, const struct ray *ray,
-                            const struct hit *hit);
+struct rgb radiosity_of_hit(const struct radiosity *r, struct trace_scratch *scratch,
+                            const struct ray *ray, const struct hit *hit);
 
 // ---- between the parts ---------------------------------------------------
 // Irradiance by lamps and sky at every element.

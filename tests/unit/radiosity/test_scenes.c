@@ -151,6 +151,42 @@ static void furnace(void **state)
     }
 }
 
+// Quadrics without end, cut by other solids: the drawn area, and B = 1 in the furnace.
+static void cut_quadrics(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *solid;
+        double area; // of what is curved
+    } cases[] = {
+        {"quadric { <1, 1, 0>, 0, <0, 0, -1>, 0 M(.4, .6) } box { -2, <2, 2, 1> M(.8, "
+         ".2) }",
+         5.3304135},
+        {"quadric { <1, 1, -1>, 0, 0, -.25 M(.4, .6) } box { <-2, -2, -.5>, <2, 2, .5> "
+         "M(.8, .2) }",
+         3.9938247},
+        {"quadric { <1, 1, 0>, 0, 0, -1 M(.4, .6) rotate 30*x } box { <-3, -3, -.5>, "
+         "<3, 3, .5> M(.8, .2) rotate 30*x }",
+         6.2831853},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 HEAD "camera { location <.02, -.03, .3> look_at 0 }\n"
+                      "difference { box { -5, 5 } intersection { %s } M(.5, .5) }\n",
+                 cases[i].solid);
+        struct radiosity_options o = with(60, "gauss-seidel");
+        struct scene_run s = solve(text, &o);
+        const struct mean m = mean_of(&s, NULL), side = mean_of(&s, curved);
+        print_message("quadric %zu: %u patches, area %.4f, %.4f to %.4f\n", i,
+                      s.r->report.elements, side.area, m.least, m.most);
+        assert_near(side.area / cases[i].area, 1, .015);
+        assert_near(m.least, 1, 1e-3);
+        assert_near(m.most, 1, 1e-3);
+        run_free(&s);
+    }
+}
+
 // ---- enclosures of spheres -------------------------------------------------------------
 #define CAMERA_Z "camera { location <.03, .02, .1> look_at <.03, .02, 1> }\n"
 
@@ -468,6 +504,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace),
+        cmocka_unit_test(cut_quadrics),
         cmocka_unit_test(caps),
         cmocka_unit_test(concentric_s4),
         cmocka_unit_test(discs_c4),

@@ -1,0 +1,336 @@
+// Elements of cells: what of a cell exists, and what it looks like.
+#include "radiosity/patches.h"
+
+#include <stdlib.h>
+
+#include "radiosity/parallel.h"
+#include "radiosity/polygon.h"
+#include "trace/tracer.h"
+
+// Along a side of a cell; the latter where a cell exists in part.
+enum { SAMPLES_MOST = 8, SAMPLES_PART = 16 };
+
+// What sampling found of one side of a cell.
+struct found {
+    double area;
+    struct rgb reflectance, emission;
+    uint32_t members, tried;
+    struct vec3 normal, centre;
+    bool crossed; // a wall stands on it: the anchor does not see all of it
+    struct vec3 anchor;
+};
+
+// ---- cells -------------------------------------------------------------------------
+static void *grow(void *at, uint32_t *capacity, uint32_t need, size_t size)
+{
+    if (need <= *capacity)
+        return at;
+    while (*capacity < need)
+        *capacity = *capacity ? *capacity + *capacity / 2 : 1024;
+    at = realloc(at, *capacity * size);
+    if (!at)
+        abort();
+    return at;
+}
+
+struct cell *cells_add(struct patches *p, uint32_t count)
+{
+    p->cell = grow(p->cell, &p->cell_capacity, p->cell_count + count, sizeof *p->cell);
+    p->cell_count += count;
+    return &p->cell[p->cell_count - count];
+}
+
+static void cell_split(struct patches *p, uint32_t index)
+{
+    const uint32_t child = p->cell_count;
+    struct cell *s = cells_add(p, 4), *c = &p->cell[index];
+    c->child = child;
+    for (int k = 0; k < 4; k++, s++) {
+        *s = *c;
+        s->child = 0;
+        s->du = c->du / 2;
+        s->dv = c->dv / 2;
+        s->u = c->u + (k & 1) * s->du;
+        s->v = c->v + (k >> 1) * s->dv;
+    }
+}
+
+// ---- walls on cells ------------------------------------------------------------------
+bool anchor_sees(const struct patches *p, struct trace_scratch *scratch, uint32_t anchor,
+                 int side, struct vec3 at)
+{
+    const struct anchor *a = &p->anchor[anchor];
+    const struct vec3 n = a->n[side];
+    if (vec3_dot(n, n) == 0)
+        return true;
+    const struct vec3 to = vec3_mad(at, vec3_dot(vec3_sub(a->o[side], at), n), n);
+    const struct ray_query q = {{a->o[side], vec3_sub(to, a->o[side]), 0, 1},
+                                OBJECT_NO_RADIOSITY};
+    return !trace_occluded_1(p->job->world, scratch, &q);
+}
+
+// Two cells in the place of one: what the anchor sees, and the rest.
+static void cell_part(struct patches *p, uint32_t index, const struct found f[2])
+{
+    if (p->anchor_count + 1 >= p->anchor_capacity)
+        p->anchor =
+            grow(p->anchor, &p->anchor_capacity, p->anchor_count + 2, sizeof *p->anchor);
+    const uint32_t anchor = ++p->anchor_count; // 0: none
+    p->anchor[anchor] = (struct anchor){0};
+    for (int side = 0; side < 2; side++) {
+        if (!f[side].crossed)
+            continue;
+        p->anchor[anchor].o[side] = f[side].anchor;
+        p->anchor[anchor].n[side] = vec3_normalize(f[side].normal);
+    }
+    const uint32_t part = p->cell_count;
+    struct cell *s = cells_add(p, 2), *c = &p->cell[index];
+    c->part = part;
+    for (int k = 0; k < 2; k++, s++) {
+        *s = *c;
+        s->part = 0;
+        s->anchor = anchor;
+        s->twin = k == 1;
+    }
+}
+
+// ---- elements ----------------------------------------------------------------------
+static bool mixed(const struct found *f) { return f->members && f->members < f->tried; }
+
+struct sampling {
+    struct patches *p;
+    uint32_t first; // cell
+    int samples;    // along a side; more in the first round, which must find all there is
+    bool last;      // cells that exist in part are measured closely, not quartered
+    struct found (*found)[2];
+};
+
+// Points of a cell; many enough for those of a close look and of the rim.
+enum { RIM = 8, POINTS_MOST = SAMPLES_PART * SAMPLES_PART + RIM, LOOKS = 64 };
+struct points {
+    struct vec3 at[POINTS_MOST];
+    uint32_t count, middle; // the one next to the middle
+    double off;             // by so much
+};
+
+static void points_add(struct points *x, struct vec3 at, double u, double v)
+{
+    const double off = fabs(u - .5) + fabs(v - .5);
+    if (x->count == 0 || off < x->off) {
+        x->off = off;
+        x->middle = x->count;
+    }
+    x->at[x->count++] = at;
+}
+
+// Whether the ways from the middle to the other points, just above the cell, are not all
+// free: then a wall stands on it, and light would get from one side to the other.
+static void find_crossed(const struct patches *p, struct tracer *t,
+                         const struct points *x, struct found *f)
+{
+    static const double above = 1e-3; // of the cell's size
+    const struct vec3 n = vec3_normalize(f->normal), middle = x->at[x->middle];
+    double top = 0;
+    for (uint32_t k = 0; k < x->count; k++)
+        top = fmax(top, vec3_dot(vec3_sub(x->at[k], middle), n));
+    f->anchor = vec3_mad(middle, top + above * sqrt(f->area), n);
+    const uint32_t step = x->count / LOOKS + 1;
+    for (uint32_t k = 0; k < x->count && !f->crossed; k += step) {
+        const struct vec3 to =
+            vec3_mad(x->at[k], vec3_dot(vec3_sub(f->anchor, x->at[k]), n), n);
+        const struct ray_query q = {{f->anchor, vec3_sub(to, f->anchor), 0, 1},
+                                    OBJECT_NO_RADIOSITY};
+        f->crossed = trace_occluded_1(p->job->world, t->scratch, &q);
+    }
+}
+
+// What cuts a cell mostly cuts a corner or an edge.
+static void sample_rim(const struct patches *p, struct tracer *t, const struct cell *c,
+                       int side, struct found *f, struct points *x)
+{
+    static const double in = 1e-3, out = 1 - 1e-3;
+    static const double rim[RIM][2] = {{in, in}, {out, in}, {out, out}, {in, out},
+                                       {.5, in}, {out, .5}, {.5, out},  {in, .5}};
+    const struct patch_probe probe = {t->scratch, p};
+    struct element_point at;
+    struct hit hit;
+    struct ray ray;
+    for (int k = 0; k < RIM; k++) {
+        if (patch_point(&probe, c, side, rim[k][0], rim[k][1], &at, &hit, &ray))
+            points_add(x, at.p, rim[k][0], rim[k][1]);
+        else
+            f->tried++;
+    }
+}
+
+static void sample_cell(const struct patches *p, struct tracer *t, uint32_t index,
+                        int side, int n, struct found *f)
+{
+    const struct cell *c = &p->cell[index];
+    const struct chart *chart = &p->chart[c->chart];
+    const struct leaf *l = &p->job->world->leaf[chart->leaf];
+    const struct patch_probe probe = {t->scratch, p};
+    struct points x;
+    x.count = 0;
+    *f = (struct found){.tried = (uint32_t)(n * n)};
+    for (int i = 0; i < n * n; i++) {
+        const double u = (i % n + .5) / n, v = (i / n + .5) / n;
+        struct element_point at;
+        struct hit hit;
+        struct ray ray;
+        struct rgb reflectance, emission;
+        if (!patch_point(&probe, c, side, u, v, &at, &hit, &ray))
+            continue;
+        const double area = chart_density(chart, l, c->u + u * c->du, c->v + v * c->dv,
+                                          1e-3 * c->du, 1e-3 * c->dv) *
+                            c->du * c->dv / (n * n);
+        patch_colour(t, &ray, &hit, &reflectance, &emission);
+        f->area += area;
+        f->reflectance = rgb_add(f->reflectance, rgb_scale((float)area, reflectance));
+        f->emission = rgb_add(f->emission, rgb_scale((float)area, emission));
+        f->normal = vec3_mad(f->normal, area, at.normal);
+        f->centre = vec3_mad(f->centre, area, at.p);
+        f->members++;
+        points_add(&x, at.p, u, v);
+    }
+    if (f->members == f->tried)
+        sample_rim(p, t, c, side, f, &x);
+    if (!c->anchor && x.count > 1)
+        find_crossed(p, t, &x, f);
+}
+
+static void *sampling_begin(void *user)
+{
+    const struct sampling *s = user;
+    return tracer_new(s->p->job);
+}
+
+static void sampling_end(void *user, void *state)
+{
+    (void)user;
+    tracer_free(state);
+}
+
+static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
+{
+    const struct sampling *s = user;
+    for (uint32_t i = begin; i < end; i++) {
+        for (int side = 0; side < 2; side++) {
+            struct found *f = &s->found[i][side];
+            sample_cell(s->p, state, s->first + i, side, s->samples, f);
+            // A quarter of a cell that exists in part: what little may be there counts.
+            if (s->last && s->first && !f->members)
+                sample_cell(s->p, state, s->first + i, side, SAMPLES_MOST, f);
+            if ((s->last || s->p->cell[s->first + i].anchor) && mixed(f))
+                sample_cell(s->p, state, s->first + i, side, SAMPLES_PART, f);
+        }
+    }
+}
+
+static void element_corners(const struct patches *p, const struct cell *c, int side,
+                            struct element *e)
+{
+    const struct chart *chart = &p->chart[c->chart];
+    const struct leaf *l = &p->job->world->leaf[chart->leaf];
+    static const double at[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    e->corner_count = 4;
+    for (int k = 0; k < 4; k++) {
+        struct vec3 n;
+        if (!chart_point(chart, l, c->u + at[k][0] * c->du, c->v + at[k][1] * c->dv,
+                         &e->corner[k], &n)) {
+            // Off the surface: on the tangent plane, along the axis.
+            const struct vec3 o = transform_point(
+                l->transform,
+                vec3_mad(vec3_mad(chart->o, c->u + at[k][0] * c->du, chart->a),
+                         c->v + at[k][1] * c->dv, chart->b));
+            const struct vec3 axis = transform_vector(
+                l->transform, vec3(chart->axis == 0, chart->axis == 1, chart->axis == 2));
+            const double slope = vec3_dot(axis, e->normal);
+            const double t =
+                slope != 0 ? vec3_dot(vec3_sub(e->centre, o), e->normal) / slope : 0;
+            e->corner[k] = vec3_mad(o, t, axis);
+        }
+    }
+    (void)side;
+    // Counter-clockwise about the normal of this side.
+    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
+                                        vec3_sub(e->corner[3], e->corner[1]));
+    if (vec3_dot(turn, e->normal) < 0) {
+        const struct vec3 swap = e->corner[1];
+        e->corner[1] = e->corner[3];
+        e->corner[3] = swap;
+    }
+}
+
+static void element_add(struct patches *p, uint32_t index, int side,
+                        const struct found *f)
+{
+    if (p->element_count == p->element_capacity) {
+        uint32_t capacity = p->element_capacity;
+        p->element_cell = grow(p->element_cell, &capacity, p->element_count + 1,
+                               sizeof *p->element_cell);
+        p->element = grow(p->element, &p->element_capacity, p->element_count + 1,
+                          sizeof *p->element);
+    }
+    struct cell *c = &p->cell[index];
+    const uint32_t i = p->element_count++;
+    const float share = (float)(1 / f->area);
+    struct element *e = &p->element[i];
+    *e = (struct element){.centre = vec3_scale(1 / f->area, f->centre),
+                          .normal = vec3_normalize(f->normal),
+                          .area = f->area,
+                          .reflectance = rgb_scale(share, f->reflectance),
+                          .emission = rgb_scale(share, f->emission),
+                          .surface = 2 * c->chart + (uint32_t)side,
+                          .curved = p->chart[c->chart].curved,
+                          .partial = f->members < f->tried};
+    element_corners(p, c, side, e);
+    const double outline = polygon_area(e);
+    e->coverage = outline > 0 ? (float)(e->area / outline) : 1;
+    c->element[side] = i;
+    p->element_cell[i] = 2 * index + (uint32_t)side;
+}
+
+// Samples cells [first, end of list) and makes elements of them; those that exist in part
+// or have a wall on them are quartered instead, to a depth.
+static void cells_sample(struct patches *p, uint32_t first, int depth)
+{
+    const uint32_t end = p->cell_count;
+    const int wanted = p->settings.samples;
+    const int few = wanted < 1 ? 1 : wanted < SAMPLES_MOST ? wanted : SAMPLES_MOST;
+    const int samples = first ? few : 2 * few < SAMPLES_MOST ? 2 * few : SAMPLES_MOST;
+    struct sampling s = {p, first, samples, depth <= 0,
+                         calloc(end - first + 1, sizeof *s.found)};
+    if (!s.found)
+        abort();
+    const struct parallel run = {.threads = p->settings.threads,
+                                 .piece = 64,
+                                 .watch = p->settings.watch,
+                                 .tells = true,
+                                 .user = &s,
+                                 .begin = sampling_begin,
+                                 .end = sampling_end,
+                                 .work = sampling_work};
+    parallel_run(&run, end - first);
+    for (uint32_t i = first; i < end; i++) {
+        const struct found *f = s.found[i - first];
+        const bool part = mixed(&f[0]) || mixed(&f[1]);
+        const bool crossed = f[0].crossed || f[1].crossed;
+        if (!p->cell[i].anchor && ((depth > 0 && part) || (depth > 1 && crossed))) {
+            cell_split(p, i);
+            continue;
+        }
+        if (crossed) {
+            cell_part(p, i, f);
+            continue;
+        }
+        for (int side = 0; side < 2; side++)
+            if (f[side].area > 0)
+                element_add(p, i, side, &f[side]);
+    }
+    free(s.found);
+    if (p->cell_count > end)
+        cells_sample(p, end, depth - 1);
+}
+
+void elements_find(struct patches *p) { cells_sample(p, 0, p->settings.depth); }
