@@ -167,7 +167,7 @@ void simple_compile(struct job *job, struct arena *a)
     job->kernels = kernels_named(w->accel->kernels->name);
     job->quick_camera =
         !general && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
-    if (general || job->settings.indirect.data || job->has_air || !job->lights || !job->pigments ||
+    if (general || job->has_air || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
@@ -252,6 +252,33 @@ bool simple_take(struct tracer *t, uint32_t k)
     return true;
 }
 
+// Light by way of other surfaces, on what is matt: hit by hit, as shade_indirect.
+static void add_indirect(struct tracer *t, const struct simple_class *c,
+                         const struct simple_group *g)
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    for (unsigned live = g->live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        const uint32_t k = g->ray[i];
+        const struct rgb matt =
+            rgb_scale(c->finish->diffuse * g->att[i],
+                      rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
+        if (rgb_max(matt) <= 0)
+            continue;
+        const struct ray_batch *b = t->rays;
+        const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
+                                vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
+        struct interaction at;
+        trace_interaction(t->job->world, &ray, &t->hit[k], &at);
+        const struct rgb light = indirect->irradiance(
+            indirect->data, t, &ray, &t->hit[k], &at,
+            vec3(g->n[0][i], g->n[1][i], g->n[2][i]), wave_path(t, g->slot[i]).hash);
+        t->slot = g->slot[i];
+        tracer_add(t, rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]),
+                              rgb_mul(matt, light)));
+    }
+}
+
 static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t first,
                         uint32_t *queued)
 {
@@ -264,6 +291,8 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
         const uint32_t left = count - 8 * i;
         kernels->place(t, t->class_ray + 8 * i, left < 8 ? left : 8, &t->group[i]);
         kernels->own(t, c, &t->group[i]);
+        if (t->job->settings.indirect.data)
+            add_indirect(t, c, &t->group[i]);
     }
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)
         if (!c->lamps->lamp[i]->inert)

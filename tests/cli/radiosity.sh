@@ -31,6 +31,20 @@ wrong() { exits 64 "$lambert" wrong.pov +W8 +H8 && has err "'many' is no value f
 check "a wrong value in the scene is an error" wrong
 threads() { render asks.pov -o one.ppm +WT1 --gi-solver=stochastic --gi-rays=20000 && render asks.pov -o two.ppm +WT3 --gi-solver=stochastic --gi-rays=20000 && cmp -s one.ppm two.ppm; }
 check "the same picture for any number of threads" threads
+cat >balls.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <.1, .2, .5> look_at <.5, .6, 1> }
+default { finish { ambient 0 diffuse 1 } }
+difference { box { -1, 2 } box { 0, 1 } pigment { checker rgb .8 rgb <.2, .5, .3> scale .2 } }
+sphere { <.5, .6, .8>, .15 pigment { rgb <.9, .4, .2> } finish { diffuse .6 specular .4 reflection .3 } }
+sphere { <.2, .3, .9>, .1 pigment { rgb 1 } finish { diffuse .8 emission 2 } }
+light_source { <.2, .1, .3>, .5 }
+END
+quickly() { render balls.pov -o quick.ppm +W40 +H30 -q --gi=radiosity --gi-patches=60 --gi-solver=stochastic --gi-rays=20000 "$@" &&
+  LAMBERT_SHADING=general render balls.pov -o general.ppm +W40 +H30 -q --gi=radiosity --gi-patches=60 --gi-solver=stochastic --gi-rays=20000 "$@" && cmp quick.ppm general.ppm; }
+check "eight hits at a time give the bits of one at a time" quickly
+check "also with a last gathering" quickly --gi-gather=16
 
 save() { render asks.pov -o saved.ppm --gi-save=room.rad && cmp -s lit.ppm saved.ppm; }
 check "a solution is saved" save
