@@ -110,12 +110,13 @@ static void pieces_find(struct factor_state *s, struct element_pieces *p)
         const bool turned = vec3_dot(piece.normal, middle.normal) < 0;
         for (int c = 0; c < 4; c++)
             p->corner[p->count][c] = piece.corner[turned ? 3 - c : c];
-        p->count++;
+        p->normal[p->count++] = turned ? vec3_neg(piece.normal) : piece.normal;
     }
     p->scale = area > 0 ? e->area / area : 0;
     if (!p->count) {
         p->count = 1;
         p->scale = (double)e->coverage;
+        p->normal[0] = e->normal;
         for (uint32_t c = 0; c < 4; c++)
             p->corner[0][c] = e->corner[c < e->corner_count ? c : 0];
     }

@@ -15,7 +15,7 @@ struct element_nodes {
 // Polygons of an element, of the parts that exist; times scale their areas sum to its.
 struct element_pieces {
     uint32_t element, count;
-    struct vec3 corner[PIECE_SIDE * PIECE_SIDE][4];
+    struct vec3 corner[PIECE_SIDE * PIECE_SIDE][4], normal[PIECE_SIDE * PIECE_SIDE];
     double scale;
 };
 

@@ -127,13 +127,30 @@ static double points_factor(struct factor_state *s, uint32_t from,
         const double allowed = s->settings->tolerance * fmax(sum.factor, 1e-3 * sum.area);
         sum = panel_refine(s, from, to, all, sum, allowed, s->settings->depth);
     }
-    if (sum.area > 0)
-        return sum.factor / sum.area;
-    // A sliver that the grid missed.
-    const struct element_nodes *n = nodes_of(s, from);
-    for (uint32_t i = 0; i < n->count; i++) {
-        sum.area += n->weight[i];
-        sum.factor += n->weight[i] * target_factor(to, &n->at[i]);
+    return sum.area > 0 ? sum.factor / sum.area : 0;
+}
+
+// From what exists of an element in part: its pieces stand for it, so that no ray is
+// needed to know its points.
+static double parts_factor(struct factor_state *s, uint32_t from, const struct target *to)
+{
+    enum { K = 2 }; // 8 x 8 points in all
+    const struct gauss *g = gauss_rule(K);
+    const struct element_pieces *p = pieces_of(s, from);
+    struct panel_sum sum = {0, 0};
+    for (uint32_t i = 0; i < p->count; i++) {
+        struct element piece = {.corner_count = 4};
+        for (int c = 0; c < 4; c++)
+            piece.corner[c] = p->corner[i][c];
+        for (int k = 0; k < K * K; k++) {
+            double jacobian;
+            const struct element_point at = {
+                polygon_point(&piece, g->at[k / K], g->at[k % K], &jacobian),
+                p->normal[i], 0};
+            const double w = g->weight[k / K] * g->weight[k % K] * jacobian;
+            sum.area += w;
+            sum.factor += w * target_factor(to, &at);
+        }
     }
     return sum.area > 0 ? sum.factor / sum.area : 0;
 }
@@ -145,6 +162,8 @@ static double polygon_factor(struct factor_state *s, uint32_t from, uint32_t to,
 {
     const struct element *e = &s->enclosure->element[to];
     const struct target t = {&e->corner, 1, e->corner_count, (double)e->coverage};
+    if (s->enclosure->element[from].partial)
+        return parts_factor(s, from, &t);
     return points_factor(s, from, &t, distance - polygon_radius(e));
 }
 
@@ -154,6 +173,12 @@ static double pieces_factor(struct factor_state *s, uint32_t from, uint32_t to,
     const struct element *e = &s->enclosure->element[to];
     const struct element_pieces *p = pieces_of(s, to);
     const struct target t = {(const struct vec3(*)[4])p->corner, p->count, 4, p->scale};
+    if (s->enclosure->element[from].partial) {
+        // Both may share a place in the cache.
+        const struct element_pieces own = *p;
+        const struct target copy = {own.corner, own.count, 4, own.scale};
+        return parts_factor(s, from, &copy);
+    }
     return points_factor(s, from, &t, distance - polygon_radius(e));
 }
 
