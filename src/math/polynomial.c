@@ -253,18 +253,23 @@ UNROLLED int refine(const double *c, const double *d, int degree, double lo, dou
     return n;
 }
 
-// How far a root may be off when the value is off by `error`. Near an m-fold root the first
-// m - 1 derivatives vanish and the m-th bounds it: (m! error / |p^(m)|)^(1/m), here from
-// m = 3 on rounded up to a power of two.
+// How far a root may be off when the value is off by `error`. Near a double root that is as
+// far as beyond its twin, where error = bend t^2 / 2 - slope t, so that the two overlap when
+// they may be none. Near an m-fold root the first m - 1 derivatives vanish and the m-th bounds
+// it: (m! error / |p^(m)|)^(1/m), rounded up to a power of two.
 static double error_of_root(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree,
                             double t, double error)
 {
     const double slope = fabs(polynomial_value(chain[1], degree - 1, t));
-    double dt = error / slope, factorial = 1;
-    // A simple root: over dt the slope changes by little, and the first bound is the best.
-    if (degree < 2 || 4 * dt * fabs(polynomial_value(chain[2], degree - 2, t)) < slope)
+    double dt = error / slope, factorial = 2;
+    if (degree < 2)
         return dt;
-    for (int m = 2; m <= degree && m <= 4; m++) {
+    // A simple root: over dt the slope changes by little, and the first bound is the best.
+    const double bend = fabs(polynomial_value(chain[2], degree - 2, t));
+    if (4 * dt * bend < slope)
+        return dt;
+    dt = (slope + sqrt(slope * slope + 2 * bend * error)) / bend;
+    for (int m = 3; m <= degree && m <= 4; m++) {
         factorial *= m;
         const double derivative = fabs(polynomial_value(chain[m], degree - m, t));
         if (!(derivative > 0))
@@ -272,9 +277,23 @@ static double error_of_root(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degr
         const double q = factorial * error / derivative;
         int e;
         frexp(q, &e);
-        dt = fmin(dt, 2 * (m == 2 ? sqrt(q) : ldexp(1, (int)ceil(e / (double)m))));
+        dt = fmin(dt, 2 * ldexp(1, (int)ceil(e / (double)m)));
     }
     return dt;
+}
+
+double polynomial_root_error(const double *c, int degree, double t, double error)
+{
+    double slope = 0, half_bend = 0, v = 0;
+    for (int i = degree; i >= 0; i--) {
+        half_bend = half_bend * t + slope;
+        slope = slope * t + v;
+        v = v * t + c[i];
+    }
+    // slope x - half_bend x^2 = error: the first while the root is simple.
+    const double simple = 2 * error / fabs(slope);
+    const double twofold = 2 * sqrt(error / fabs(half_bend));
+    return 2 * simple < twofold ? simple : 2 * twofold;
 }
 
 // Every root, between the extrema, which are the roots of the derivative, and so on.

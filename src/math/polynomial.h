@@ -20,6 +20,10 @@ struct polynomial_root {
 int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
                      double rounding, struct polynomial_root *root);
 
+// How far a root at t may be off when the value is off by `error`, more than polynomial_roots
+// knows of: to first order where it is simple, to second at a double root.
+double polynomial_root_error(const double *coefficient, int degree, double t, double error);
+
 double polynomial_value(const double *coefficient, int degree, double t);
 
 // A bound on |t| of every root (Fujiwara 1916); 0 for a constant.

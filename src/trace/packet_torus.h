@@ -224,9 +224,11 @@ LANES_INLINE unsigned root8_error(const struct quartic8 *c, struct real8 t,
     const struct real8 cubic = r8_mul(r8_mul(r8_mul(r8_set(4), t), t), t);
     const struct real8 tilt =
         r8_abs(r8_add(r8_add(cubic, r8_mul(twice, t)), c->c1));
-    const struct real8 blunt =
-        r8_mul(r8_set(2), r8_sqrt(r8_div(r8_set(2 * GAMMA(32)), bend)));
-    *dt = r8_add(*dt, r8_min(r8_div(r8_set(GAMMA(32)), tilt), blunt));
+    const struct real8 one = r8_div(r8_set(2 * GAMMA(128)), tilt);
+    const struct real8 twofold =
+        r8_mul(r8_set(2), r8_sqrt(r8_div(r8_set(2 * GAMMA(128)), bend)));
+    const struct mask8 sharp = r8_lt(r8_mul(r8_set(2), one), twofold);
+    *dt = r8_add(*dt, r8_select(sharp, one, r8_mul(r8_set(2), twofold)));
     return m8_bits(simple);
 }
 
@@ -256,7 +258,7 @@ LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8
 {
     struct cross8 x = cross8_none();
     const double size = s->major + s->minor;
-    if (!(size > 0))
+    if (!(s->minor > 0))
         return x;
     const struct real8 length = r8_sqrt(ray->dd), per = r8_set(1 / size);
     const struct real8 unit = r8_div(r8_set(1), length);

@@ -33,6 +33,33 @@ static const char *const solids[] = {
     "blob { threshold .5 sphere { <-.4, 0, 0>, 1, 1 } sphere { <.4, .3, 0>, 1, 1 }",
     "lathe { linear_spline 5, <0, -.5>, <.5, -.5>, <.7, .2>, <0, .5>, <0, -.5>",
     "isosurface { function { x*x + y*y + z*z - .8 }",
+    "quadric { <1, 2, 3>, <.1, .2, .3>, 0, -1",
+    "ovus { 1, .5",
+    "sor { 6, <.2, -1>, <.5, -.5>, <.8, 0>, <.4, .5>, <.6, 1>, <.6, 1.5>",
+    "lathe { cubic_spline 7, <0, -1.5>, <0, -1>, <1, -.6>, <.4, 0>, <.8, .7>, <0, 1>, "
+    "<0, "
+    "2>",
+    "prism { conic_sweep .5, 1, 5, <-1, -1>, <1, -1>, <.5, .8>, <-.7, 1>, <-1, -1>",
+    "prism { bezier_spline -.7, .9, 8, <-1, 0>, <-1, -1>, <1, -1>, <1, 0>, <1, 0>, <1, "
+    "1>, "
+    "<-1, 1>, <-1, 0>",
+    "poly { 2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
+    "quartic { <1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, "
+    "0, "
+    "0, 0, 0, 0, 0, 1, 0, 0, 0, -1>",
+    "polynomial { 4, xyz(4, 0, 0): 1, xyz(0, 2, 0): 1, xyz(0, 0, 4): 2, xyz(0, 0, 0): -1",
+    "mesh2 { vertex_vectors { 4, <-1, -1, 1>, <1, -1, 1>, <0, -1, -1>, <0, 1, 0> } "
+    "face_indices { 4, <0, 1, 2>, <0, 1, 3>, <1, 2, 3>, <2, 0, 3> } inside_vector <.3, "
+    "1, "
+    ".2>",
+    "height_field { function 9, 7 { .5 + .4*sin(9*x)*cos(7*y) } translate <-.5, 0, -.5>",
+    "julia_fractal { <-.1, .1, .2, 0> quaternion sqr max_iteration 4 precision 60",
+    "sphere_sweep { linear_spline 2, <-1, 0, 0>, .5, <1, 0, 0>, .25",
+    "sphere_sweep { b_spline 4, <-2, 0, 0>, .5, <-.5, .5, 0>, .25, <.5, -.5, .3>, .5, "
+    "<2, 0, "
+    "0>, .3",
+    "blob { threshold .5 cylinder { <-.4, -.5, 0>, <.4, .7, .2>, .8, 1 }",
+    "torus { .4, 1",
 };
 enum { SOLIDS = sizeof solids / sizeof solids[0] };
 

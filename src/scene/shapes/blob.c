@@ -33,9 +33,10 @@ struct blob {
     double threshold;
 };
 
-// A component on a line: q(t) = 1 - d^2/r^2 = q0 + q1 t + q2 t^2 for lo < t < hi.
+// A component on a line: q(t) = 1 - d^2/r^2 = top + bend (t - at)^2 for lo < t < hi. About the
+// nearest point, so that a thin component keeps its digits on a line from afar.
 struct stretch {
-    double lo, hi, s, q0, q1, q2;
+    double lo, hi, s, top, at, bend;
     double peak; // the field is never above
 };
 
@@ -56,22 +57,14 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
         v = vec3_mad(v, -c->length, c->axis);
     }
     const double r2 = c->r * c->r, a = vec3_dot(d, d), b = vec3_dot(v, d);
-    *out = (struct stretch){-HUGE_VAL, HUGE_VAL, c->s, 1 - vec3_dot(v, v) / r2,
-                            -2 * b / r2, -a / r2, fmax(0, c->s)};
-    if (a > 0) {
-        const double shift = -b / a;
-        const struct vec3 near = vec3_mad(v, shift, d);
-        const double rest = r2 - vec3_dot(near, near);
-        if (!(rest > 0))
-            return false;
-        const double reach = sqrt(rest / a);
-        out->lo = shift - reach;
-        out->hi = shift + reach;
-        const double q = rest / r2;
-        out->peak = c->s > 0 ? c->s * q * q : 0;
-    } else if (!(out->q0 > 0)) {
+    const double at = a > 0 ? -b / a : 0;
+    const struct vec3 near = vec3_mad(v, at, d);
+    const double rest = r2 - vec3_dot(near, near), top = rest / r2;
+    if (!(rest > 0))
         return false;
-    }
+    const double reach = sqrt(rest / a); // infinite along the axis of a cylinder
+    *out = (struct stretch){at - reach, at + reach, c->s, top, at, -a / r2,
+                            c->s > 0 ? c->s * top * top : 0};
     if (c->kind == PART_BALL)
         return true;
     // Which part of the axis counts: low <= along + slope t <= high.
@@ -89,16 +82,17 @@ static bool stretch_of(const struct component *c, struct vec3 o, struct vec3 d,
     return out->lo < out->hi;
 }
 
-// Adds s q^2 about t = m to ascending coefficients.
-static void add_quartic(const struct stretch *s, double m, double c[5])
+// Adds s q^2 about t = m to ascending coefficients; returns what the first gains at most.
+static double add_quartic(const struct stretch *s, double m, double c[5])
 {
-    const double q0 = s->q0 + m * (s->q1 + m * s->q2), q1 = s->q1 + 2 * m * s->q2;
-    const double q2 = s->q2;
+    const double by = m - s->at, sink = s->bend * by * by;
+    const double q0 = s->top + sink, q1 = 2 * by * s->bend, q2 = s->bend;
     c[0] += s->s * q0 * q0;
     c[1] += s->s * 2 * q0 * q1;
     c[2] += s->s * (q1 * q1 + 2 * q0 * q2);
     c[3] += s->s * 2 * q1 * q2;
     c[4] += s->s * q2 * q2;
+    return fabs(s->s) * (s->top * s->top + fabs(q0 * sink));
 }
 
 struct walk {
@@ -119,16 +113,13 @@ static void cross(struct walk *w, double t, double dt)
     w->in = !w->in;
 }
 
-// How far from t the root of the quartic lies whose value at t is but rounding.
-static double joint_error(const double c[5], double t, double rounding)
+// The rounding of a quartic's value at t.
+static double rounding_at(const double c[5], double t, double rounding)
 {
     double size = 0;
     for (int k = 4; k >= 0; k--)
         size = size * fabs(t) + fabs(c[k]);
-    const double noise = rounding * ROUNDOFF * size;
-    const double slope = ((4 * c[4] * t + 3 * c[3]) * t + 2 * c[2]) * t + c[1];
-    const double bend = (6 * c[4] * t + 3 * c[3]) * t + c[2];
-    return fmin(2 * noise / fabs(slope), 2 * sqrt(noise / fabs(bend)));
+    return rounding * ROUNDOFF * size;
 }
 
 static void walk_between(struct walk *w, double lo, double hi)
@@ -147,12 +138,14 @@ static void walk_between(struct walk *w, double lo, double hi)
             return;
         }
     }
-    double bend = 0; // q2 is -1/radius^2
+    double bend = 0; // -1/radius^2
+    double sum = fabs(w->blob->threshold);
     for (uint32_t i = 0; i < w->count; i++)
         if (w->at[i].lo <= lo && w->at[i].hi >= hi) {
-            add_quartic(&w->at[i], m, c);
-            bend = fmax(bend, fabs(w->at[i].q2));
+            sum += add_quartic(&w->at[i], m, c);
+            bend = fmax(bend, fabs(w->at[i].bend));
         }
+    const double lost = GAMMA(8) * sum; // in the sum that became c[0]
     // A place that is off by e changes s q^2 by up to 4 s e/radius.
     const double rounding = 16 + 4 * (w->noise / ROUNDOFF) * sqrt(bend);
     struct polynomial_root root[4];
@@ -162,9 +155,13 @@ static void walk_between(struct walk *w, double lo, double hi)
         w->in = starts_in;
     w->known = true;
     if (starts_in != w->in) // the sign changed near the joint, by rounding
-        cross(w, lo, GAMMA(64) * (fabs(lo) + half) + joint_error(c, -half, rounding));
+        cross(w, lo,
+              GAMMA(64) * (fabs(lo) + half) +
+                  polynomial_root_error(c, 4, -half,
+                                        rounding_at(c, -half, rounding) + lost));
     for (int i = 0; i < n; i++)
-        cross(w, m + root[i].t, root[i].dt);
+        cross(w, m + root[i].t,
+              root[i].dt + polynomial_root_error(c, 4, root[i].t, lost));
 }
 
 enum { ON_STACK = 64 };

@@ -107,10 +107,11 @@ static void add(struct walk *w, double t, double dt)
 // the least slope on the way, which is looked at closer where that of the cell is small.
 static double error_of(struct walk *w, double t, double a, double b, double slope)
 {
-    double r = b - a + 8 * ROUNDOFF * fabs(t);
-    if (tape_is_opaque(w->s->f))
+    const double bracket = b - a + 8 * ROUNDOFF * fabs(t);
+    double r = bracket;
+    const double f = tape_is_opaque(w->s->f) ? 0 : size_at(w, t);
+    if (!(f > 0 && f < INFINITY)) // unknown, or a jump at a pole
         return r;
-    const double f = size_at(w, t);
     if (r + f / slope < ERROR_GOOD * w->chord)
         return r + f / slope;
     for (int i = 0; i < ERROR_TRIES; i++) {
@@ -119,7 +120,7 @@ static double error_of(struct walk *w, double t, double a, double b, double slop
             return r;
         r = slope > 0 ? 2 * (f / slope) : 16 * r;
     }
-    return r;
+    return r < INFINITY ? r : bracket;
 }
 
 // The state from t on, where no root was looked for: a change is a root lost in rounding.

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/gamma.h"
 #include "math/polynomial.h"
 #include "scene/args.h"
 #include "scene/shape.h"
@@ -121,6 +122,30 @@ static double value_at(const struct poly *s, struct vec3 p)
     return sum;
 }
 
+// The sum of the terms' sizes with coordinates of these sizes.
+static double magnitude_at(const struct poly *s, struct vec3 size)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < s->rows; i++) {
+        const struct row *r = &s->row[i];
+        double z = 0;
+        for (int k = 0; k <= r->top; k++)
+            z = z * size.z + fabs(r->c[k]);
+        sum += power(size.x, r->x) * power(size.y, r->y) * z;
+    }
+    return sum;
+}
+
+// What the value at o + t u may be off by because the coefficients along the line are sums in
+// which terms cancel.
+static double lost_at(const struct poly *s, struct vec3 o, struct vec3 u, double t)
+{
+    const double a = fabs(t);
+    return 4 * s->order * ROUNDOFF *
+           magnitude_at(s, vec3(fabs(o.x) + a * fabs(u.x), fabs(o.y) + a * fabs(u.y),
+                                fabs(o.z) + a * fabs(u.z)));
+}
+
 static struct aabb bounds(const void *shape)
 {
     (void)shape;
@@ -144,7 +169,10 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const double far = polynomial_root_bound(p.c, p.degree);
     const int n = polynomial_roots(p.c, p.degree, -far, far, 4 * s->order, root);
     for (int i = 0; i < n; i++) {
-        const double dt = root[i].dt + 0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
+        const double lost = lost_at(s, o, u, root[i].t);
+        const double dt = root[i].dt +
+                          polynomial_root_error(p.c, p.degree, root[i].t, lost) +
+                          0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
         boundary_list_add(out, (root[i].t + to_nearest) / length, dt / length,
                           root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
     }

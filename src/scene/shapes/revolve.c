@@ -16,6 +16,9 @@ static const double FLAT = 0x1p-24; // a few square roots of the roundoff
 // are met as by a horizontal line, and the crossings sharpened.
 static const double NEARLY_FLAT = 0x1p-14;
 
+// Of a segment: so little can the crossings of a height be apart on it that are sharpened.
+static const double NARROW = 0x1p-11;
+
 static const double pi = 3.14159265358979323846;
 
 // Bernstein coefficients of a polynomial on [0, 1], whose hull holds its values.
@@ -44,14 +47,19 @@ static double polynomial_slope(const double *c, int degree, double w)
     return v;
 }
 
-// Whether h' keeps its sign: at the ends and, of a cubic, where h' itself turns.
+// Whether h' keeps its sign, but for zeros: at the ends and, of a cubic, where h' itself
+// turns.
 static bool is_climbing(const struct revolve_segment *s)
 {
     const double a = polynomial_slope(s->h, s->h_degree, 0);
     const double b = polynomial_slope(s->h, s->h_degree, 1);
     double turn = s->h_degree == 3 ? -s->h[2] / (3 * s->h[3]) : 0;
     turn = turn > 0 && turn < 1 ? turn : 0;
-    return a * b > 0 && a * polynomial_slope(s->h, s->h_degree, turn) > 0;
+    const double c = polynomial_slope(s->h, s->h_degree, turn);
+    double noise = 0;
+    for (int k = 1; k <= s->h_degree; k++)
+        noise += GAMMA(16) * fabs(s->h[k]);
+    return fmin(a, fmin(b, c)) >= -noise || fmax(a, fmax(b, c)) <= noise;
 }
 
 static void bound_segment(struct revolve_segment *s)
@@ -96,6 +104,15 @@ struct aabb revolve_bounds(const struct revolve *r)
                          vec3(r->r_max, r->h_max, r->r_max)};
 }
 
+// Whether f before its first root at t is below zero by more than its rounding.
+static bool is_below_before(const double *f, int degree, double t)
+{
+    double size = 0;
+    for (int k = degree; k >= 0; k--)
+        size = size * 0.5 * t + fabs(f[k]);
+    return polynomial_value(f, degree, 0.5 * t) < -GAMMA(32) * size;
+}
+
 // The sign changes of f on (0, 1), the signs at the ends given.
 static int crossings(const double *f, int degree, bool above[2], double *w)
 {
@@ -104,6 +121,11 @@ static int crossings(const double *f, int degree, bool above[2], double *w)
     // The ends decide: drop or add a root at the end where rounding disagrees.
     bool state = above[0];
     int kept = 0;
+    // A line through an apex: f touches zero at the start and is below from there.
+    if (n > 0 && state && root[0].rising && is_below_before(f, degree, root[0].t)) {
+        w[kept++] = 0;
+        state = false;
+    }
     for (int i = 0; i < n; i++)
         if (root[i].rising == !state) {
             w[kept++] = root[i].t;
@@ -163,7 +185,7 @@ static void add(const struct line *l, double t, double dt, uint32_t part, double
 static bool sharpen(const struct line *l, const struct revolve_segment *s, double *t,
                     double *dt, double *w)
 {
-    const double far = 0x1p-10; // of the segment; more than the errors of w
+    const double far = 2 * NARROW; // more than the errors of w
     double at = *t, u = *w;
     for (int i = 0; i < 8; i++) {
         const double off = at - l->nearest, rho2 = l->nearest2 + l->q * off * off;
@@ -183,7 +205,7 @@ static bool sharpen(const struct line *l, const struct revolve_segment *s, doubl
             return false;
         if (fabs(by_t) <= noise) {
             *t = at;
-            *dt = noise;
+            *dt = noise > 0x1p-40 * l->size ? 4 * noise : noise; // not of first order alone
             *w = u < 0 ? 0 : u > 1 ? 1 : u;
             return true;
         }
@@ -208,7 +230,16 @@ static void add_circle(const struct line *l, uint32_t i, double w)
     }
 }
 
-static void flat_segment(const struct line *l, uint32_t i)
+static void sloped_segment(const struct line *l, uint32_t i);
+
+// Whether the heights of the line within the shape are a small part of the segment at w.
+static bool is_narrow(const struct line *l, const struct revolve_segment *s, double w)
+{
+    const double band = 2 * fabs(l->ray->d.y) * l->r->r_max / sqrt(l->q);
+    return band < NARROW * fabs(polynomial_slope(s->h, s->h_degree, w));
+}
+
+static void flat_segment(const struct line *l, uint32_t i, bool flat)
 {
     const struct revolve_segment *s = &l->r->segment[i];
     const double y = l->ray->o.y - l->ray->d.y * l->m / l->q; // where it passes the axis
@@ -217,8 +248,14 @@ static void flat_segment(const struct line *l, uint32_t i)
         f[k] = s->h[k];
     f[0] -= y;
     bool above[2] = {s->h_end[0] >= y, s->h_end[1] >= y};
-    for (int n = crossings(f, s->h_degree, above, w); n > 0; n--)
-        add_circle(l, i, w[n - 1]);
+    const int n = crossings(f, s->h_degree, above, w);
+    for (int k = 0; k < n && !flat; k++)
+        if (!is_narrow(l, s, w[k])) {
+            sloped_segment(l, i);
+            return;
+        }
+    for (int k = 0; k < n; k++)
+        add_circle(l, i, w[k]);
 }
 
 // Whether a nearly horizontal line passes all heights that it has within the shape between
@@ -257,7 +294,7 @@ static void sloped_segment(const struct line *l, uint32_t i)
     const double dy = l->ray->d.y;
     if (s->most2 == 0 || passes_by(l, s))
         return;
-    double f[7] = {0}, h[4], w[8];
+    double f[7] = {0}, h[4] = {0}, w[8];
     for (int k = 0; k <= s->h_degree; k++)
         h[k] = s->h[k];
     h[0] -= l->y;
@@ -343,7 +380,7 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     const bool nearly = fabs(d.y) <= NEARLY_FLAT * sqrt(l.q);
     for (uint32_t i = 0; i < r->count; i++)
         if (flat || (nearly && is_clear(&l, &r->segment[i])))
-            flat_segment(&l, i);
+            flat_segment(&l, i, flat);
         else
             sloped_segment(&l, i);
     if (!flat && !r->closed && r->count) {

@@ -32,6 +32,7 @@ struct segment {
     double r[4];
     int degree;
     struct ball around;
+    bool empty; // a curve: all radii are zero
 };
 
 struct sweep {
@@ -92,6 +93,7 @@ static void make_segment(struct sweep *s, const struct ball *p, struct segment *
         g->around.r = fmax(g->around.r, vec3_length(vec3_sub(hull[k].c, g->around.c)) +
                                             fabs(hull[k].r));
     g->around.r *= 1 + 0x1p-40;
+    g->empty = g->r[0] == 0 && g->r[1] == 0 && g->r[2] == 0 && g->r[3] == 0;
     s->bounds = aabb_join(s->bounds, box);
 }
 
@@ -142,8 +144,13 @@ static bool build(void *shape, struct args *args)
 
 // ---- rays -----------------------------------------------------------------------------
 
+// Balls thinner than that share of the segment: w is 1e-7 of the terms it is a sum of.
+#define THIN 0x1p-12
+
 // One segment on one line.
 struct chord {
+    const double *r;
+    struct vec3 across[4]; // from the line to C(u)
     double tau[4], w[7];
     int tau_degree, w_degree;
     double least, most, at_least, at_most; // ends of the stretch, and their u
@@ -172,10 +179,20 @@ static void excess(const struct segment *g, const struct vec3 p[4], double w[7])
             w[i + j] -= vec3_dot(p[i], p[j]);
 }
 
+// w(u) without its polynomial, whose terms are of the size of the segment.
+static double excess_at(const struct chord *c, double u)
+{
+    struct vec3 v = c->across[c->tau_degree];
+    for (int k = c->tau_degree - 1; k >= 0; k--)
+        v = vec3_mad(c->across[k], u, v);
+    const double r = polynomial_value(c->r, c->tau_degree, u);
+    return r * r - vec3_dot(v, v);
+}
+
 static void try_u(struct chord *c, double u)
 {
     const double tau = polynomial_value(c->tau, c->tau_degree, u);
-    const double reach = sqrt(fmax(0, polynomial_value(c->w, c->w_degree, u)));
+    const double reach = sqrt(fmax(0, excess_at(c, u)));
     if (tau - reach < c->least) {
         c->least = tau - reach;
         c->at_least = u;
@@ -208,8 +225,63 @@ static void cover(struct chord *c, double lo, double hi)
     multiply(dt2, 2 * n, c->w, c->w_degree, 1, f);
     multiply(dw, m, dw, m, -1, f);
     try_roots(c, f, 2 * n + c->w_degree > 2 * m ? 2 * n + c->w_degree : 2 * m, lo, hi);
-    // Where both ends turn at the same u the root above is double and may be missed.
-    try_roots(c, dw, m, lo, hi);
+    // Where both ends turn at nearly the same u, about the greatest ball, the roots above are
+    // twins and may be missed: there w is a parabola and tau a line.
+    struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
+    double dw2[6] = {0};
+    differentiate(dw, m, dw2);
+    for (int i = polynomial_roots(dw, m, lo, hi, 16, root); i > 0; i--) {
+        const double u = root[i - 1].t, slope = polynomial_value(dt, n, u);
+        const double bend = -polynomial_value(dw2, m - 1, u) / 2;
+        try_u(c, u);
+        if (!(bend > 0))
+            continue;
+        const double by =
+            slope * sqrt(fmax(0, excess_at(c, u)) / (bend * (bend + slope * slope)));
+        try_u(c, fmax(lo, u - fabs(by)));
+        try_u(c, fmin(hi, u + fabs(by)));
+    }
+}
+
+// The sign change of w between a and b, by bisection.
+static double change_between(const struct chord *c, double a, double b, bool in_a)
+{
+    for (int i = 0; i < 60 && b - a > 0x1p-53; i++) {
+        const double u = 0.5 * (a + b);
+        *((excess_at(c, u) >= 0) == in_a ? &a : &b) = u;
+    }
+    return 0.5 * (a + b);
+}
+
+// Where w changes its sign; *in: whether it begins positive. Where the balls are so small that
+// the rounding of the polynomial matters, by the signs between its extrema.
+static int changes(const struct chord *c, double size, double u[7], bool *in)
+{
+    struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
+    double r = 0, dw[6];
+    for (int k = 0; k <= c->tau_degree; k++)
+        r += fabs(c->r[k]);
+    int n = 0;
+    if (r > THIN * size) {
+        n = polynomial_roots(c->w, c->w_degree, 0, 1, 16, root);
+        *in = n > 0 ? !root[0].rising : polynomial_value(c->w, c->w_degree, 0.5) >= 0;
+        for (int i = 0; i < n; i++)
+            u[i] = root[i].t;
+        return n;
+    }
+    differentiate(c->w, c->w_degree, dw);
+    const int stops = polynomial_roots(dw, c->w_degree - 1, 0, 1, 16, root);
+    double from = 0;
+    bool state = *in = excess_at(c, 0) >= 0;
+    for (int i = 0; i <= stops; i++) {
+        const double to = i < stops ? root[i].t : 1;
+        const bool now = excess_at(c, to) >= 0;
+        if (now != state)
+            u[n++] = change_between(c, from, to, state);
+        state = now;
+        from = to;
+    }
+    return n;
 }
 
 struct line {
@@ -231,7 +303,7 @@ static void end(const struct line *l, double t, double shift, double dt, double 
 // noise/2h or at most its root.
 static double chord_error(const struct chord *c, double u, double noise)
 {
-    const double w = polynomial_value(c->w, c->w_degree, u);
+    const double w = excess_at(c, u);
     return w > noise ? fmin(noise / sqrt(w), 2 * sqrt(noise)) : 2 * sqrt(noise);
 }
 
@@ -241,25 +313,24 @@ static void meet_segment(const struct line *l, const struct segment *g, uint32_t
     const double shift = vec3_dot(to, l->d);
     const struct vec3 off = vec3_mad(to, -shift, l->d); // from the line to the middle
     const double r = g->around.r;
-    if (vec3_dot(off, off) > r * r * (1 + 0x1p-30) + GAMMA(16) * vec3_dot(to, to))
+    if (g->empty || vec3_dot(off, off) > r * r * (1 + 0x1p-30) + GAMMA(16) * vec3_dot(to, to))
         return;
     const struct vec3 o = vec3_mad(l->ray->o, shift, l->d);
-    struct chord c = {.tau_degree = g->degree, .w_degree = 2 * g->degree};
-    struct vec3 across[4];
+    struct chord c = {.r = g->r, .tau_degree = g->degree, .w_degree = 2 * g->degree};
     for (int k = 0; k <= g->degree; k++) {
         const struct vec3 v = k ? g->c[k] : vec3_sub(g->c[0], o);
         c.tau[k] = vec3_dot(v, l->d);
-        across[k] = vec3_mad(v, -c.tau[k], l->d);
+        c.across[k] = vec3_mad(v, -c.tau[k], l->d);
     }
-    excess(g, across, c.w);
-    struct polynomial_root root[6];
-    const int n = polynomial_roots(c.w, c.w_degree, 0, 1, 16, root);
-    bool in = n > 0 ? !root[0].rising : polynomial_value(c.w, c.w_degree, 0.5) >= 0;
+    excess(g, c.across, c.w);
+    double u[7];
+    bool in;
+    const int n = changes(&c, r, u, &in);
     const double error = GAMMA(32) * (fabs(shift) + r + vec3_max_abs(g->around.c));
     for (int i = 0; i <= n; i++, in = !in) {
         if (!in)
             continue;
-        cover(&c, i ? root[i - 1].t : 0, i < n ? root[i].t : 1);
+        cover(&c, i ? u[i - 1] : 0, i < n ? u[i] : 1);
         const double noise = GAMMA(64) * r * (r + fabs(shift) * 0x1p-20) + error * r;
         end(l, c.least, shift, error + chord_error(&c, c.at_least, noise), c.at_least, part,
             CROSS_ENTER);
@@ -290,16 +361,35 @@ static struct aabb bounds(const void *shape)
     return s->bounds;
 }
 
+// Not by w(u) itself: its terms are of the size of the segment, and cancel where that is thin.
+static bool inside_ball(const struct segment *g, double u, struct vec3 p)
+{
+    struct vec3 c = g->c[g->degree];
+    for (int k = g->degree - 1; k >= 0; k--)
+        c = vec3_mad(g->c[k], u, c);
+    const struct vec3 v = vec3_sub(p, c);
+    const double r = polynomial_value(g->r, g->degree, u);
+    return vec3_dot(v, v) <= r * r;
+}
+
+// Some ball holds p when that of the greatest w does: at an end, or where w' vanishes.
 static bool inside_segment(const struct segment *g, struct vec3 p)
 {
-    double w[7] = {0};
-    struct vec3 v[4];
+    if (g->empty)
+        return false;
+    if (inside_ball(g, 0, p) || inside_ball(g, 1, p))
+        return true;
+    double w[7] = {0}, dw[6];
+    struct vec3 v[4] = {{0, 0, 0}};
     for (int k = 0; k <= g->degree; k++)
         v[k] = k ? g->c[k] : vec3_sub(g->c[0], p);
     excess(g, v, w);
-    struct polynomial_root root[6];
-    return w[0] > 0 || polynomial_value(w, 2 * g->degree, 1) > 0 ||
-           polynomial_roots(w, 2 * g->degree, 0, 1, 16, root) > 0;
+    differentiate(w, 2 * g->degree, dw);
+    struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
+    for (int n = polynomial_roots(dw, 2 * g->degree - 1, 0, 1, 16, root); n > 0; n--)
+        if (inside_ball(g, root[n - 1].t, p))
+            return true;
+    return false;
 }
 
 static bool inside(const void *shape, struct vec3 p)

@@ -99,17 +99,18 @@ static void sharpen(struct vec3 o, struct vec3 u, double R, double r, double noi
 // order of 1, of which little is left when the tube is thin.
 static double coefficient_error(const double c[5], double t)
 {
-    const double error = GAMMA(32);
+    const double error = GAMMA(128);
     const double slope = fabs(4 * t * t * t + 2 * c[2] * t + c[1]);
     const double curve = fabs(12 * t * t + 2 * c[2]);
-    return fmin(error / slope, 2 * sqrt(2 * error / curve));
+    const double simple = 2 * error / slope, twofold = 2 * sqrt(2 * error / curve);
+    return 2 * simple < twofold ? simple : 2 * twofold; // as polynomial_root_error
 }
 
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct torus *s = shape;
     const double size = s->major + s->minor, length = vec3_length(ray->d);
-    if (!(size > 0))
+    if (!(s->minor > 0)) // nothing, or a circle
         return;
     const struct vec3 u = vec3_scale(1 / length, ray->d);
     const double shift = -vec3_dot(ray->o, u);
@@ -142,10 +143,12 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     struct polynomial_root root[4];
     const int n = polynomial_roots(c, 4, lo, hi, 8, root);
     const double noise = GAMMA(8) * (2 + fabs(shift) / size);
+    double least = -HUGE_VAL; // sharpened apart, twins may have changed places
     for (int i = 0; i < n; i++) {
         root[i].dt += coefficient_error(c, root[i].t);
         sharpen(o, u, R, r, noise, &root[i]);
-        const double t = size * root[i].t + shift;
+        const double t = fmax(least, size * root[i].t + shift);
+        least = t;
         const double dt = size * root[i].dt + GAMMA(8) * (fabs(shift) + size);
         boundary_list_add(out, t / length, dt / length,
                           root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
