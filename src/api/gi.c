@@ -1,16 +1,18 @@
-// Radiosity as options ask for it.
+// Light by way of other surfaces, as scene and options ask for it.
 #include "api/gi.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
+#include "irradiance/cache.h"
 #include "radiosity/radiosity.h"
 
 struct gi {
     struct arena *arena;
     struct job job;
     struct radiosity *radiosity;
+    struct irradiance_cache *cache;
 };
 
 static const char *text_of(const struct lambert_context *ctx, const char *name)
@@ -66,12 +68,20 @@ static struct radiosity_options options_of(const struct lambert_context *ctx)
     return o;
 }
 
+static void tell(struct lambert_context *ctx, const char *text)
+{
+    if (!ctx->message)
+        return;
+    struct lambert_message m = {.kind = LAMBERT_NOTE, .text = text, .rendered = NULL};
+    char *line = arena_printf(ctx->scene_arena, "%s\n", text);
+    m.rendered = line;
+    ctx->message(ctx->message_user, &m);
+}
+
 static void report(struct lambert_context *ctx, const struct radiosity *r)
 {
     const struct radiosity_report *p = &r->report;
     char text[512], more[160] = "";
-    if (!ctx->message)
-        return;
     if (p->error >= 0)
         snprintf(more, sizeof more, ", error about %.2g %%%s", 100 * p->error,
                  p->converged ? "" : " (more than asked for)");
@@ -85,10 +95,7 @@ static void report(struct lambert_context *ctx, const struct radiosity *r)
                  p->elements, p->method, p->solver, p->steps, (double)p->rays,
                  p->bytes / 1e6, p->seconds, more, p->defect, p->row_sum_least,
                  p->row_sum_most, p->balanced ? " (balanced)" : "");
-    struct lambert_message m = {.kind = LAMBERT_NOTE, .text = text, .rendered = NULL};
-    char *line = arena_printf(ctx->scene_arena, "%s\n", text);
-    m.rendered = line;
-    ctx->message(ctx->message_user, &m);
+    tell(ctx, text);
 }
 
 // In thousandths; tiles are counted anew afterwards.
@@ -143,12 +150,37 @@ static enum lambert_status write_aov(struct lambert_context *ctx, const struct g
     return ok ? LAMBERT_OK : LAMBERT_ERROR_OUTPUT;
 }
 
-enum lambert_status gi_prepare(struct lambert_context *ctx,
-                               struct render_settings *settings, struct gi **out)
+static enum lambert_status cache_prepare(struct lambert_context *ctx,
+                                         struct render_settings *settings,
+                                         struct gi **out)
 {
-    *out = NULL;
-    if (strcmp(text_of(ctx, "gi"), "radiosity") != 0)
-        return LAMBERT_OK;
+    struct watch watch = {&ctx->cancel, tell_progress, ctx, 0, 1, 0};
+    struct gi *g = calloc(1, sizeof *g);
+    if (!g)
+        return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory");
+    struct irradiance_report r;
+    ctx->phase = LAMBERT_PHASE_RADIOSITY;
+    g->cache = irradiance_cache_new(ctx->world, settings, &watch, &r);
+    ctx->phase = LAMBERT_PHASE_TILES;
+    if (!g->cache) {
+        gi_free(g);
+        ctx->cancel = false;
+        return context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
+    }
+    char text[160];
+    snprintf(text, sizeof text,
+             "irradiance cache: %u samples in %u passes, %.3g rays, %.2f s", r.samples,
+             r.passes, (double)r.rays, r.seconds);
+    tell(ctx, text);
+    settings->indirect = irradiance_cache_indirect(g->cache);
+    *out = g;
+    return LAMBERT_OK;
+}
+
+static enum lambert_status patches_prepare(struct lambert_context *ctx,
+                                           struct render_settings *settings,
+                                           struct gi **out)
+{
     struct radiosity_options o = options_of(ctx);
     o.error = error_of(text_of(ctx, "error"));
     if (o.error < 0)
@@ -190,11 +222,28 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
     return LAMBERT_OK;
 }
 
+enum lambert_status gi_prepare(struct lambert_context *ctx,
+                               struct render_settings *settings, struct gi **out)
+{
+    enum { BEST_QUALITY = 9 }; // below, POV-Ray's radiosity { } is off
+    const char *method = text_of(ctx, "gi");
+    const bool asked = strcmp(method, "irradiance_cache") == 0;
+    *out = NULL;
+    if (strcmp(method, "radiosity") == 0)
+        return patches_prepare(ctx, settings, out);
+    if (asked || (strcmp(method, "auto") == 0 && ctx->world->scene->settings.radiosity &&
+                  settings->quality >= BEST_QUALITY))
+        return cache_prepare(ctx, settings, out);
+    return LAMBERT_OK;
+}
+
 void gi_free(struct gi *g)
 {
     if (!g)
         return;
     radiosity_free(g->radiosity);
-    arena_free(g->arena);
+    irradiance_cache_free(g->cache);
+    if (g->arena)
+        arena_free(g->arena);
     free(g);
 }

@@ -177,6 +177,8 @@ const struct sky_sphere *build_sky_sphere(struct args *a, const struct ast *bloc
 bool build_background(struct args *a, const struct ast *block);
 bool build_settings(struct args *a, const struct ast *block);
 bool build_photons_settings(struct args *a, const struct ast *block);
+// radiosity { importance } of an object or of #default.
+double build_importance(struct args *a);
 bool build_radiosity_settings(struct args *a, const struct ast *block);
 bool build_old_setting(struct args *a);
 void settings_finish(struct builder *b);

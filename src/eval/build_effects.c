@@ -80,7 +80,6 @@ bool build_radiosity_settings(struct args *a, const struct ast *block)
         }
     }
     check_reuse(&in, r, low, high);
-    args_not_rendered(a, WORD_radiosity, block->where);
     return !in.failed;
 }
 

@@ -54,6 +54,8 @@ static void diffuse(struct args *a, struct finish *f, struct albedo *albedo)
     read_float(a, "diffuse", &f->diffuse);
     if (args_optional(a, &back))
         f->diffuse_back = (float)back;
+    f->matt = f->diffuse;
+    f->matt_back = f->diffuse_back;
 }
 
 static void roughness(struct args *a, struct finish *f)

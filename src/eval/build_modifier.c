@@ -148,7 +148,7 @@ static void object_photons(struct args *a)
     args_not_rendered(a, WORD_photons, in.owner->where);
 }
 
-static void object_radiosity(struct args *a)
+double build_importance(struct args *a)
 {
     static const struct field fields[] = {{WORD_importance, FIELD_DOUBLE, 0, 1e-10, 1}};
     double importance = 1;
@@ -156,6 +156,7 @@ static void object_radiosity(struct args *a)
     while (in.at)
         if (!fields_read(&in, fields, 1, &importance))
             fields_unknown(&in, fields, 1, NULL, 0);
+    return importance;
 }
 
 static bool block_modifier(struct args *a, struct object *o)
@@ -175,7 +176,7 @@ static bool block_modifier(struct args *a, struct object *o)
     case WORD_clipped_by: clip_or_bound(a, o, true); return true;
     case WORD_bounded_by: clip_or_bound(a, o, false); return true;
     case WORD_photons: object_photons(a); return true;
-    case WORD_radiosity: object_radiosity(a); return true;
+    case WORD_radiosity: o->importance = (float)build_importance(a); return true;
     default: return false;
     }
 }

@@ -114,6 +114,7 @@ static void default_settings(struct settings *s)
                                                         .minimum_reuse = 0.015,
                                                         .maximum_reuse = 0.2,
                                                         .adc_bailout = 0.01,
+                                                        .importance = 1,
                                                         .brightness = 1,
                                                         .max_sample = -1,
                                                         .count = 35,
@@ -346,7 +347,9 @@ static bool default_block(struct builder *b, struct args *a, struct texture_laye
             top->finish = made;
         return true;
     case WORD_camera: build_camera(a, args_next(a), &b->camera_default); return true;
-    case WORD_radiosity: args_next(a); return true;
+    case WORD_radiosity:
+        b->e->scene->settings.radiosity_settings.importance = build_importance(a);
+        return true;
     default: return false;
     }
 }

@@ -92,25 +92,23 @@ static struct rgb gathered_light(const struct radiosity *r, struct tracer *t,
     return of_double(sum);
 }
 
-static struct rgb irradiance(const void *data, struct tracer *t, const struct ray *ray,
-                             const struct hit *hit, const struct interaction *at,
-                             struct vec3 n, uint32_t hash)
+static struct rgb irradiance(const void *data, void *state, struct tracer *t,
+                             const struct indirect_query *q)
 {
     const struct radiosity *r = data;
+    (void)state;
     // The surface itself, not a bump, decides what is seen.
-    const struct vec3 side = vec3_dot(at->ng, ray->d) > 0 ? vec3_neg(at->ng) : at->ng;
-    const struct vec3 o = trace_offset(at, side);
-    (void)n;
-    struct rgb c = r->settings.gather ? gathered_light(r, t, o, side, hash)
-                                      : mesh_light(r, t, ray, hit);
+    const struct vec3 o = trace_offset(q->at, q->side);
+    struct rgb c = r->settings.gather ? gathered_light(r, t, o, q->side, q->hash)
+                                      : mesh_light(r, t, q->ray, q->hit);
     if (r->emitter_count)
-        c = rgb_add(c, emitters_light(r, t, o, side, hash));
+        c = rgb_add(c, emitters_light(r, t, o, q->side, q->hash));
     return c;
 }
 
 struct indirect radiosity_indirect(const struct radiosity *r)
 {
-    return (struct indirect){r, irradiance};
+    return (struct indirect){.data = r, .irradiance = irradiance};
 }
 
 struct rgb radiosity_of_hit(const struct radiosity *r, struct trace_scratch *scratch,

@@ -4,7 +4,7 @@
 
 #include "radiosity/form_factor.h"
 #include "radiosity/hemicube.h"
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "trace/intersect.h"
 
 enum { FACTOR_RAYS = 1024 };

@@ -2,7 +2,7 @@
 #define RADIOSITY_FORM_FACTOR_H
 
 #include "radiosity/enclosure.h"
-#include "radiosity/watch.h"
+#include "base/watch.h"
 
 struct form_factor_settings {
     const char *method; // a name of form_factors.def

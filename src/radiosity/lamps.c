@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/sequence.h"
 #include "trace/lamp.h"

@@ -1,8 +1,8 @@
 liblambert_a_SOURCES += \
-	%D%/watch.h %D%/chart.c %D%/chart.h %D%/patch_trace.c %D%/patches.c %D%/patches.h \
+	%D%/chart.c %D%/chart.h %D%/patch_trace.c %D%/patches.c %D%/patches.h \
 	%D%/enclosure.h %D%/factor_hemicube.c %D%/factor_nodes.c %D%/factor_nodes.h %D%/factor_pair.c %D%/factor_rays.c \
 	%D%/factors.c %D%/form_factor.h %D%/form_factors.def %D%/hemicube.h \
-	%D%/parallel.c %D%/parallel.h %D%/polygon.c %D%/polygon.h %D%/ray_put.h \
+	%D%/polygon.c %D%/polygon.h %D%/ray_put.h \
 	%D%/display.c %D%/elements.c %D%/error_target.c %D%/lamps.c %D%/radiosity.c %D%/radiosity.h %D%/store.c \
 	%D%/prune.c %D%/shafts.c \
 	%D%/sequence.c %D%/sequence.h %D%/solve_dense.c %D%/solve_hierarchical.c \

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/patches.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"

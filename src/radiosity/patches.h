@@ -3,7 +3,7 @@
 
 #include "radiosity/chart.h"
 #include "radiosity/enclosure.h"
-#include "radiosity/watch.h"
+#include "base/watch.h"
 #include "trace/job.h"
 
 struct tracer;

@@ -1,7 +1,7 @@
 // Which objects can come between two elements: most pairs of a scene need no ray.
 #include <stdlib.h>
 
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/patches.h"
 #include "scene/shape.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 #include "radiosity/solver.h"

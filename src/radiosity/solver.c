@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 
 const struct solver_settings solver_defaults = {
     .solver = "gauss-seidel",

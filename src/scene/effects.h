@@ -42,6 +42,7 @@ struct radiosity_settings {
     bool on;
     double pretrace_start, pretrace_end, error_bound, low_error_factor, gray_threshold;
     double minimum_reuse, maximum_reuse, adc_bailout, brightness, max_sample;
+    double importance; // of objects that do not say
     int count, count_directions, nearest_count, nearest_adaptive, recursion_limit;
     bool normal, media, always_sample, subsurface;
 };

@@ -5,6 +5,7 @@
 const struct finish finish_default = {
     .ambient = {0.1f, 0.1f, 0.1f},
     .diffuse = 0.6f,
+    .matt = 0.6f,
     .brilliance = 1,
     .phong_size = 40,
     .roughness = 20,

@@ -66,6 +66,7 @@ struct object {
     struct attached_texture interior_texture;
     const struct interior *interior; // NULL: inherit
     unsigned flags;                  // enum object_flags
+    float importance; // share of the rays that gather light which see it; 0: inherit
 
     // Clips and bounds, each in the outermost space of this node; a point must
     // be inside all clips. Bounds only cull rays (they never change a picture

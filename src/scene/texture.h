@@ -88,6 +88,7 @@ struct normal {
 struct finish {
     struct rgb ambient, emission;
     float diffuse, diffuse_back, brilliance, crand;
+    float matt, matt_back; // diffuse as it was written, not scaled as an albedo
     float phong, phong_size, specular, roughness; // roughness as 1/r: the exponent
     float metallic;
     float irid, irid_thickness, irid_turbulence;

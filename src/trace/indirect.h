@@ -1,21 +1,42 @@
 #ifndef TRACE_INDIRECT_H
 #define TRACE_INDIRECT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "math/color.h"
 #include "trace/intersect.h"
 
 struct tracer;
+struct inside;
+
+// A hit whose light by way of others is asked for.
+struct indirect_query {
+    const struct ray *ray;
+    const struct hit *hit;
+    const struct interaction *at;
+    struct vec3 n;    // unit, of the side that is asked for; a layer's where those count
+    struct vec3 side; // unit, of the bare surface, on the same side
+    float weight;     // of the ray, for adc_bailout
+    const struct inside *inside; // the interiors of that side
+    uint32_t hash, sample;       // of the ray
+    uint16_t level;              // of the ray, this hit counted
+};
 
 // Light that reaches surfaces by way of others, worked out before the picture.
 struct indirect {
     const void *data; // NULL: there is none
-    // Irradiance at a hit on the side of n, unit, in units in which a matt white surface
-    // shows it as its colour. May trace with the tracer's scratch.
-    struct rgb (*irradiance)(const void *data, struct tracer *t, const struct ray *ray,
-                             const struct hit *hit, const struct interaction *at,
-                             struct vec3 n, uint32_t hash);
+    // What a tracer keeps for it; both may be NULL.
+    void *(*begin)(const void *data);
+    void (*end)(void *state);
+    // Irradiance, in units in which a matt white surface shows it as its colour. May trace
+    // with the tracer's scratch.
+    struct rgb (*irradiance)(const void *data, void *state, struct tracer *t,
+                             const struct indirect_query *q);
+    float least;        // of a layer's matt share that is worth asking
+    bool layer_normals; // ask with the normal of the first layer, not the surface's
+    bool both_sides;    // ask for light from behind as well, where finishes use it
+    bool no_ambient;    // and `ambient` of finishes counts nothing
 };
 
 #endif

@@ -11,6 +11,8 @@ static const struct lamp *lamp_of(struct job *job, const struct light *light)
             return &job->lamp[i];
     struct lamp *lamp = &job->lamp[job->lamp_count];
     lamp_init(lamp, light, job->lamp_count++);
+    lamp->dull |= job->settings.purpose == RENDER_GATHER;
+    lamp->inert |= job->settings.purpose == RENDER_SCOUT;
     return lamp;
 }
 
@@ -139,17 +141,22 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .adc_bailout = s->adc_bailout,
         .old_opacity = s->version < 370,
         .see_through = settings->output_alpha,
-        .ambient_light = s->ambient_light,
+        .ambient_light =
+            settings->indirect.no_ambient ? rgb(0, 0, 0) : s->ambient_light,
         .irid_wavelength = s->irid_wavelength,
         .lights = q >= 2,
         .shadows = q >= 4,
-        .area_lights = q >= 5,
+        .area_lights = q >= 5 && settings->purpose != RENDER_GATHER,
         .pigments = q >= 6,
         .refraction = q >= 6,
         .mirrors = q >= 8,
         .normals = q >= 8,
         .atmosphere = q >= 9,
     };
+    const unsigned never =
+        settings->purpose == RENDER_GATHER ? (unsigned)OBJECT_NO_RADIOSITY : 0;
+    job->hidden_by[0] = never ? never : (unsigned)OBJECT_NO_IMAGE;
+    job->hidden_by[1] = never | (unsigned)OBJECT_NO_REFLECTION;
     lamps_init(job, a, w);
     spectrum_init(job);
     sky_init(job);

@@ -47,6 +47,7 @@ struct job {
     float spectrum[SPECTRUM_NODES][3]; // summed from the violet end
     // What a miss sees where that does not depend on the direction: [1] where the
     // background never shows as alpha.
+    unsigned hidden_by[2]; // of rays: [1] once they were mirrored
     bool has_air; // fog or rainbows
     bool even_sky;
     struct rgb sky[2];

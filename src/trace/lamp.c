@@ -11,6 +11,7 @@ void lamp_init(struct lamp *lamp, const struct light *light, uint32_t index)
         lamp->cos_radius = det_cos(light->radius * degree);
         lamp->cos_falloff = det_cos(light->falloff * degree);
     }
+    lamp->dull = light->shadowless;
     lamp->inert = light->color.r == 0 && light->color.g == 0 && light->color.b == 0;
 }
 

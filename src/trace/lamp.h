@@ -13,7 +13,8 @@ struct lamp {
     const struct light *light;
     double cos_radius, cos_falloff; // spots
     uint32_t index;                 // over all lamps of the render
-    bool inert;                     // black: adds nothing
+    bool inert;                     // adds nothing, as if it were black
+    bool dull;                      // makes no highlights
 };
 
 void lamp_init(struct lamp *lamp, const struct light *light, uint32_t index);

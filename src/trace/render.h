@@ -9,6 +9,13 @@
 #include "trace/intersect.h"
 #include "trace/world.h"
 
+// What rays are traced for.
+enum render_purpose {
+    RENDER_PICTURE,
+    RENDER_SCOUT,  // the camera's, to find where light by way of others is wanted
+    RENDER_GATHER, // such light (spec/lighting.md 12.3): no highlights, lamps are points
+};
+
 // Spec/language 7.2 names of the switches in brackets.
 struct render_settings {
     int width, height;
@@ -24,6 +31,7 @@ struct render_settings {
     int quality;                                // 9
     bool output_alpha;
     struct indirect indirect;
+    enum render_purpose purpose;
 };
 extern const struct render_settings render_settings_default;
 

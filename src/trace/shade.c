@@ -81,21 +81,53 @@ static void shade_plain(void *user, const struct surface_view *v, const struct t
     shade_transmit(s, &r);
 }
 
-// Light by way of other surfaces, on what is matt of all layers.
-static void shade_indirect(struct shading *s, const struct hit *hit,
-                           const struct ray *ray)
+// The matt part of all layers that is worth asking for, and the first such layer.
+static struct rgb matt_part(const struct shading *s, bool back,
+                            const struct layer **first)
 {
-    const struct indirect *indirect = &s->t->job->settings.indirect;
-    struct rgb matt = {0, 0, 0};
+    struct rgb sum = {0, 0, 0};
+    *first = NULL;
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const struct layer *l = &s->layer[i];
-        matt = rgb_add(
-            matt, rgb_scale(l->finish->diffuse * l->att, rgb_mul(l->color, l->filter)));
+        const float matt = (back ? l->finish->matt_back : l->finish->matt) * l->att;
+        if (!(rgb_grey(l->filter) * matt > s->t->job->settings.indirect.least))
+            continue;
+        if (!*first)
+            *first = l;
+        sum = rgb_add(sum, rgb_scale(matt, rgb_mul(l->color, l->filter)));
     }
+    return sum;
+}
+
+struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool back)
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    const struct interaction *at = h->at;
+    const struct vec3 d = h->ray->d;
+    struct vec3 side = vec3_dot(at->ng, d) > 0 ? vec3_neg(at->ng) : at->ng;
+    struct vec3 n = vec3_dot(at->ns, d) > 0 ? vec3_neg(at->ns) : at->ns;
+    if (indirect->layer_normals)
+        n = h->n;
+    if (back) {
+        side = vec3_neg(side);
+        n = vec3_neg(n);
+    }
+    const struct path *p = h->path;
+    const struct indirect_query q = {h->ray,    h->hit,  at,        n,       side, p->weight,
+                                     p->inside, p->hash, p->sample, p->level};
+    return indirect->irradiance(indirect->data, t->indirect, t, &q);
+}
+
+// Light by way of other surfaces, on what is matt of all layers of one side.
+static void shade_indirect(struct shading *s, const struct hit *hit,
+                           const struct ray *ray, bool back)
+{
+    const struct layer *first;
+    const struct rgb matt = matt_part(s, back, &first);
     if (rgb_max(matt) <= 0)
         return;
-    const struct rgb c = indirect->irradiance(indirect->data, s->t, ray, hit, &s->at,
-                                              s->view.n, s->path->hash);
+    const struct indirect_hit h = {ray, hit, &s->at, first->n, s->path};
+    const struct rgb c = indirect_light(s->t, &h, back);
     tracer_add(s->t, rgb_mul(s->path->through, rgb_mul(matt, c)));
 }
 
@@ -120,6 +152,8 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     if (!t->job->lights)
         return;
     if (t->job->settings.indirect.data)
-        shade_indirect(&s, hit, &ray);
+        shade_indirect(&s, hit, &ray, false);
+    if (t->job->settings.indirect.both_sides)
+        shade_indirect(&s, hit, &ray, true);
     shade_lights(&s);
 }

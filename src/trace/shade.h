@@ -19,6 +19,16 @@ struct shading {
 
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
+// A hit as light by way of other surfaces is asked for: n is the layer's, towards the ray,
+// path as it arrives at the surface.
+struct indirect_hit {
+    const struct ray *ray;
+    const struct hit *hit;
+    const struct interaction *at;
+    struct vec3 n;
+    const struct path *path;
+};
+struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool back);
 // Iridescence for light from l (spec/lighting.md 5.3).
 struct rgb irid_factor(const struct shading *s, const struct finish *f, struct vec3 n,
                        struct vec3 l);

@@ -100,7 +100,7 @@ LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *l
         c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(f8_load(strength), f8_load(g->att))),
                        rgb8_load((const float(*)[8])g->color));
     }
-    if (!lamp->light->shadowless) {
+    if (!lamp->dull) {
         const struct vec8 d = v8_load((const double(*)[8])g->d);
         const struct float8 sum = highlights8(f, d, n, to, *live & ~back);
         if (f->metallic != 0)

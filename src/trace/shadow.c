@@ -8,6 +8,11 @@
 
 static const double zero = 1e-10; // spec/lighting.md 0
 
+// Shadow rays end this much before a lamp: half of the digits of a double. A surface that
+// the lamp lies on (a ceiling) is met within the rounding of its place, which the cosine
+// divides, and throws no shadow on its own side at cosines down to about 2^-26.
+static const double before_lamp = 1 - 0x1p-26;
+
 // What an occluder lets through, summed over its textures (spec/lighting.md 7.3).
 struct occluder {
     struct tracer *t;
@@ -97,7 +102,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
 static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r)
 {
     struct shadow_walk s = {r->inside, all, 0, 0};
-    struct ray_query q = {{r->o, r->d, 0, r->t_max}, OBJECT_NO_SHADOW};
+    struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
     struct hit hit;
     do {
         q.ray.t_min = s.t;
@@ -175,7 +180,7 @@ struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
 {
     if (!(r->t_max > 0))
         return all;
-    const struct ray_query q = {{r->o, r->d, 0, r->t_max}, OBJECT_NO_SHADOW};
+    const struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
     if (trace_occluded_1(t->job->world, t->scratch, &q))
         return none;
     struct rgb c = all;
@@ -243,6 +248,8 @@ void shadow_end(struct tracer *t)
 static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count)
 {
     b->rays->count = count;
+    for (uint32_t i = 0; i < count; i++)
+        b->rays->t_max[i] *= before_lamp;
     trace_occluded(t->job->world, t->scratch, b->rays, b->occluded);
     if (b->pass)
         walk_batch(t, b, count);

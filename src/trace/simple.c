@@ -165,9 +165,12 @@ void simple_compile(struct job *job, struct arena *a)
     const bool general = wish && strcmp(wish, "general") == 0;
     const struct camera *c = job->camera;
     job->kernels = kernels_named(w->accel->kernels->name);
+    // Where light by way of others is collected, the order of hits counts: one order only.
+    const bool collects =
+        job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
     job->quick_camera =
-        !general && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
-    if (general || job->has_air || !job->lights || !job->pigments ||
+        !general && !collects && c->kind == CAMERA_PERSPECTIVE && !c->normal && camera_has_one_eye(c);
+    if (general || collects || job->has_air || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
@@ -252,30 +255,40 @@ bool simple_take(struct tracer *t, uint32_t k)
     return true;
 }
 
-// Light by way of other surfaces, on what is matt: hit by hit, as shade_indirect.
+// Light by way of other surfaces on a lane, of one side, as shade_indirect.
 static void add_indirect(struct tracer *t, const struct simple_class *c,
-                         const struct simple_group *g)
+                         const struct simple_group *g, int i, bool back)
 {
     const struct indirect *indirect = &t->job->settings.indirect;
+    const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
+    const struct rgb color =
+        rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
+    if (!(matt > indirect->least) || rgb_max(color) <= 0)
+        return;
+    const uint32_t k = g->ray[i];
+    const struct ray_batch *b = t->rays;
+    const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
+                            vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
+    struct interaction at;
+    trace_interaction(t->job->world, &ray, &t->hit[k], &at);
+    struct path path = wave_path(t, g->slot[i]);
+    if (!(path.flags & PATH_CONTINUED))
+        path.level++;
+    const struct indirect_hit hit = {&ray, &t->hit[k], &at,
+                                     vec3(g->n[0][i], g->n[1][i], g->n[2][i]), &path};
+    const struct rgb light = indirect_light(t, &hit, back);
+    t->slot = g->slot[i];
+    tracer_add(t, rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]),
+                          rgb_mul(color, light)));
+}
+
+static void group_indirect(struct tracer *t, const struct simple_class *c,
+                           const struct simple_group *g)
+{
     for (unsigned live = g->live; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        const uint32_t k = g->ray[i];
-        const struct rgb matt =
-            rgb_scale(c->finish->diffuse * g->att[i],
-                      rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
-        if (rgb_max(matt) <= 0)
-            continue;
-        const struct ray_batch *b = t->rays;
-        const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
-                                vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
-        struct interaction at;
-        trace_interaction(t->job->world, &ray, &t->hit[k], &at);
-        const struct rgb light = indirect->irradiance(
-            indirect->data, t, &ray, &t->hit[k], &at,
-            vec3(g->n[0][i], g->n[1][i], g->n[2][i]), wave_path(t, g->slot[i]).hash);
-        t->slot = g->slot[i];
-        tracer_add(t, rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]),
-                              rgb_mul(matt, light)));
+        add_indirect(t, c, g, __builtin_ctz(live), false);
+        if (t->job->settings.indirect.both_sides)
+            add_indirect(t, c, g, __builtin_ctz(live), true);
     }
 }
 
@@ -292,7 +305,7 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
         kernels->place(t, t->class_ray + 8 * i, left < 8 ? left : 8, &t->group[i]);
         kernels->own(t, c, &t->group[i]);
         if (t->job->settings.indirect.data)
-            add_indirect(t, c, &t->group[i]);
+            group_indirect(t, c, &t->group[i]);
     }
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)
         if (!c->lamps->lamp[i]->inert)

@@ -38,6 +38,8 @@ struct tracer *tracer_new(const struct job *job)
     t->hit = must_alloc(BATCH_SIZE, sizeof *t->hit);
     shadow_init(t);
     simple_init(t);
+    if (job->settings.indirect.begin)
+        t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
     return t;
@@ -45,6 +47,8 @@ struct tracer *tracer_new(const struct job *job)
 
 void tracer_free(struct tracer *t)
 {
+    if (t->job->settings.indirect.end)
+        t->job->settings.indirect.end(t->indirect);
     trace_scratch_free(t->scratch);
     arena_free(t->arena);
     arena_free(t->camera_arena);
@@ -109,6 +113,23 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
                         : inside_at(t->arena, t->job->world, p->o);
     }
     wave_run(t, &t->camera_queue);
+    results(t, count, out);
+}
+
+void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
+                  struct first_hit *first, float (*out)[4])
+{
+    begin(t, count);
+    t->camera_queue.count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        struct path *p = path_queue_add(&t->camera_queue);
+        *p = path[i];
+        p->sample = i;
+    }
+    t->first = first;
+    t->first_level = count ? path[0].level : 0;
+    wave_run(t, &t->camera_queue);
+    t->first = NULL;
     results(t, count, out);
 }
 

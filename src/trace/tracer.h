@@ -108,6 +108,12 @@ struct shadow_batch {
     struct rgb *pass; // what transparent things and fog let through; NULL: all
 };
 
+// What a ray from elsewhere than the camera met first.
+struct first_hit {
+    double distance; // INFINITY: nothing
+    uint32_t leaf;
+};
+
 // What one thread needs to trace.
 struct tracer {
     const struct job *job;
@@ -135,6 +141,9 @@ struct tracer {
     struct wave_frame *frame;
     struct path_queue camera_queue;
     struct inside_pushed last_push;
+    void *indirect;        // what light by way of others keeps for this tracer
+    struct first_hit *first; // by sample, of rays of level first_level; NULL: not wanted
+    uint16_t first_level;
     struct arena *camera_arena;
     const struct inside *camera_inside; // of a camera with one eye
     uint64_t samples;
@@ -157,6 +166,11 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
 // The same for sub-pixel positions of a camera without a lens.
 void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
                     float (*out)[4]);
+
+// The same for rays that come from elsewhere than the camera: path[i] belongs to sample i.
+// All have the same level. first, if not NULL, gets what each meets first.
+void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
+                  struct first_hit *first, float (*out)[4]);
 
 // ---- between the parts of the tracer ------------------------------------
 // Adds what a hit sends towards the camera; rays that go on are appended to the wave's

@@ -169,8 +169,7 @@ static void wave_put(struct tracer *t)
         b->d[0][k] = p->d.x;
         b->d[1][k] = p->d.y;
         b->d[2][k] = p->d.z;
-        b->hidden_by[k] =
-            p->flags & PATH_REFLECTED ? OBJECT_NO_REFLECTION : OBJECT_NO_IMAGE;
+        b->hidden_by[k] = t->job->hidden_by[(p->flags & PATH_REFLECTED) != 0];
         w->slot[k] = (uint16_t)i;
         w->through[0][i] = p->through.r;
         w->through[1][i] = p->through.g;
@@ -206,7 +205,7 @@ static void missed(struct tracer *t, uint32_t k)
         shade_miss(t, &p);
         return;
     }
-    const bool opaque = t->rays->hidden_by[k] == OBJECT_NO_REFLECTION;
+    const bool opaque = t->rays->hidden_by[k] & OBJECT_NO_REFLECTION;
     struct rgb c = job->sky[opaque];
     float clear = job->sky_clear[opaque];
     if (!job->even_sky)
@@ -231,6 +230,17 @@ static void sums_add(struct tracer *t)
     }
 }
 
+// Keeps what the first rays of samples met.
+static void first_keep(struct tracer *t)
+{
+    const struct wavefront *w = &t->wave;
+    for (uint32_t k = 0; k < w->count; k++) {
+        const struct path *p = &w->path[w->order[w->slot[k]]];
+        if (p->level == t->first_level)
+            t->first[p->sample] = (struct first_hit){t->hit[k].b.t, t->hit[k].b.leaf};
+    }
+}
+
 // Traces and shades the rays of the batch.
 static void wave_trace(struct tracer *t)
 {
@@ -242,6 +252,8 @@ static void wave_trace(struct tracer *t)
     memset(w->t, 0, w->count * sizeof w->t[0]);
     const uint32_t first = w->next->count;
     trace_closest(t->job->world, t->scratch, t->rays, t->hit);
+    if (t->first)
+        first_keep(t);
     for (uint32_t k = 0; k < w->count; k++) {
         if (!(t->hit[k].b.t < INFINITY)) {
             missed(t, k);

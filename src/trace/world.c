@@ -18,6 +18,7 @@ struct context {
     bool inverted, drawn;
     bool interior_given; // false: the scene says nothing of an interior
     uint32_t light_group;
+    float importance;
 };
 
 // A node waiting to be flattened into its slot. A stack rather than recursion: trees may
@@ -187,6 +188,8 @@ static struct context enter(struct build *b, const struct object *o, const struc
     if (!o->texture.texture)
         inherited |= c->flags & OBJECT_UV_MAPPING;
     in.flags = inherited | o->flags;
+    if (o->importance > 0)
+        in.importance = o->importance;
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
     in.interior_given = o->interior || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
@@ -207,7 +210,7 @@ static bool same_surface(const struct surface *a, const struct surface *b)
 {
     return !a->parts && !b->parts && a->texture == b->texture && a->interior_texture == b->interior_texture &&
            a->interior == b->interior && a->flags == b->flags &&
-           a->light_group == b->light_group &&
+           a->light_group == b->light_group && a->importance == b->importance &&
            same_transform(&a->texture_transform, &b->texture_transform) &&
            same_transform(&a->interior_texture_transform, &b->interior_texture_transform);
 }
@@ -235,7 +238,10 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                         .interior_texture_transform = c->interior_texture.transform,
                         .interior = c->interior,
                         .flags = c->flags,
-                        .light_group = c->light_group};
+                        .light_group = c->light_group,
+                        .importance = c->importance};
+    if (!(s.importance > 0))
+        s.importance = (float)b->scene->settings.radiosity_settings.importance;
     s.parts = o->ops->texture && o->ops->texture(o->shape, 0);
     if (!c->texture.texture && c->flags & OBJECT_CUTAWAY) {
         s.parts = true;

@@ -26,6 +26,7 @@ struct surface {
     bool parts;                      // parts of the shape have textures of their own, or
     const struct cutaway *cutaway;   // those of other parts of the object are seen
     uint32_t light_group;            // index+1 into world light groups; 0: none
+    float importance;                // share of gathering rays that see it
 };
 
 // A shape placed in the world. `inverted`: an odd number of inversions lies on the

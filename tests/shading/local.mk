@@ -186,6 +186,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/246-radiosity-direct.pov \
 	%D%/247-radiosity-image.pov \
 	%D%/248-radiosity-reuse.pov \
+	%D%/249-radiosity-importance.pov \
 	%D%/250-photons-caustic.pov \
 	%D%/251-photons-collect-off.pov \
 	%D%/252-photons-reflect.pov \
@@ -204,6 +205,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/279-old-refraction.pov \
 	%D%/280-render-blocks-aa.pov \
 	%D%/290-mixed.pov \
+	%D%/291-light-on-ceiling.pov \
 	%D%/300-part-textures.pov \
 	%D%/300-image-map-planar.pov \
 	%D%/301-image-map-spherical.pov \

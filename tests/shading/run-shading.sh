@@ -57,15 +57,20 @@ same()
         echo "not ok $number - $1"
     fi
 }
-scene=$dir/290-mixed.pov
 render() { "$top_builddir/lambert" "$scene" "+L$top_srcdir/tests/data/images" +W80 +H60 "$@" >"$tmp/log" 2>&1; }
-render +WT1 -o "$tmp/first.exr"
-render +WT4 -o "$tmp/other.exr"
-same "four threads give the picture of one"
-for isa in base avx2 avx512; do
-    LAMBERT_ISA=$isa
-    export LAMBERT_ISA
-    render -o "$tmp/other.exr"
-    same "$isa gives the same picture"
+for scene in "$dir/290-mixed.pov" "$dir/247-radiosity-image.pov"; do
+    name=$(basename "$scene" .pov)
+    render +WT1 -o "$tmp/first.exr"
+    render +WT4 -o "$tmp/other.exr"
+    same "$name: four threads give the picture of one"
+    render +WT2 +BS13 -o "$tmp/other.exr"
+    same "$name: small tiles give the same picture"
+    for isa in base avx2 avx512; do
+        LAMBERT_ISA=$isa
+        export LAMBERT_ISA
+        render -o "$tmp/other.exr"
+        same "$name: $isa gives the same picture"
+    done
+    unset LAMBERT_ISA
 done
 echo "1..$number"

@@ -1,5 +1,5 @@
-#ifndef RADIOSITY_WATCH_H
-#define RADIOSITY_WATCH_H
+#ifndef BASE_WATCH_H
+#define BASE_WATCH_H
 
 #include <stdbool.h>
 #include <stddef.h>

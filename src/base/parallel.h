@@ -1,9 +1,9 @@
-#ifndef RADIOSITY_PARALLEL_H
-#define RADIOSITY_PARALLEL_H
+#ifndef BASE_PARALLEL_H
+#define BASE_PARALLEL_H
 
 #include <stdint.h>
 
-#include "radiosity/watch.h"
+#include "base/watch.h"
 
 // Runs work(user, state, begin, end) for consecutive pieces of [0, count), on `threads`
 // threads (0: all cores) with large stacks. Each thread gets a state from begin(user) and

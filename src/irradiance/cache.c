@@ -1,0 +1,114 @@
+#include "irradiance/cache.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "base/arena.h"
+#include "irradiance/fill.h"
+#include "math/elementary.h"
+
+// The fraction whose digits in this base are those of n, mirrored (Halton 1960).
+static double radical_inverse(uint32_t n, uint32_t base)
+{
+    double x = 0, digit = 1;
+    for (; n; n /= base) {
+        digit /= base;
+        x += digit * (n % base);
+    }
+    return x;
+}
+
+// About y, with density proportional to the cosine (spec/lighting.md 12.3).
+static void directions_init(struct irradiance_cache *c)
+{
+    static const double turn = 2 * 3.14159265358979323846;
+    const struct radiosity_settings *s = c->settings;
+    const int most = s->count > s->count_directions ? s->count : s->count_directions;
+    c->direction_count = (uint32_t)most;
+    c->direction = arena_new_array(c->arena, struct vec3, (size_t)most);
+    for (uint32_t k = 0; k < c->direction_count; k++) {
+        const double h = radical_inverse(k + 1, 2),
+                     angle = turn * radical_inverse(k + 1, 3);
+        const double r = sqrt(h);
+        c->direction[k] = vec3(r * det_cos(angle), sqrt(1 - h), r * det_sin(angle));
+    }
+}
+
+struct indirect irradiance_cache_indirect(const struct irradiance_cache *c)
+{
+    const struct world *w = c->scout.world;
+    return (struct indirect){
+        .data = c,
+        .begin = gather_begin,
+        .end = gather_end,
+        .irradiance = gather_irradiance,
+        .least = (float)c->settings->adc_bailout,
+        .layer_normals = c->settings->normal,
+        .both_sides = true,
+        .no_ambient = w->scene->settings.version >= 370,
+    };
+}
+
+// Jobs of the camera's rays and of those that gather, which ask for the next depth.
+static void jobs_init(struct irradiance_cache *c, const struct world *w,
+                      const struct render_settings *settings)
+{
+    struct render_settings s = *settings;
+    c->scout.world = w;
+    s.indirect = irradiance_cache_indirect(c);
+    s.indirect.begin = NULL;
+    s.indirect.end = NULL;
+    s.output_alpha = false;
+    s.purpose = RENDER_SCOUT;
+    job_init(&c->scout, c->arena, w, &s);
+    s.purpose = RENDER_GATHER;
+    c->gather = arena_new_array(c->arena, struct job, c->depths);
+    for (uint32_t k = 0; k < c->depths; k++) {
+        if (k + 1 == c->depths) {
+            s.indirect.data = NULL;
+            s.indirect.both_sides = false;
+        }
+        job_init(&c->gather[k], c->arena, w, &s);
+    }
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+struct irradiance_cache *irradiance_cache_new(const struct world *w,
+                                              const struct render_settings *settings,
+                                              struct watch *watch,
+                                              struct irradiance_report *report)
+{
+    struct arena *a = arena_new(64 * 1024);
+    struct irradiance_cache *c = arena_new_struct(a, struct irradiance_cache);
+    const double begin = now();
+    *report = (struct irradiance_report){0};
+    c->arena = a;
+    c->settings = &w->scene->settings.radiosity_settings;
+    c->depths = (uint32_t)c->settings->recursion_limit;
+    c->eye = w->scene->has_camera ? w->scene->camera.location : camera_default.location;
+    store_init(&c->store);
+    directions_init(c);
+    jobs_init(c, w, settings);
+    if (!irradiance_fill(c, settings, watch, report)) {
+        irradiance_cache_free(c);
+        return NULL;
+    }
+    report->samples = c->store.count;
+    report->seconds = now() - begin;
+    return c;
+}
+
+void irradiance_cache_free(struct irradiance_cache *c)
+{
+    if (!c)
+        return;
+    store_free(&c->store);
+    arena_free(c->arena);
+}

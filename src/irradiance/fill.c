@@ -1,0 +1,184 @@
+// The passes that take samples before the picture (spec/lighting.md 12.6).
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/parallel.h"
+#include "irradiance/fill.h"
+
+enum { SQUARE = 32 }; // side of the squares that know nothing of each other in a pass
+
+struct pass {
+    struct irradiance_cache *cache;
+    const struct render_settings *settings;
+    uint32_t number;
+    double size;         // distance of its points, in pixels
+    bool final;          // by the picture's rules, at the middle of every pixel
+    struct store *fresh; // by square
+    uint64_t *rays;      // by square
+};
+
+static uint32_t squares_across(const struct render_settings *s)
+{
+    return (uint32_t)(s->col_end - s->col_begin + SQUARE - 1) / SQUARE;
+}
+
+static uint32_t squares_down(const struct render_settings *s)
+{
+    return (uint32_t)(s->row_end - s->row_begin + SQUARE - 1) / SQUARE;
+}
+
+struct scout {
+    struct tracer *tracer;
+    struct gatherer *gatherer;
+};
+
+static void *begin(void *user)
+{
+    const struct pass *p = user;
+    struct scout *s = malloc(sizeof *s);
+    if (!s)
+        abort();
+    s->gatherer = gatherer_new(p->cache);
+    s->gatherer->final = p->final;
+    s->tracer = tracer_new(&p->cache->scout);
+    s->tracer->indirect = &s->gatherer->level[0];
+    return s;
+}
+
+static void end(void *user, void *state)
+{
+    struct scout *s = state;
+    (void)user;
+    tracer_free(s->tracer);
+    gatherer_free(s->gatherer);
+    free(s);
+}
+
+// Where the points of a pass lie that belong to [from, to): multiples of the size.
+static double first_point(int from, double size)
+{
+    return ceil((from - 0.5) / size) * size;
+}
+
+struct points {
+    struct vec2 at[BATCH_SIZE];
+    float out[BATCH_SIZE][4];
+    uint32_t count;
+};
+
+static void points_trace(struct tracer *t, struct points *p)
+{
+    if (p->count)
+        tracer_samples(t, p->at, p->count, p->out);
+    p->count = 0;
+}
+
+static void square_scout(const struct pass *p, struct tracer *t, int x0, int y0, int x1,
+                         int y1)
+{
+    const double spread = fmin(1, p->size / 2), middle = (p->size - 1) / 2;
+    struct points points = {.count = 0};
+    uint32_t h = hash_mix(p->number, (uint32_t)x0 + 65536u * (uint32_t)y0);
+    for (double y = first_point(y0, p->size); y < y1 - 0.5; y += p->size) {
+        for (double x = first_point(x0, p->size); x < x1 - 0.5; x += p->size) {
+            double dx = 0, dy = 0;
+            if (!p->final) {
+                h = hash_mix(h, 1);
+                dy = middle + spread * (2 * hash_unit(h) - 1);
+                h = hash_mix(h, 2);
+                dx = middle + spread * (2 * hash_unit(h) - 1);
+            }
+            if (points.count == BATCH_SIZE)
+                points_trace(t, &points);
+            points.at[points.count++] = (struct vec2){x + dx + 0.5, y + dy + 0.5};
+        }
+    }
+    points_trace(t, &points);
+}
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+static void work(void *user, void *state, uint32_t from, uint32_t to)
+{
+    static const uint32_t stride = 7919; // a prime, so that squares begin elsewhere
+    struct pass *p = user;
+    struct scout *s = state;
+    const uint32_t across = squares_across(p->settings);
+    for (uint32_t i = from; i < to; i++) {
+        const int x0 = p->settings->col_begin + SQUARE * (int)(i % across),
+                  y0 = p->settings->row_begin + SQUARE * (int)(i / across);
+        store_init(&p->fresh[i]);
+        s->gatherer->fresh = &p->fresh[i];
+        gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
+        const uint64_t before = gatherer_rays(s->gatherer);
+        square_scout(p, s->tracer, x0, y0, least(x0 + SQUARE, p->settings->col_end),
+                     least(y0 + SQUARE, p->settings->row_end));
+        p->rays[i] = gatherer_rays(s->gatherer) - before;
+    }
+}
+
+// Takes over what the squares have found, in their order.
+static void squares_join(struct pass *p, uint32_t squares,
+                         struct irradiance_report *report)
+{
+    for (uint32_t i = 0; i < squares; i++) {
+        for (uint32_t k = 0; k < p->fresh[i].count; k++)
+            store_add(&p->cache->store, &p->fresh[i].sample[k]);
+        store_free(&p->fresh[i]);
+        report->rays += p->rays[i];
+    }
+}
+
+static bool run(struct pass *p, struct watch *watch, struct irradiance_report *report)
+{
+    const uint32_t squares = squares_across(p->settings) * squares_down(p->settings);
+    p->fresh = calloc(squares, sizeof *p->fresh);
+    p->rays = calloc(squares, sizeof *p->rays);
+    if (!p->fresh || !p->rays)
+        abort();
+    const struct parallel parallel = {.threads = p->settings->threads,
+                                      .piece = 1,
+                                      .watch = watch,
+                                      .tells = true,
+                                      .user = p,
+                                      .begin = begin,
+                                      .end = end,
+                                      .work = work};
+    parallel_run(&parallel, squares);
+    squares_join(p, squares, report);
+    free(p->fresh);
+    free(p->rays);
+    report->passes++;
+    return !watch_cancelled(watch);
+}
+
+// Number of passes before that at every pixel, and the size of the first.
+static uint32_t pass_count(const struct irradiance_cache *c,
+                           const struct render_settings *s, double *first, double *last)
+{
+    static const double slack = 1e-10;
+    enum { MOST = 32 };
+    const int side = s->width > s->height ? s->width : s->height;
+    *first = side * c->settings->pretrace_start;
+    *last = fmax(1, side * c->settings->pretrace_end);
+    const double n = floor(log2(*first / *last) + 1 - slack) + 1;
+    return n < 1 ? 1 : n > MOST ? MOST : (uint32_t)n;
+}
+
+bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *settings,
+                     struct watch *watch, struct irradiance_report *report)
+{
+    double size, last;
+    const uint32_t count = pass_count(c, settings, &size, &last);
+    for (uint32_t i = 1; i <= count; i++, size /= 2) {
+        struct pass p = {
+            .cache = c, .settings = settings, .number = i, .size = fmax(last, size)};
+        watch_part(watch, (i - 1) / (count + 1.0), i / (count + 1.0));
+        if (!run(&p, watch, report))
+            return false;
+    }
+    struct pass p = {
+        .cache = c, .settings = settings, .number = count + 1, .size = 1, .final = true};
+    watch_part(watch, count / (count + 1.0), 1);
+    return run(&p, watch, report);
+}

@@ -1,0 +1,336 @@
+#include "irradiance/gather.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void *must_alloc(size_t count, size_t size)
+{
+    void *p = calloc(count, size);
+    if (!p)
+        abort();
+    return p;
+}
+
+uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth)
+{
+    enum { FEWEST = 5 };
+    const uint32_t n = depth < 31 ? (uint32_t)c->settings->count >> depth : 0;
+    return n < FEWEST ? FEWEST : n;
+}
+
+struct gatherer *gatherer_new(const struct irradiance_cache *c)
+{
+    struct gatherer *g = must_alloc(1, sizeof *g);
+    g->cache = c;
+    g->level = must_alloc(c->depths, sizeof *g->level);
+    for (uint32_t k = 0; k < c->depths; k++)
+        g->level[k] = (struct gather_level){.owner = g, .depth = k};
+    return g;
+}
+
+void gatherer_free(struct gatherer *g)
+{
+    for (uint32_t k = 0; k < g->cache->depths; k++) {
+        struct gather_level *l = &g->level[k];
+        if (l->tracer)
+            tracer_free(l->tracer);
+        free(l->path);
+        free(l->to);
+        free(l->first);
+        free(l->color);
+        free(l->quality);
+    }
+    free(g->level);
+    free(g);
+}
+
+uint64_t gatherer_rays(const struct gatherer *g)
+{
+    uint64_t rays = 0;
+    for (uint32_t k = 0; k < g->cache->depths; k++)
+        if (g->level[k].tracer)
+            rays += trace_scratch_stats(g->level[k].tracer->scratch)->rays;
+    return rays;
+}
+
+void gatherer_start(struct gatherer *g, uint32_t direction)
+{
+    for (uint32_t k = 0; k < g->cache->depths; k++)
+        g->level[k].next = direction % g->cache->direction_count;
+}
+
+void *gather_begin(const void *cache)
+{
+    struct gatherer *g = gatherer_new(cache);
+    g->final = true;
+    return &g->level[0];
+}
+
+void gather_end(void *state) { gatherer_free(((struct gather_level *)state)->owner); }
+
+static void level_prepare(struct gather_level *l)
+{
+    const struct irradiance_cache *c = l->owner->cache;
+    const uint32_t n = gather_count(c, l->depth);
+    l->tracer = tracer_new(&c->gather[l->depth]);
+    if (l->depth + 1 < c->depths)
+        l->tracer->indirect = &l->owner->level[l->depth + 1];
+    l->path = must_alloc(n, sizeof *l->path);
+    l->to = must_alloc(n, sizeof *l->to);
+    l->first = must_alloc(n, sizeof *l->first);
+    l->color = must_alloc(n, sizeof *l->color);
+    l->quality = must_alloc(n, sizeof *l->quality);
+}
+
+// ---- one sample -------------------------------------------------------------------------
+
+struct frame {
+    struct vec3 x, y, z;
+};
+
+static struct frame frame_about(struct vec3 n)
+{
+    static const double upright = 0.999, steep = 0.9;
+    if (fabs(n.y) > upright) {
+        const double s = n.y > 0 ? 1 : -1;
+        return (struct frame){vec3(s, 0, 0), vec3(0, s, 0), vec3(0, 0, s)};
+    }
+    const struct vec3 e = fabs(n.z) > steep ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    const struct vec3 x = vec3_normalize(vec3_cross(n, e));
+    return (struct frame){x, n, vec3_cross(x, n)};
+}
+
+static struct vec3 next_direction(struct gather_level *l, const struct frame *f)
+{
+    const struct irradiance_cache *c = l->owner->cache;
+    const struct vec3 d = c->direction[l->next];
+    l->next = l->next + 1 == c->direction_count ? 0 : l->next + 1;
+    return vec3_add(vec3_add(vec3_scale(d.x, f->x), vec3_scale(d.y, f->y)),
+                    vec3_scale(d.z, f->z));
+}
+
+// Fills the directions: those behind the bare surface are left out as long as there are
+// others (a perturbed normal's); then the surface's own normal serves.
+static void choose_directions(struct gather_level *l, const struct indirect_query *q,
+                              uint32_t count)
+{
+    enum { TRIES = 5 };
+    struct frame f = frame_about(q->n);
+    uint32_t left = TRIES * count;
+    for (uint32_t i = 0; i < count;) {
+        l->to[i] = next_direction(l, &f);
+        if (vec3_dot(l->to[i], q->side) > 0 || left == 0) {
+            i++;
+            continue;
+        }
+        if (--left == 0)
+            f = frame_about(q->side);
+    }
+}
+
+static float powered(double base, uint32_t exponent)
+{
+    double p = 1;
+    for (uint32_t i = 0; i < exponent; i++)
+        p *= base;
+    return (float)p;
+}
+
+static void make_paths(struct gather_level *l, const struct indirect_query *q,
+                       uint32_t count)
+{
+    const double half = l->owner->cache->settings->brightness / 2;
+    const float weight = powered(half, l->depth + 1);
+    const uint16_t level = (uint16_t)(3 * (l->depth + 1) / 2);
+    for (uint32_t i = 0; i < count; i++) {
+        l->quality[i] = 1;
+        l->path[i] = (struct path){.o = trace_offset(q->at, l->to[i]),
+                                   .d = l->to[i],
+                                   .inside = q->inside,
+                                   .through = {1, 1, 1},
+                                   .through_t = 1,
+                                   .weight = weight,
+                                   .hash = hash_mix(q->hash, i + 1),
+                                   .level = level};
+    }
+}
+
+static struct rgb limited(const float c[4], double most)
+{
+    const struct rgb light = rgb(c[0], c[1], c[2]);
+    const float max = rgb_max(light);
+    return most > 0 && (double)max > most ? rgb_scale((float)most / max, light) : light;
+}
+
+// What ray i of a sample counts for: objects of little importance are seen by the first
+// rays only, which stand for the others.
+static double ray_weight(const struct gather_level *l, uint32_t i, uint32_t count)
+{
+    const struct world *w = l->tracer->job->world;
+    if (!(l->first[i].distance < INFINITY))
+        return 1;
+    const double importance =
+        (double)w->surface[w->leaf[l->first[i].leaf].surface].importance;
+    return i <= importance * (count - 1) ? 1 / importance : 0;
+}
+
+// Mean light, weighted by how well each part is known.
+static void mean_light(const struct gather_level *l, uint32_t count,
+                       struct cache_sample *out)
+{
+    const double most = l->owner->cache->settings->max_sample;
+    double sum[3] = {0, 0, 0}, known = 0, all = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct rgb c = limited(l->color[i], most);
+        const double w = ray_weight(l, i, count), q = w * (double)l->quality[i];
+        all += w;
+        known += q;
+        sum[0] += q * (double)c.r;
+        sum[1] += q * (double)c.g;
+        sum[2] += q * (double)c.b;
+    }
+    if (!(known > 0))
+        return;
+    out->quality = (float)(known / all);
+    out->light = rgb((float)(sum[0] / known), (float)(sum[1] / known),
+                     (float)(sum[2] / known));
+}
+
+// Fills in radius and nearest surface; false: too close to something to be stored.
+static bool distances(const struct gather_level *l, struct vec3 p, uint32_t count,
+                      struct cache_sample *out)
+{
+    static const double too_near = 1e-4; // of the largest radius
+    const struct irradiance_cache *c = l->owner->cache;
+    double inverse = 0;
+    out->nearest = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(l->first[i].distance < INFINITY))
+            continue;
+        inverse += 1 / l->first[i].distance;
+        if (l->first[i].distance < out->nearest) {
+            out->nearest = l->first[i].distance;
+            out->to = l->to[i];
+        }
+    }
+    const double unit = vec3_length(vec3_sub(p, c->eye)) * (double)(1u << l->depth);
+    const double low = c->settings->minimum_reuse * unit,
+                 high = c->settings->maximum_reuse * unit;
+    const double mean = inverse > 0 ? count / inverse : INFINITY;
+    out->radius = fmax(low, fmin(high, mean));
+    return out->nearest >= too_near * high && out->radius > 0;
+}
+
+// The widest error bound that is ever asked for at a depth (spec/lighting.md 12.2).
+static double widest_bound(const struct irradiance_cache *c, uint32_t depth)
+{
+    return (c->settings->error_bound + 0.25) * (double)(1u << depth);
+}
+
+static void keep(struct gather_level *l, struct cache_sample *sample)
+{
+    enum { CLOSER = 8 }; // deeper samples are found by points that are this much nearer
+    const double reach = sample->radius * widest_bound(l->owner->cache, l->depth);
+    sample->reach = l->depth ? reach / CLOSER : reach;
+    store_add(l->owner->fresh, sample);
+}
+
+static void take_sample(struct gather_level *l, const struct indirect_query *q,
+                        struct cache_sample *out)
+{
+    const uint32_t count = gather_count(l->owner->cache, l->depth);
+    if (!l->tracer)
+        level_prepare(l);
+    choose_directions(l, q, count);
+    make_paths(l, q, count);
+    tracer_paths(l->tracer, l->path, count, l->first, l->color);
+    *out = (struct cache_sample){.p = q->at->p, .n = q->n, .depth = l->depth};
+    mean_light(l, count, out);
+    const bool lasting = distances(l, out->p, count, out);
+    if (lasting && l->owner->fresh)
+        keep(l, out);
+}
+
+// ---- queries ----------------------------------------------------------------------------
+
+static double error_bound(const struct gather_level *l, float weight)
+{
+    static const double light_weight = 0.25;
+    const struct radiosity_settings *s = l->owner->cache->settings;
+    double bound = s->error_bound;
+    if (!l->owner->final)
+        bound *= s->low_error_factor;
+    if ((double)weight < light_weight)
+        bound += light_weight - (double)weight;
+    return bound * (double)(1u << l->depth);
+}
+
+static double required(const struct gather_level *l)
+{
+    const double n = l->owner->cache->settings->nearest_count;
+    return l->depth == 0 ? n : l->depth == 1 ? fmin(2, n) : 1;
+}
+
+// Four samples in the right place count as one of weight 4.
+static const double sample_weight = 4;
+
+static bool is_enough(const struct gather_level *l, double weight)
+{
+    const struct gatherer *g = l->owner;
+    if (g->final && !g->cache->settings->always_sample)
+        return weight > 0;
+    return sample_weight * weight >= required(l);
+}
+
+static struct rgb shown(const struct radiosity_settings *s, const struct cache_mean *mean)
+{
+    if (!(mean->weight > 0))
+        return rgb(0, 0, 0);
+    const struct rgb c = rgb((float)(mean->light[0] / mean->weight),
+                             (float)(mean->light[1] / mean->weight),
+                             (float)(mean->light[2] / mean->weight));
+    const float gray = (float)s->gray_threshold;
+    const struct rgb mixed =
+        rgb_add(rgb_scale(1 - gray, c), rgb_gray(gray * rgb_grey(c)));
+    return rgb_scale((float)s->brightness, mixed);
+}
+
+// Tells the depth above how well the light of one of its rays is known.
+static void tell_quality(const struct gather_level *l, const struct indirect_query *q,
+                         double weight)
+{
+    if (l->depth == 0)
+        return;
+    struct gather_level *above = &l->owner->level[l->depth - 1];
+    if (q->level == above->tracer->first_level + 1)
+        above->quality[q->sample] = (float)fmin(1, sample_weight * weight / required(l));
+}
+
+struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
+                             const struct indirect_query *q)
+{
+    const struct irradiance_cache *c = cache;
+    struct gather_level *l = state;
+    const struct gatherer *g = l->owner;
+    (void)t;
+    const struct cache_point at = {q->at->p, q->n, error_bound(l, q->weight), l->depth,
+                                   g->final && l->depth == 0};
+    struct cache_mean mean = {0};
+    if (c->store.count)
+        store_mean(&c->store, &at, &mean);
+    if (g->fresh && g->fresh->count)
+        store_mean(g->fresh, &at, &mean);
+    if (!is_enough(l, mean.weight)) {
+        struct cache_sample fresh;
+        if (!g->fresh)
+            l->next = q->hash % c->direction_count;
+        take_sample(l, q, &fresh);
+        const double w = (double)fresh.quality;
+        mean.weight += w;
+        mean.light[0] += w * (double)fresh.light.r;
+        mean.light[1] += w * (double)fresh.light.g;
+        mean.light[2] += w * (double)fresh.light.b;
+    }
+    tell_quality(l, q, mean.weight);
+    return shown(c->settings, &mean);
+}

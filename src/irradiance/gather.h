@@ -1,0 +1,59 @@
+#ifndef IRRADIANCE_GATHER_H
+#define IRRADIANCE_GATHER_H
+
+#include "irradiance/cache.h"
+#include "irradiance/store.h"
+#include "trace/tracer.h"
+
+struct arena;
+
+struct irradiance_cache {
+    struct arena *arena;
+    const struct radiosity_settings *settings;
+    struct vec3 eye;
+    struct job scout;   // the camera's rays, before the picture
+    struct job *gather; // of each depth
+    uint32_t depths;
+    struct store store;
+    struct vec3 *direction; // about y, cosine-weighted
+    uint32_t direction_count;
+};
+
+// What a thread keeps for one depth.
+struct gather_level {
+    struct gatherer *owner;
+    uint32_t depth;
+    struct tracer *tracer; // of rays that gather for this depth; made when first wanted
+    uint32_t next;         // direction
+    struct path *path;
+    struct vec3 *to; // their directions
+    struct first_hit *first;
+    float (*color)[4];
+    float *quality; // of what each met, as the next depth tells
+};
+
+struct gatherer {
+    const struct irradiance_cache *cache;
+    struct store
+        *fresh; // where new samples go; NULL: nowhere, and all is as in the picture
+    bool final; // the picture's rules for what is enough
+    struct gather_level *level;
+};
+
+// Of a thread that takes samples.
+struct gatherer *gatherer_new(const struct irradiance_cache *c);
+void gatherer_free(struct gatherer *g);
+uint64_t gatherer_rays(const struct gatherer *g);
+// Directions from here on.
+void gatherer_start(struct gatherer *g, uint32_t direction);
+
+// Rays of one sample at a depth.
+uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth);
+
+// The functions of struct indirect; the state is a gather_level.
+void *gather_begin(const void *cache);
+void gather_end(void *state);
+struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
+                             const struct indirect_query *q);
+
+#endif
