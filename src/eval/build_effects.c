@@ -17,11 +17,10 @@ static const struct field radiosity_fields[] = {
     {WORD_media, FIELD_NUMBER_BOOL, AT(media), 0, 0},
     {WORD_always_sample, FIELD_NUMBER_BOOL, AT(always_sample), 0, 0},
     {WORD_subsurface, FIELD_NUMBER_BOOL, AT(subsurface), 0, 0},
-    {WORD_load_file, FIELD_STRING, 0, 0, 0},
-    {WORD_save_file, FIELD_STRING, 0, 0, 0},
 };
-static const enum word radiosity_words[] = {WORD_count, WORD_nearest_count,
-                                            WORD_minimum_reuse, WORD_maximum_reuse};
+static const enum word radiosity_words[] = {WORD_count,         WORD_nearest_count,
+                                            WORD_minimum_reuse, WORD_maximum_reuse,
+                                            WORD_load_file,     WORD_save_file};
 
 static bool read_pair(struct args *a, int *first, int *second, double low, double high)
 {
@@ -51,6 +50,15 @@ static void check_reuse(struct args *a, struct radiosity_settings *r, bool low, 
         r->minimum_reuse = r->maximum_reuse / 2;
 }
 
+// Files of samples are no matter of scenes since POV-Ray 3.7, which ignores them too.
+static void ignored_file(struct args *a)
+{
+    const char *name;
+    args_warning(a, args_span(a), "radiosity files in a scene are ignored");
+    const struct ast *n = args_next(a);
+    args_string(a, word_text((enum word)n->word), &name);
+}
+
 bool build_radiosity_settings(struct args *a, const struct ast *block)
 {
     struct args in = args_of(a->b, block, a);
@@ -66,6 +74,8 @@ bool build_radiosity_settings(struct args *a, const struct ast *block)
         case WORD_nearest_count:
             read_pair(&in, &r->nearest_count, &r->nearest_adaptive, 1, 20);
             break;
+        case WORD_load_file:
+        case WORD_save_file: ignored_file(&in); break;
         case WORD_minimum_reuse:
             args_next(&in);
             low = args_float(&in, "minimum_reuse", &r->minimum_reuse);

@@ -229,7 +229,7 @@ static double widest_bound(const struct irradiance_cache *c, uint32_t depth)
 
 static void keep(struct gather_level *l, struct cache_sample *sample)
 {
-    enum { CLOSER = 8 }; // deeper samples are found by points that are this much nearer
+    enum { CLOSER = 5 }; // deeper samples are found by points that are about so much nearer
     const double reach = sample->radius * widest_bound(l->owner->cache, l->depth);
     sample->reach = l->depth ? reach / CLOSER : reach;
     store_add(l->owner->fresh, sample);

@@ -38,6 +38,10 @@ static double falloff(double error, const struct cache_point *at)
 double cache_weight(const struct cache_sample *s, const struct cache_point *at)
 {
     const struct vec3 d = vec3_sub(at->p, s->p);
+    // The part of the error that normals make is enough to tell for most.
+    const double turned = fabs(1 - vec3_dot(at->n, s->n));
+    if (4 * turned >= at->error_bound * at->error_bound)
+        return 0;
     const double distance = vec3_length(d);
     if (distance >= s->radius * at->error_bound)
         return 0;
@@ -51,7 +55,7 @@ double cache_weight(const struct cache_sample *s, const struct cache_point *at)
     }
     if (distance >= radius * at->error_bound || !(front > behind))
         return 0;
-    const double error = distance / radius + 2 * sqrt(fabs(1 - vec3_dot(at->n, s->n)));
+    const double error = distance / radius + 2 * sqrt(turned);
     if (!(error < at->error_bound))
         return 0;
     double weight = falloff(error, at);
@@ -123,7 +127,8 @@ static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
         c->state = 1;
         s->cell_count++;
     }
-    s->link[s->link_count] = (struct cache_link){sample, c->first};
+    const struct cache_sample *x = &s->sample[sample];
+    s->link[s->link_count] = (struct cache_link){x->p, x->radius, sample, c->first};
     c->first = s->link_count++;
 }
 
@@ -142,7 +147,7 @@ void store_add(struct store *s, const struct cache_sample *sample)
         s->sample = grown(s->sample, &s->capacity, sizeof *s->sample);
     s->sample[s->count] = *sample;
     int size;
-    frexp(2 * reach, &size);
+    frexp(reach, &size);
     if (size < INT16_MIN / 2)
         size = INT16_MIN / 2;
     const uint32_t depth = sample->depth;
@@ -176,7 +181,12 @@ void store_mean(const struct store *s, const struct cache_point *at,
         if (!c->state)
             continue;
         for (uint32_t i = c->first; i != STORE_END; i = s->link[i].next) {
-            const struct cache_sample *x = &s->sample[s->link[i].sample];
+            const struct cache_link *link = &s->link[i];
+            const struct vec3 d = vec3_sub(at->p, link->p);
+            const double limit = link->radius * at->error_bound;
+            if (vec3_dot(d, d) >= limit * limit)
+                continue;
+            const struct cache_sample *x = &s->sample[link->sample];
             const double w = cache_weight(x, at);
             if (!(w > 0))
                 continue;

@@ -29,7 +29,10 @@ struct cache_cell {
     uint32_t state; // 0: free
 };
 
+// A sample in a cell, with what most often tells that it says nothing.
 struct cache_link {
+    struct vec3 p;
+    double radius;
     uint32_t sample, next;
 };
 
