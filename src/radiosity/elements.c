@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/polygon.h"
 #include "trace/tracer.h"
 

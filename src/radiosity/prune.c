@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "radiosity/form_factor.h"
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/patches.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"

@@ -263,7 +263,7 @@ static void add_indirect(struct tracer *t, const struct simple_class *c,
     const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
     const struct rgb color =
         rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
-    if (!(matt > indirect->least) || rgb_max(color) <= 0)
+    if (!(rgb_grey(rgb(1, 1, 1)) * matt > indirect->least) || rgb_max(color) <= 0)
         return;
     const uint32_t k = g->ray[i];
     const struct ray_batch *b = t->rays;
