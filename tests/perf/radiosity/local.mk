@@ -1,8 +1,10 @@
 # Radiosity against truths: `make radiosity-data` measures (half an hour), `make
 # radiosity-chart` draws doc/radiosity.svg from the committed tables.
-EXTRA_PROGRAMS += radiosity_bench radiosity_stability
+EXTRA_PROGRAMS += radiosity_bench radiosity_stability radiosity_truth
 radiosity_bench_SOURCES = %D%/radiosity_bench.c
 radiosity_bench_LDADD = $(lambert_libs)
+radiosity_truth_SOURCES = %D%/radiosity_truth.c
+radiosity_truth_LDADD = -lm
 radiosity_stability_SOURCES = %D%/radiosity_stability.c \
 	tests/unit/radiosity/meshes.c tests/unit/radiosity/meshes.h
 radiosity_stability_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests/unit/radiosity

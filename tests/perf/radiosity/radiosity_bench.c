@@ -1,135 +1,26 @@
-// One solution of a scene whose truth is known, as a line of a table: scene, method,
-// solver, patches, error of the reflected light (relative rms over surfaces or patches),
-// user CPU and wall seconds, rays, bytes, steps, the solver's own estimate.
+// Solves a scene whose truth is known and writes a line of a table: scene, method,
+// solver, settings, patches, error, user CPU seconds, rays, bytes, steps, estimate.
+//
+//   radiosity_bench SCENE.pov TRUTH.tsv [key=value ...]
+//
+// The truth is a table of bins by radiosity_truth; without one ("furnace") every patch
+// receives 1. The error is that of the reflected light: the square root of the sum of
+// area x (reflectance x error of the irradiance)^2 over that of area x (reflectance x
+// irradiance)^2. Of several runs, each with a seed of its own, the median time and the
+// root mean square of the errors are given.
 #define _DEFAULT_SOURCE
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include "api/context.h"
 #include "base/arena.h"
 #include "radiosity/radiosity.h"
+#include "trace/intersect.h"
 
-struct sum {
-    double area, h[3];
-};
-
-// ---- truths ----------------------------------------------------------------------------
-// Irradiance by surface of the Cornell box for a light of radiosity 1 (particle tracing,
-// 1e8 particles), in the order of the scene: light, floor, ceiling, back, right, left,
-// short top and sides, tall top and sides.
-static const double cornell[16][3] = {
-    {0.011394, 0.010454, 0.009008},    {0.0090689, 0.0088400, 0.0078402},
-    {0.0083087, 0.0073108, 0.0059764}, {0.0137741, 0.0132337, 0.0117231},
-    {0.0148453, 0.0143999, 0.0133418}, {0.0132363, 0.0121969, 0.0113562},
-    {0.025696, 0.026194, 0.024555},    {0.0013115, 0.0038147, 0.0014248},
-    {0.0079103, 0.0101912, 0.0076353}, {0.0088587, 0.0065057, 0.0062168},
-    {0.0011324, 0.0007172, 0.0006599}, {0.059159, 0.056632, 0.055742},
-    {0.0064886, 0.0059277, 0.0053309}, {0.0073973, 0.0100371, 0.0071589},
-    {0.0082001, 0.0058322, 0.0052822}, {0.0071249, 0.0008553, 0.0008086}};
-
-static uint32_t leaf_of(const struct patches *p, uint32_t i)
-{
-    return p->chart[p->cell[p->element_cell[i] / 2].chart].leaf;
-}
-
-// The blocks are hollow in the scene; their inner sides are dark and none of the table's.
-static bool is_within_block(const struct element *e, uint32_t k)
-{
-    static const struct vec3 middle[2] = {{185.5, 82.5, 168.5}, {368.5, 165, 351.25}};
-    return k >= 6 && vec3_dot(e->normal, vec3_sub(e->centre, middle[k >= 11])) < 0;
-}
-
-// Relative rms of surface means, weighted by area and reflectance.
-static double cornell_error(const struct radiosity *r, bool print)
-{
-    struct sum s[16] = {0};
-    double rho[16][3] = {{0}}, off = 0, all = 0, light = 0;
-    const struct patches *p = r->patches;
-    for (uint32_t i = 0; i < p->element_count; i++) {
-        const struct element *e = &p->element[i];
-        const uint32_t k = p->job->world->leaf[leaf_of(p, i)].object;
-        // The lid's upper side is none of the table's.
-        if (k >= 16 || (k == 0 && e->normal.y > 0) || is_within_block(e, k))
-            continue;
-        s[k].area += e->area;
-        element_reflectance(e, rho[k]);
-        for (int c = 0; c < 3; c++)
-            s[k].h[c] += e->area * r->solution.h[i][c];
-        light = fmax(light, (double)e->emission.r);
-    }
-    for (int k = 0; k < 16; k++) {
-        for (int c = 0; c < 3; c++) {
-            const double h = s[k].h[c] / s[k].area / light, d = h - cornell[k][c];
-            off += s[k].area * rho[k][c] * rho[k][c] * d * d;
-            all += s[k].area * rho[k][c] * rho[k][c] * cornell[k][c] * cornell[k][c];
-        }
-        if (print)
-            fprintf(stderr, "%2d: area %.1f, %+.2f %% %+.2f %% %+.2f %%\n", k, s[k].area,
-                    100 * (s[k].h[0] / s[k].area / light / cornell[k][0] - 1),
-                    100 * (s[k].h[1] / s[k].area / light / cornell[k][1] - 1),
-                    100 * (s[k].h[2] / s[k].area / light / cornell[k][2] - 1));
-    }
-    return sqrt(off / all);
-}
-
-// The cube of reflectance .5 with a floor of 1: means of floor, ceiling and walls.
-static double cube_error(const struct radiosity *r)
-{
-    static const double truth[3] = {.2087232, .3424320, .3622112}; // H for a floor of 1
-    struct sum s[3] = {0};
-    double off = 0, all = 0;
-    const struct patches *p = r->patches;
-    double light = 0;
-    for (uint32_t i = 0; i < p->element_count; i++) {
-        const struct element *e = &p->element[i];
-        const int k = e->normal.z > .5 ? 0 : e->normal.z < -.5 ? 1 : 2;
-        s[k].area += e->area;
-        s[k].h[0] += e->area * r->solution.h[i][0];
-        light = fmax(light, (double)e->emission.r);
-    }
-    for (int k = 0; k < 3; k++) {
-        const double d = s[k].h[0] / s[k].area / light - truth[k];
-        off += (k == 2 ? 4 : 1) * d * d;
-        all += (k == 2 ? 4 : 1) * truth[k] * truth[k];
-    }
-    return sqrt(off / all);
-}
-
-// Exact for every patch: the dome of S6 has H = (2.0408 - 1) / .6, the disc .8163 / .4.
-static double cap_error(const struct radiosity *r)
-{
-    double off = 0, all = 0;
-    const struct patches *p = r->patches;
-    for (uint32_t i = 0; i < p->element_count; i++) {
-        const struct element *e = &p->element[i];
-        const double b = e->curved ? 1.04081632653061224 : 0.816326530612244898;
-        const double d = (e->curved ? .6 : .4) * r->solution.h[i][0] - b;
-        off += e->area * d * d;
-        all += e->area * b * b;
-    }
-    return sqrt(off / all);
-}
-
-// C4: means of both discs.
-static double discs_error(const struct radiosity *r)
-{
-    struct sum s[2] = {0};
-    const struct patches *p = r->patches;
-    for (uint32_t i = 0; i < p->element_count; i++) {
-        const struct element *e = &p->element[i];
-        const int k = e->normal.z < 0;
-        s[k].area += e->area;
-        s[k].h[0] += e->area * .8 * r->solution.h[i][0];
-    }
-    const double a = s[0].h[0] / s[0].area - .1067181835151;
-    const double b = s[1].h[0] / s[1].area - .33924340803155;
-    return sqrt((a * a + b * b) /
-                (.1067181835151 * .1067181835151 + .33924340803155 * .33924340803155));
-}
+enum { RUNS_MOST = 32, BINS_MOST = 8192 };
 
 static double user_seconds(void)
 {
@@ -138,12 +29,231 @@ static double user_seconds(void)
     return (double)u.ru_utime.tv_sec + 1e-6 * (double)u.ru_utime.tv_usec;
 }
 
+// How far a long run is, and when.
+static void tell(void *user, double share)
+{
+    (void)user;
+    fprintf(stderr, "%.1f s: %.3g\n", user_seconds(), share);
+}
+
+// ---- truths ------------------------------------------------------------------------------
+struct bin {
+    char name[32];
+    struct vec3 p, a, b; // a x b points to where the light comes from
+    double rho[3], h[3];
+};
+
+static struct bin bin[BINS_MOST];
+static int bins;
+
+static void truth_read(const char *path)
+{
+    char line[1024];
+    FILE *file = fopen(path, "r");
+    if (!file) {
+        perror(path);
+        exit(1);
+    }
+    while (fgets(line, sizeof line, file) && bins < BINS_MOST) {
+        struct bin *x = &bin[bins];
+        if (line[0] == '#')
+            continue;
+        if (sscanf(line,
+                   "%31s %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf",
+                   x->name, &x->p.x, &x->p.y, &x->p.z, &x->a.x, &x->a.y, &x->a.z, &x->b.x,
+                   &x->b.y, &x->b.z, &x->rho[0], &x->rho[1], &x->rho[2], &x->h[0],
+                   &x->h[1], &x->h[2]) != 16) {
+            fprintf(stderr, "%s: not understood: %s", path, line);
+            exit(1);
+        }
+        bins++;
+    }
+    fclose(file);
+}
+
+// ---- errors ------------------------------------------------------------------------------
+struct error_sum {
+    double off, all;
+};
+
+static void error_add(struct error_sum *s, double area, const double rho[3],
+                      const double got[3], const double truth[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const double d = rho[c] * (got[c] - truth[c]);
+        s->off += area * d * d;
+        s->all += area * rho[c] * rho[c] * truth[c] * truth[c];
+    }
+}
+
+static double error_of(const struct error_sum *s) { return sqrt(s->off / s->all); }
+
+static double furnace_error(const struct radiosity *r, bool print)
+{
+    static const double one[3] = {1, 1, 1};
+    struct error_sum s = {0, 0};
+    const struct patches *p = r->patches;
+    for (uint32_t i = 0; i < p->element_count; i++) {
+        double rho[3];
+        element_reflectance(&p->element[i], rho);
+        error_add(&s, p->element[i].area, rho, r->solution.h[i], one);
+        if (print)
+            fprintf(stderr, "%u\t%g\t%.4g %.4g %.4g\t%.3g\t%s\t%+.2f %%\n",
+                    p->element[i].surface, rho[0], p->element[i].centre.x,
+                    p->element[i].centre.y, p->element[i].centre.z, p->element[i].area,
+                    p->element[i].partial ? "partial" : "whole",
+                    100 * (r->solution.h[i][0] - 1));
+    }
+    return error_of(&s);
+}
+
+// The mean irradiance of the patches at points of a bin, for a light of radiosity 1.
+static void bin_value(const struct radiosity *r, struct trace_scratch *scratch,
+                      const struct bin *x, double light, double h[3])
+{
+    enum { SIDE = 6 };
+    const struct vec3 up = vec3_normalize(vec3_cross(x->a, x->b));
+    const double height = .05 * vec3_length(x->a);
+    h[0] = h[1] = h[2] = 0;
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        const struct vec3 p = vec3_mad(vec3_mad(x->p, (k % SIDE + .5) / SIDE, x->a),
+                                       (k / SIDE + .5) / SIDE, x->b);
+        const struct ray_query q = {{vec3_mad(p, height, up), vec3_neg(up), 0, INFINITY},
+                                    OBJECT_NO_RADIOSITY};
+        const struct hit hit = trace_closest_1(r->patches->job->world, scratch, &q);
+        const uint32_t e =
+            hit.b.t < 2 * height ? patch_of_hit(r->patches, &q.ray, &hit) : ELEMENT_NONE;
+        for (int c = 0; c < 3 && e != ELEMENT_NONE; c++)
+            h[c] += r->solution.h[e][c] / light / (SIDE * SIDE);
+    }
+}
+
+static double bins_error(const struct radiosity *r, bool print)
+{
+    struct error_sum sum = {0, 0};
+    struct trace_scratch *scratch = trace_scratch_new(r->patches->job->world);
+    double light = 0;
+    for (uint32_t i = 0; i < r->patches->element_count; i++)
+        light = fmax(light, (double)r->patches->element[i].emission.r);
+    for (int k = 0; k < bins; k++) {
+        double h[3];
+        bin_value(r, scratch, &bin[k], light, h);
+        error_add(&sum, vec3_length(vec3_cross(bin[k].a, bin[k].b)), bin[k].rho, h,
+                  bin[k].h);
+        if (print)
+            fprintf(stderr, "%s\t%.4g %.4g %.4g\t%+.2f %%\t%+.2f %%\t%+.2f %%\n",
+                    bin[k].name, bin[k].p.x, bin[k].p.y, bin[k].p.z,
+                    100 * (h[0] / bin[k].h[0] - 1), 100 * (h[1] / bin[k].h[1] - 1),
+                    100 * (h[2] / bin[k].h[2] - 1));
+    }
+    trace_scratch_free(scratch);
+    return error_of(&sum);
+}
+
+// ---- the run -----------------------------------------------------------------------------
+struct bench {
+    struct radiosity_options o;
+    int runs;
+    bool print, progress;
+    char settings[256]; // as given, but for those with a column of their own
+};
+
+static void set(struct bench *b, char *text)
+{
+    char *value = strchr(text, '=');
+    if (!value) {
+        fprintf(stderr, "not understood: %s\n", text);
+        exit(64);
+    }
+    *value++ = 0;
+    const double number = atof(value);
+    struct radiosity_options *o = &b->o;
+    if (strcmp(text, "method") == 0)
+        o->factors.method = value;
+    else if (strcmp(text, "solver") == 0)
+        o->solver.solver = value;
+    else if (strcmp(text, "patches") == 0)
+        o->patches.count = number;
+    else if (strcmp(text, "tolerance") == 0)
+        o->solver.tolerance = number;
+    else if (strcmp(text, "error") == 0)
+        o->error = number;
+    else if (strcmp(text, "rays") == 0)
+        o->solver.rays = (uint64_t)number;
+    else if (strcmp(text, "factor-rays") == 0)
+        o->factors.rays = (int)number;
+    else if (strcmp(text, "shadow-rays") == 0)
+        o->factors.shadow_rays = (int)number;
+    else if (strcmp(text, "resolution") == 0)
+        o->factors.resolution = (int)number;
+    else if (strcmp(text, "threads") == 0)
+        o->patches.threads = o->factors.threads = o->solver.threads = (int)number;
+    else if (strcmp(text, "runs") == 0)
+        b->runs = number < RUNS_MOST ? (int)number : RUNS_MOST;
+    else if (strcmp(text, "print") == 0)
+        b->print = number > 0;
+    else if (strcmp(text, "progress") == 0)
+        b->progress = number > 0;
+    else {
+        fprintf(stderr, "no such setting: %s\n", text);
+        exit(64);
+    }
+    static const char *const own[] = {"method", "solver", "patches", "threads",
+                                      "runs",   "print",  "progress"};
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+        if (strcmp(text, own[k]) == 0)
+            return;
+    const size_t end = strlen(b->settings);
+    snprintf(b->settings + end, sizeof b->settings - end, "%s%s=%s", end ? "," : "", text,
+             value);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void run(const struct bench *b, const struct job *job, const char *name)
+{
+    double user[RUNS_MOST], square = 0, estimate = 0;
+    struct radiosity_report report = {0};
+    const char *method = b->o.factors.method;
+    for (int k = 0; k < b->runs; k++) {
+        char error[512];
+        struct radiosity_options o = b->o;
+        struct watch watch = {.progress = tell, .to = 1};
+        o.solver.seed = o.factors.seed = (uint32_t)k;
+        if (b->progress)
+            o.watch = &watch;
+        const double start = user_seconds();
+        struct radiosity *r = radiosity_new(job, &o, NULL, error, sizeof error);
+        if (!r) {
+            fprintf(stderr, "%s\n", error);
+            exit(1);
+        }
+        user[k] = user_seconds() - start;
+        const double off = bins ? bins_error(r, b->print) : furnace_error(r, b->print);
+        square += off * off / b->runs;
+        estimate += r->report.error / b->runs;
+        report = r->report;
+        radiosity_free(r);
+    }
+    qsort(user, (size_t)b->runs, sizeof user[0], by_value);
+    printf("%s\t%s\t%s\t%s\t%u\t%.4g\t%.4g\t%.4g\t%.4g\t%u\t%.3g\t%d\n", name, method,
+           report.solver, b->settings[0] ? b->settings : "-", report.elements,
+           sqrt(square), user[b->runs / 2], (double)report.rays, report.bytes,
+           report.steps, estimate, b->runs);
+}
+
 int main(int argc, char **argv)
 {
-    if (argc < 6) {
+    struct bench b = {.o = radiosity_defaults, .runs = 1};
+    struct arena *a = arena_new(4096);
+    struct job job;
+    if (argc < 3) {
         fprintf(stderr,
-                "usage: radiosity_bench SCENE.pov METHOD SOLVER PATCHES TOLERANCE "
-                "[RAYS] [ERROR]\n");
+                "usage: radiosity_bench SCENE.pov TRUTH.tsv|furnace [key=value ...]\n");
         return 64;
     }
     struct lambert_context *ctx = lambert_context_new();
@@ -151,43 +261,17 @@ int main(int argc, char **argv)
         fprintf(stderr, "%s\n", lambert_error(ctx));
         return 1;
     }
-    struct arena *a = arena_new(4096);
-    struct job job;
+    if (strcmp(argv[2], "furnace") != 0)
+        truth_read(argv[2]);
+    b.o.patches.threads = b.o.factors.threads = b.o.solver.threads = 1;
+    b.o.memory = 4e9;
+    for (int i = 3; i < argc; i++)
+        set(&b, argv[i]);
     job_init(&job, a, ctx->world, &render_settings_default);
-    struct radiosity_options o = radiosity_defaults;
-    o.factors.method = argv[2];
-    o.solver.solver = argv[3];
-    o.patches.count = atof(argv[4]);
-    o.solver.tolerance = atof(argv[5]);
-    o.solver.rays = argc > 6 ? (uint64_t)atof(argv[6]) : 0;
-    o.error = argc > 7 ? atof(argv[7]) : 0;
-    const char *resolution = getenv("RESOLUTION"), *threads = getenv("THREADS");
-    if (resolution)
-        o.factors.resolution = atoi(resolution);
-    if (getenv("FACTOR_RAYS"))
-        o.factors.rays = atoi(getenv("FACTOR_RAYS"));
-    o.patches.threads = o.factors.threads = o.solver.threads =
-        threads ? atoi(threads) : 1;
-    o.memory = 4e9;
-    char error[512];
-    const double start = user_seconds();
-    struct radiosity *r = radiosity_new(&job, &o, NULL, error, sizeof error);
-    if (!r) {
-        fprintf(stderr, "%s\n", error);
-        return 1;
-    }
-    const double user = user_seconds() - start;
     const char *slash = strrchr(argv[1], '/'), *name = slash ? slash + 1 : argv[1];
-    const double off = strncmp(name, "cornell", 7) == 0
-                           ? cornell_error(r, getenv("PRINT"))
-                       : strncmp(name, "cap", 3) == 0   ? cap_error(r)
-                       : strncmp(name, "discs", 5) == 0 ? discs_error(r)
-                                                        : cube_error(r);
-    printf("%.*s\t%s%s\t%s\t%u\t%.5g\t%.4g\t%.4g\t%.4g\t%.4g\t%u\t%.3g\n",
-           (int)strcspn(name, "."), name, argv[2], resolution ? resolution : "",
-           r->report.solver, r->report.elements, off, user, r->report.seconds,
-           (double)r->report.rays, r->report.bytes, r->report.steps, r->report.error);
-    radiosity_free(r);
+    char scene[64];
+    snprintf(scene, sizeof scene, "%.*s", (int)strcspn(name, "."), name);
+    run(&b, &job, scene);
     arena_free(a);
     lambert_context_free(ctx);
     return 0;

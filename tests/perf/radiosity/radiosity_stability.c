@@ -26,7 +26,7 @@ static void reflectance(void)
             struct factors f;
             struct radiosity_solution out;
             factors_compute(&f, &m->e, &ff);
-            factors_balance(&f, &m->e);
+            factors_balance(&f, &m->e, NULL);
             const struct radiosity_system system = {.e = &m->e, .f = &f, .factors = &ff};
             o.solver = solvers[s];
             o.tolerance = .01;

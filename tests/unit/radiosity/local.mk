@@ -6,11 +6,24 @@ test_solvers_SOURCES = %D%/meshes.c %D%/meshes.h %D%/test_solvers.c
 test_solvers_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
 test_solvers_LDADD = $(test_ldadd)
 check_PROGRAMS += test_scenes
-test_scenes_SOURCES = %D%/test_scenes.c
-test_scenes_CPPFLAGS = $(test_cppflags)
+test_scenes_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_scenes.c
+test_scenes_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
 test_scenes_LDADD = $(test_ldadd)
+check_PROGRAMS += test_truths
+test_truths_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_truths.c
+test_truths_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
+test_truths_LDADD = $(test_ldadd)
+check_PROGRAMS += test_light
+test_light_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_light.c
+test_light_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
+test_light_LDADD = $(test_ldadd)
 
 # The truths of whole scenes at full size: minutes.
-check-radiosity: test_scenes$(EXEEXT)
-	LAMBERT_RADIOSITY_FULL=1 $(AM_TESTS_ENVIRONMENT) ./test_scenes$(EXEEXT)
+radiosity_truths = test_form_factors$(EXEEXT) test_light$(EXEEXT) test_scenes$(EXEEXT) \
+	test_truths$(EXEEXT)
+check-radiosity: $(radiosity_truths)
+	for t in $(radiosity_truths); do \
+	  LAMBERT_RADIOSITY_FULL=1; export LAMBERT_RADIOSITY_FULL; \
+	  $(AM_TESTS_ENVIRONMENT) ./$$t || exit 1; done
+check-long: check-radiosity
 .PHONY: check-radiosity

@@ -1,98 +1,12 @@
 // Whole scenes with exact solutions, from the language to radiosities.
 #include "test.h"
 
+#include "scenes.h"
 #include <stdlib.h>
-#include <unistd.h>
-
-#include "api/context.h"
-#include "base/arena.h"
-#include "radiosity/radiosity.h"
-
-struct scene_run {
-    struct lambert_context *ctx;
-    struct arena *arena;
-    struct job job;
-    struct radiosity *r;
-};
-
-#define HEAD                                                                             \
-    "#version 3.7; global_settings { assumed_gamma 1 }\n"                                \
-    "#macro M(Rho, E) texture { pigment { rgb 1 }"                                       \
-    " finish { ambient 0 diffuse Rho emission E } } #end\n"
-
-static struct scene_run load(const char *text)
-{
-    struct scene_run s = {.ctx = lambert_context_new(), .arena = arena_new(4096)};
-    char path[] = "/tmp/lambert-radiosity-XXXXXX";
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    assert_true(write(file, text, strlen(text)) == (ssize_t)strlen(text));
-    close(file);
-    const enum lambert_status status = lambert_load_file(s.ctx, path);
-    unlink(path);
-    if (status != LAMBERT_OK)
-        fail_msg("%s: %s", lambert_error(s.ctx), text);
-    job_init(&s.job, s.arena, s.ctx->world, &render_settings_default);
-    return s;
-}
-
-static struct scene_run solve(const char *text, const struct radiosity_options *options)
-{
-    char error[512] = "";
-    struct scene_run s = load(text);
-    s.r = radiosity_new(&s.job, options, NULL, error, sizeof error);
-    if (!s.r)
-        fail_msg("%s", error);
-    return s;
-}
-
-static void run_free(struct scene_run *s)
-{
-    radiosity_free(s->r);
-    arena_free(s->arena);
-    lambert_context_free(s->ctx);
-}
-
-static struct radiosity_options with(double patches, const char *solver)
-{
-    struct radiosity_options o = radiosity_defaults;
-    o.patches.count = patches;
-    o.solver.solver = solver;
-    return o;
-}
-
-struct mean {
-    double area, b, h, least, most;
-};
-
-// Over the elements for which `which` holds.
-static struct mean mean_of(const struct scene_run *s,
-                           bool (*which)(const struct element *))
-{
-    struct mean m = {.least = INFINITY, .most = -INFINITY};
-    const struct patches *p = s->r->patches;
-    for (uint32_t i = 0; i < p->element_count; i++) {
-        const struct element *e = &p->element[i];
-        if (which && !which(e))
-            continue;
-        const double b = s->r->solution.b[i][1];
-        m.area += e->area;
-        m.b += e->area * b;
-        m.h += e->area * s->r->solution.h[i][1];
-        m.least = fmin(m.least, b);
-        m.most = fmax(m.most, b);
-    }
-    m.b /= m.area;
-    m.h /= m.area;
-    return m;
-}
 
 static bool flat_up(const struct element *e) { return e->normal.z > .999 && !e->curved; }
 static bool curved(const struct element *e) { return e->curved; }
 static bool small_sphere(const struct element *e) { return e->centre.z > .5; }
-
-// make check takes the short way; `make check-radiosity` all of it.
-static bool in_full(void) { return getenv("LAMBERT_RADIOSITY_FULL") != NULL; }
 
 // ---- S2: whatever is in a closed scene, B = 1 where E = 1 - rho ------------------------
 static const char *const furnaces[] = {
@@ -130,7 +44,7 @@ static void furnace(void **state)
         snprintf(text, sizeof text, HEAD "%s%s\n", camera, furnaces[i]);
         struct radiosity_options o = with(in_full() ? 300 : 40, "gauss-seidel");
         o.solver.tolerance = 1e-5;
-        struct scene_run s = solve(text, &o);
+        struct scene_run s = scene_solve(text, &o);
         const struct mean m = mean_of(&s, NULL);
         print_message("%zu: %u patches, %.6f to %.6f, rows %.3f to %.3f\n", i,
                       s.r->report.elements, m.least, m.most, s.r->report.row_sum_least,
@@ -140,14 +54,14 @@ static void furnace(void **state)
         assert_near(m.most, 1, 1e-3);
         // Unscaled, by how much rows are off.
         assert_true(s.r->report.row_sum_least > .6 && s.r->report.row_sum_most < 1.3);
-        run_free(&s);
+        scene_free(&s);
         o = with(40, "stochastic");
         o.solver.rays = 20000;
-        s = solve(text, &o);
+        s = scene_solve(text, &o);
         assert_near(mean_of(&s, NULL).b, 1, .02);
         // Weak elements have a ray now and then: right in the mean.
         assert_near(s.r->report.defect, 0, .02);
-        run_free(&s);
+        scene_free(&s);
     }
 }
 
@@ -215,7 +129,7 @@ static void caps(void **state)
             struct radiosity_options o = with(i ? 160 : 150, solvers[k]);
             o.solver.tolerance = k == 1 ? .02 : 1e-4;
             o.closure = k == 2 ? CLOSURE_AUTO : CLOSURE_ENFORCE;
-            struct scene_run s = solve(cases[i].text, &o);
+            struct scene_run s = scene_solve(cases[i].text, &o);
             const struct mean dome = mean_of(&s, curved), base = mean_of(&s, flat_up);
             print_message("S%zu %s: %.5f %.5f, areas %.5f %.5f, %u patches\n", i + 5,
                           solvers[k], dome.b, base.b, dome.area, base.area,
@@ -225,7 +139,7 @@ static void caps(void **state)
             assert_near(base.b / cases[i].base, 1, off);
             // F14: elements cut by the edge have the area that exists.
             assert_near(dome.area / (i ? 3 * 3.14159265 : 2 * 3.14159265), 1, 5e-3);
-            run_free(&s);
+            scene_free(&s);
         }
     }
 }
@@ -242,12 +156,12 @@ static void concentric_s4(void **state)
              "difference { sphere { 0, 3 } sphere { 0, 2 M(.6, 0) } M(0, 0) }";
     struct radiosity_options o = with(120, "stochastic");
     o.solver.rays = 100000;
-    struct scene_run s = solve(text, &o);
+    struct scene_run s = scene_solve(text, &o);
     const struct mean a = mean_of(&s, inner), b = mean_of(&s, outer);
     print_message("S4: %.5f %.5f\n", a.b, b.b);
     assert_near(a.b, 1.08910891089108911, .003);
     assert_near(b.b, 0.29702970297029703, .003);
-    run_free(&s);
+    scene_free(&s);
 }
 
 // ---- C4: discs ----------------------------------------------------------------------------
@@ -273,12 +187,12 @@ static void discs_c4(void **state)
                             "disc { 0, z, 1 M(.8, 1) } disc { z, z, 1 M(.8, 0) }";
     struct radiosity_options o = with(in_full() ? 1500 : 150, "gauss-seidel");
     o.solver.tolerance = 1e-5;
-    struct scene_run s = solve(text, &o);
+    struct scene_run s = scene_solve(text, &o);
     const double b1 = near_radius(&s, true, 0, 2), b2 = near_radius(&s, false, 0, 2);
     print_message("C4: %.6f %.6f (%u patches)\n", b1, b2, s.r->report.elements);
     assert_near((b1 - 1) / .1067181835151, 1, in_full() ? .003 : .02);
     assert_near(b2 / .33924340803155, 1, in_full() ? .001 : .01);
-    run_free(&s);
+    scene_free(&s);
 }
 
 // ---- failures of section 4 ------------------------------------------------------------------
@@ -316,12 +230,12 @@ static void leaks_f9(void **state)
         struct radiosity_options o = with(150, solvers[k]);
         o.closure = CLOSURE_REPORT;
         o.solver.tolerance = .05;
-        struct scene_run s = solve(text, &o);
+        struct scene_run s = scene_solve(text, &o);
         const struct mean dark = mean_of(&s, dark_room), lit = mean_of(&s, lit_room);
         print_message("F9 %s: %.3g, %.3g\n", solvers[k], dark.most, lit.b);
         assert_true(dark.area > 3 && lit.area > 3);
         assert_true(dark.most <= 1e-6 * lit.b);
-        run_free(&s);
+        scene_free(&s);
     }
 }
 
@@ -346,13 +260,13 @@ static void contact_f10(void **state)
              "disc { <0, 0, .999>, -z, .6 M(0, 1) }";
     struct radiosity_options o = with(300, "stochastic");
     o.solver.tolerance = .05;
-    struct scene_run s = solve(text, &o);
+    struct scene_run s = scene_solve(text, &o);
     // Under the box there is no floor that light reaches; beside it all of it.
     assert_true(isnan(mean_of(&s, under_box).b));
     const struct mean beside = mean_of(&s, beside_box);
     print_message("F10: beside %.4f, area %.4f\n", beside.b, beside.area);
     assert_true(beside.b > .1);
-    run_free(&s);
+    scene_free(&s);
 }
 
 static bool outside_box(const struct element *e)
@@ -378,7 +292,7 @@ static void enclosed_f15_f16(void **state)
                  boxes[k]);
         struct radiosity_options o = with(300, "stochastic");
         o.solver.rays = 60000;
-        struct scene_run s = solve(text, &o);
+        struct scene_run s = scene_solve(text, &o);
         const struct mean out = mean_of(&s, outside_box);
         // H inside: emitted power over the absorbing area (S11).
         double in_h = 0, in_area = 0;
@@ -396,7 +310,7 @@ static void enclosed_f15_f16(void **state)
         // The black sphere absorbs what comes back to it.
         assert_true(in_h * .5 < 4 * 3.14159265 * .09 &&
                     in_h * .5 > .9 * 4 * 3.14159265 * .09);
-        run_free(&s);
+        scene_free(&s);
     }
 }
 
@@ -420,7 +334,7 @@ static void error_target(void **state)
     for (int k = 0; k < (in_full() ? 3 : 1); k++) {
         struct radiosity_options o = radiosity_defaults;
         o.error = targets[k];
-        struct scene_run s = solve(CUBE, &o);
+        struct scene_run s = scene_solve(CUBE, &o);
         const double f = mean_of(&s, floor_of_cube).b - 1,
                      c = mean_of(&s, ceiling_of_cube).b;
         const double w = mean_of(&s, wall_of_cube).b;
@@ -436,7 +350,7 @@ static void error_target(void **state)
         // Means of walls are better than single elements, of which the estimate speaks.
         assert_true(off <= targets[k]);
         assert_true(off < 3 * s.r->report.error);
-        run_free(&s);
+        scene_free(&s);
     }
 }
 
@@ -445,14 +359,14 @@ static void memory_is_predicted(void **state)
 {
     (void)state;
     char error[512] = "";
-    struct scene_run s = load(CUBE);
+    struct scene_run s = scene_load(CUBE);
     struct radiosity_options o = with(100, "elimination");
     o.memory = 1e5;
-    assert_null(radiosity_new(&s.job, &o, NULL, error, sizeof error));
+    assert_null(radiosity_new(s.job, &o, NULL, error, sizeof error));
     print_message("%s\n", error);
     assert_non_null(strstr(error, "'elimination' needs"));
     assert_non_null(strstr(error, "'stochastic'"));
-    run_free(&s);
+    scene_free(&s);
 }
 
 // ---- cancelling --------------------------------------------------------------------------
@@ -482,11 +396,11 @@ static void cancelled(void **state)
             struct waiting w = {stops[i], 0, stops[i] == 0, true, 0};
             struct watch watch = {&w.cancel, hear, &w, 0, 1, 0};
             char error[512] = "";
-            struct scene_run s = load(CUBE);
+            struct scene_run s = scene_load(CUBE);
             struct radiosity_options o = with(100, solver_name(k));
             o.watch = &watch;
             o.solver.tolerance = .05;
-            s.r = radiosity_new(&s.job, &o, NULL, error, sizeof error);
+            s.r = radiosity_new(s.job, &o, NULL, error, sizeof error);
             assert_true(w.rising);
             if (stops[i] > 1) { // how often it tells is up to the clock
                 assert_non_null(s.r);
@@ -495,7 +409,7 @@ static void cancelled(void **state)
             } else {
                 assert_null(s.r);
             }
-            run_free(&s);
+            scene_free(&s);
         }
     }
 }

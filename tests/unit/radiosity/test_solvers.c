@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "meshes.h"
+#include "radiosity/polygon.h"
 #include "radiosity/sequence.h"
 #include "radiosity/solver.h"
 
@@ -352,13 +353,135 @@ static void continuous_cube(void **state)
     }
 }
 
+// P9: the closed cylinder of radius 1 and height 2 as three elements with given factors.
+static void cylinder_p9(void **state)
+{
+    (void)state;
+    static const double bb = 0.171572875253809902, bs = 0.828427124746190098,
+                        sb = 0.207106781186547524, ss = 0.585786437626904951;
+    float matrix[9] = {0,         (float)bb, (float)bs, (float)bb, 0,
+                       (float)bs, (float)sb, (float)sb, (float)ss};
+    static const double truth[3] = {1.09109765070223484, 0.170106224261506598,
+                                    0.184699031259064639};
+    for (int k = 0; k < SOLVER_COUNT; k++) {
+        if (!solver_needs_matrix(k))
+            continue;
+        struct mesh *m = mesh_new();
+        for (int i = 0; i < 3; i++)
+            mesh_add(m, vec3(0, 0, i), vec3(1, 0, 0), vec3(0, 1, 0), 1, 1);
+        for (int i = 0; i < 3; i++) {
+            m->element[i].area = i < 2 ? 1 : 4;
+            paint(&m->element[i], .5, i == 0);
+        }
+        const struct factors f = {.count = 3, .f = matrix, .symmetric = true};
+        const struct radiosity_system system = {
+            .e = &m->e, .f = &f, .factors = &form_factor_defaults};
+        struct solver_settings settings = solver_defaults;
+        struct radiosity_solution out;
+        settings.solver = solver_name(k);
+        settings.tolerance = 1e-6;
+        assert_true(radiosity_solve(&out, &system, &settings));
+        for (int i = 0; i < 3; i++)
+            assert_near(out.b[i][1], truth[i], 2e-6);
+        solution_free(&out);
+        mesh_free(m);
+    }
+}
+
+// F8: with the ambient term, shot by shot the total comes close to what the energy
+// identity says, and the term vanishes; no shot leaves more unshot than there was.
+static void ambient_f8(void **state)
+{
+    (void)state;
+    static const double rho = .8;
+    struct form_factor_settings ff = form_factor_defaults;
+    const double truth = 1 / (1 - rho); // of the emitted power, in a closed scene
+    struct mesh *m = mesh_cube(4);
+    struct factors f;
+    for (uint32_t i = 0; i < m->e.count; i++)
+        paint(&m->element[i], rho, i < 16);
+    assert_true(factors_compute(&f, &m->e, &ff));
+    factors_balance(&f, &m->e, NULL);
+    double before = 1;
+    for (int overshoot = 0; overshoot < 2; overshoot++) {
+        before = 1;
+        for (uint32_t shots = 1; shots <= 4096; shots *= 4) {
+            struct radiosity_solution out[2];
+            double total[2] = {0, 0};
+            for (int ambient = 0; ambient < 2; ambient++) {
+                const struct radiosity_system system = {
+                    .e = &m->e, .f = &f, .factors = &ff};
+                struct solver_settings settings = solver_defaults;
+                settings.solver = "shooting";
+                settings.tolerance = 1e-5;
+                settings.steps_max = shots;
+                settings.ambient = ambient;
+                settings.overshoot = overshoot;
+                assert_true(radiosity_solve(&out[ambient], &system, &settings));
+                for (uint32_t i = 0; i < m->e.count; i++)
+                    total[ambient] += out[ambient].b[i][0] * m->element[i].area;
+            }
+            const double term = total[1] - total[0];
+            print_message("%u shots%s: total %.4f, with ambient %.4f of %.4f\n", shots,
+                          overshoot ? " over" : "", total[0], total[1], truth);
+            assert_near(total[1] / truth, 1, 1e-4);
+            assert_true(fabs(term) <= before * truth);
+            before = fabs(term) / truth + 1e-3;
+            assert_true(out[1].error <= 1);
+            solution_free(&out[0]);
+            solution_free(&out[1]);
+        }
+        assert_true(before < 2e-2);
+    }
+    factors_free(&f);
+    mesh_free(m);
+}
+
+// C1': irradiance at a point of the cube from the radiosity of all elements.
+static double gathered(const struct solved *r, struct vec3 p, struct vec3 n)
+{
+    double h = 0;
+    for (uint32_t i = 0; i < r->s.count; i++) {
+        const struct element *e = &r->m->element[i];
+        h += r->s.b[i][0] * lambert_polygon(p, n, e->corner, e->corner_count);
+    }
+    return h;
+}
+
+static void continuous_centres(void **state)
+{
+    (void)state;
+    const uint32_t n = 8;
+    struct mesh *m = mesh_cube(n);
+    for (uint32_t i = 0; i < m->e.count; i++)
+        paint(&m->element[i], .5, i < n * n);
+    struct solver_settings settings = solver_defaults;
+    settings.tolerance = 1e-6;
+    struct solved r = solve(m, &form_factor_defaults, &settings, true);
+    const double ceiling = gathered(&r, vec3(.5, .5, 1), vec3(0, 0, -1));
+    const double floor = gathered(&r, vec3(.5, .5, 0), vec3(0, 0, 1));
+    const double wall = gathered(&r, vec3(0, .5, .5), vec3(1, 0, 0));
+    print_message("centres: %.6f %.6f %.6f\n", ceiling, floor, wall);
+    assert_near(ceiling / .3952088, 1, 2e-3);
+    assert_near(floor / .1836103, 1, 2e-3);
+    assert_near(wall / .3552952, 1, 2e-3);
+    solved_free(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(constant_walls),         cmocka_unit_test(open_squares_p8),
-        cmocka_unit_test(slow_convergence),       cmocka_unit_test(solvers_agree),
-        cmocka_unit_test(overshooting),           cmocka_unit_test(deterministic),
-        cmocka_unit_test(stochastic_is_unbiased), cmocka_unit_test(continuous_cube),
+        cmocka_unit_test(constant_walls),
+        cmocka_unit_test(open_squares_p8),
+        cmocka_unit_test(slow_convergence),
+        cmocka_unit_test(solvers_agree),
+        cmocka_unit_test(overshooting),
+        cmocka_unit_test(deterministic),
+        cmocka_unit_test(stochastic_is_unbiased),
+        cmocka_unit_test(continuous_cube),
+        cmocka_unit_test(cylinder_p9),
+        cmocka_unit_test(ambient_f8),
+        cmocka_unit_test(continuous_centres),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
