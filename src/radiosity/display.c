@@ -1,4 +1,5 @@
 // What the picture takes from a solution.
+#include <math.h>
 #include <stdlib.h>
 
 #include "radiosity/polygon.h"
@@ -14,44 +15,75 @@ static struct rgb of_double(const double c[3])
 }
 
 // Whether a point of an emitting element is seen.
-static bool emitter_seen(const struct radiosity *r, struct tracer *t, uint32_t e,
-                         struct vec3 o, double u, double v)
+static bool emitter_seen(struct tracer *t, struct vec3 o, struct vec3 to)
 {
-    const struct vec3 to = polygon_uniform(&r->patches->element[e], u, v);
     // Ends short of the emitter, which is no obstacle to itself.
     const struct ray_query q = {{o, vec3_sub(to, o), 0, 1 - 1e-4}, OBJECT_NO_RADIOSITY};
     return !trace_occluded_1(t->job->world, t->scratch, &q);
 }
 
-// Irradiance of the emitting elements at a point: Lambert's formula of each, and shadow
-// rays to as many of them, drawn by what they give, for what is open.
+// Whether Lambert's formula of the corners is exact for an element.
+static bool is_polygon(const struct element *e)
+{
+    return !e->curved && !e->partial && fabsf(e->coverage - 1) < 1e-5f;
+}
+
+// What the emitting elements give at a point by Lambert's formula, summed up into up_to.
+// Returns the part of polygons.
+static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3 n,
+                           double *up_to)
+{
+    double sum = 0, polygons = 0;
+    for (uint32_t i = 0; i < r->emitter_count; i++) {
+        const struct element *x = &r->patches->element[r->emitter[i]];
+        const double c = lambert_polygon(o, n, x->corner, x->corner_count) *
+                         (double)x->coverage * (double)rgb_max(x->emission);
+        sum += c;
+        polygons += is_polygon(x) ? c : 0;
+        up_to[i] = sum;
+    }
+    return polygons;
+}
+
+// Irradiance of the emitting elements at a point: shadow rays to points of their true
+// surfaces, elements drawn by what they give. Of polygons the points say what part of
+// Lambert's sum is open; of other elements they are the integral.
 static struct rgb emitters_light(const struct radiosity *r, struct tracer *t,
                                  struct vec3 o, struct vec3 n, uint32_t hash)
 {
-    double up_to[EMITTERS_MOST], sum = 0;
-    for (uint32_t i = 0; i < r->emitter_count; i++) {
-        const struct element *x = &r->patches->element[r->emitter[i]];
-        sum += lambert_polygon(o, n, x->corner, x->corner_count) * (double)x->coverage *
-               (double)rgb_max(x->emission);
-        up_to[i] = sum;
-    }
-    struct rgb light = {0, 0, 0};
+    // Of a point relative to the mean: nearer than an element's size it has no bound.
+    static const double weight_most = 8;
+    double up_to[EMITTERS_MOST], s[4], all = 0;
+    const double polygons = emitters_sum(r, o, n, up_to);
+    const double sum = r->emitter_count ? up_to[r->emitter_count - 1] : 0;
+    const struct element_point here = {o, n, 0};
+    struct rgb open = {0, 0, 0}, other = {0, 0, 0};
     if (sum <= 0)
-        return light;
-    double s[4];
+        return open;
     random_point(0, hash, s);
     for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
         const double at = (k + s[0]) / EMITTER_RAYS * sum;
         while (i + 1 < r->emitter_count && up_to[i] <= at)
             i++;
+        const struct element *e = &r->patches->element[r->emitter[i]];
+        struct element_point to;
         double x[4];
         sobol_point(k, hash, x);
-        if (!emitter_seen(r, t, r->emitter[i], o, x[0], x[1]))
+        if (!patch_element_point(r->patches, t->scratch, r->emitter[i], x[0], x[1], &to))
             continue;
-        const struct rgb e = r->patches->element[r->emitter[i]].emission;
-        light = rgb_add(light, rgb_scale((float)(sum / EMITTER_RAYS) / rgb_max(e), e));
+        const double share = up_to[i] - (i ? up_to[i - 1] : 0);
+        const double most = rgb_max(e->emission);
+        const double weight =
+            fmin(point_kernel(&here, &to) * e->area * most / share, weight_most);
+        const bool polygon = is_polygon(e);
+        all += polygon ? weight : 0;
+        if (!(weight > 0) || !emitter_seen(t, o, to.p))
+            continue;
+        struct rgb *into = polygon ? &open : &other;
+        *into = rgb_add(*into, rgb_scale((float)(weight / most), e->emission));
     }
-    return light;
+    open = rgb_scale(all > 0 ? (float)(polygons / all) : 0, open);
+    return rgb_add(open, rgb_scale((float)(sum / EMITTER_RAYS), other));
 }
 
 // Irradiance by elements, interpolated.

@@ -240,16 +240,14 @@ static void thread_end(void *state)
     free(t);
 }
 
-static bool point(void *state, uint32_t element, double u, double v,
-                  struct element_point *out)
+bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
+                         uint32_t element, double u, double v, struct element_point *out)
 {
-    const struct of_thread *t = state;
-    const struct patches *p = t->p;
     const struct cell *c = &p->cell[p->element_cell[element] / 2];
     const int side = p->element_cell[element] & 1;
     const struct chart *chart = &p->chart[c->chart];
     if (p->element[element].partial) {
-        const struct patch_probe probe = {t->scratch, p};
+        const struct patch_probe probe = {scratch, p};
         struct hit hit;
         struct ray ray;
         return patch_point(&probe, c, side, u, v, out, &hit, &ray);
@@ -265,6 +263,13 @@ static bool point(void *state, uint32_t element, double u, double v,
                              vec3_max_abs(chart->o) + chart->r1 + chart->length +
                              vec3_max_abs(chart->a) + vec3_max_abs(chart->b));
     return true;
+}
+
+static bool point(void *state, uint32_t element, double u, double v,
+                  struct element_point *out)
+{
+    const struct of_thread *t = state;
+    return patch_element_point(t->p, t->scratch, element, u, v, out);
 }
 
 static bool bare_surface(void *state, uint32_t element, double u, double v,

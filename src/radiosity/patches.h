@@ -80,6 +80,11 @@ uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
                       const struct ray *ray, const struct hit *hit, uint32_t element[4],
                       double weight[4]);
 
+// The point at (u, v) of an element's square, uniform in area on planar ones. False: this
+// part of the element does not exist.
+bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
+                         uint32_t element, double u, double v, struct element_point *out);
+
 // The neighbour of an element in direction k, 0 to 7; ELEMENT_NONE: none that it sees.
 uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k);
 

@@ -19,8 +19,9 @@
 #include "base/arena.h"
 #include "radiosity/radiosity.h"
 #include "trace/intersect.h"
+#include "truth.h"
 
-enum { RUNS_MOST = 32, BINS_MOST = 8192 };
+enum { RUNS_MOST = 32 };
 
 static double user_seconds(void)
 {
@@ -36,58 +37,7 @@ static void tell(void *user, double share)
     fprintf(stderr, "%.1f s: %.3g\n", user_seconds(), share);
 }
 
-// ---- truths ------------------------------------------------------------------------------
-struct bin {
-    char name[32];
-    struct vec3 p, a, b; // a x b points to where the light comes from
-    double rho[3], h[3];
-};
-
-static struct bin bin[BINS_MOST];
-static int bins;
-
-static void truth_read(const char *path)
-{
-    char line[1024];
-    FILE *file = fopen(path, "r");
-    if (!file) {
-        perror(path);
-        exit(1);
-    }
-    while (fgets(line, sizeof line, file) && bins < BINS_MOST) {
-        struct bin *x = &bin[bins];
-        if (line[0] == '#')
-            continue;
-        if (sscanf(line,
-                   "%31s %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf",
-                   x->name, &x->p.x, &x->p.y, &x->p.z, &x->a.x, &x->a.y, &x->a.z, &x->b.x,
-                   &x->b.y, &x->b.z, &x->rho[0], &x->rho[1], &x->rho[2], &x->h[0],
-                   &x->h[1], &x->h[2]) != 16) {
-            fprintf(stderr, "%s: not understood: %s", path, line);
-            exit(1);
-        }
-        bins++;
-    }
-    fclose(file);
-}
-
 // ---- errors ------------------------------------------------------------------------------
-struct error_sum {
-    double off, all;
-};
-
-static void error_add(struct error_sum *s, double area, const double rho[3],
-                      const double got[3], const double truth[3])
-{
-    for (int c = 0; c < 3; c++) {
-        const double d = rho[c] * (got[c] - truth[c]);
-        s->off += area * d * d;
-        s->all += area * rho[c] * rho[c] * truth[c] * truth[c];
-    }
-}
-
-static double error_of(const struct error_sum *s) { return sqrt(s->off / s->all); }
-
 static double furnace_error(const struct radiosity *r, bool print)
 {
     static const double one[3] = {1, 1, 1};
@@ -121,8 +71,9 @@ static void bin_value(const struct radiosity *r, struct trace_scratch *scratch,
         const struct ray_query q = {{vec3_mad(p, height, up), vec3_neg(up), 0, INFINITY},
                                     OBJECT_NO_RADIOSITY};
         const struct hit hit = trace_closest_1(r->patches->job->world, scratch, &q);
-        const uint32_t e =
-            hit.b.t < 2 * height ? patch_of_hit(r->patches, &q.ray, &hit) : ELEMENT_NONE;
+        const uint32_t e = hit.b.t < 2 * height
+                               ? patch_of_hit(r->patches, scratch, &q.ray, &hit)
+                               : ELEMENT_NONE;
         for (int c = 0; c < 3 && e != ELEMENT_NONE; c++)
             h[c] += r->solution.h[e][c] / light / (SIDE * SIDE);
     }

@@ -2,7 +2,7 @@
 //   radiosity_truth cube                  the cube C1 from closed form factors
 //   radiosity_truth SCENE.faces PARTICLES by particle tracing with triangles alone
 // writes a table of bins: parallelograms p, a, b on surfaces, reflectance there, and the
-// mean irradiance (radiosity of what arrives) with its standard error.
+// mean irradiance (radiosity of what arrives) with its standard error, and emission.
 //
 // SCENE.faces holds lines
 //   matt R G B [E]                        reflectance and emission of what follows
@@ -285,8 +285,8 @@ static void print_bin(const struct face *f, int k, const double h[3], const doub
     printf("%s\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%g\t%g\t%g",
            f->name, p.x, p.y, p.z, a.x, a.y, a.z, b.x, b.y, b.z, f->matt.rho[0],
            f->matt.rho[1], f->matt.rho[2]);
-    printf("\t%.6g\t%.6g\t%.6g\t%.2g\t%.2g\t%.2g\n", h[0], h[1], h[2], off[0], off[1],
-           off[2]);
+    printf("\t%.6g\t%.6g\t%.6g\t%.2g\t%.2g\t%.2g\t%g\n", h[0], h[1], h[2], off[0], off[1],
+           off[2], f->matt.emission);
 }
 
 static void trace(double count)
@@ -422,8 +422,12 @@ static void cube_bins(const char *name, struct vec3 p, struct vec3 a, struct vec
                       double (*radiosity)[N], double emission)
 {
     static const double off[3] = {2e-5, 2e-5, 2e-5};
-    struct face f = {
-        .p = p, .a = a, .b = b, .nu = CELLS, .nv = CELLS, .matt = {{.5, .5, .5}, 0}};
+    struct face f = {.p = p,
+                     .a = a,
+                     .b = b,
+                     .nu = CELLS,
+                     .nv = CELLS,
+                     .matt = {{.5, .5, .5}, emission}};
     snprintf(f.name, sizeof f.name, "%s", name);
     for (int k = 0; k < CELLS * CELLS; k++) {
         double sum = 0;
@@ -462,7 +466,8 @@ static void cube(void)
 
 int main(int argc, char **argv)
 {
-    printf("#face\tp\tp\tp\ta\ta\ta\tb\tb\tb\trho\trho\trho\tH\tH\tH\toff\toff\toff\n");
+    printf(
+        "#face\tp\tp\tp\ta\ta\ta\tb\tb\tb\trho\trho\trho\tH\tH\tH\toff\toff\toff\tE\n");
     if (argc == 2 && strcmp(argv[1], "cube") == 0) {
         cube();
         return 0;

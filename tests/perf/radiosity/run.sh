@@ -1,59 +1,117 @@
 #!/bin/bash
-# Measures the tables of the radiosity chart. Times are user CPU seconds on one thread.
-# usage: run.sh BUILD_FOLDER OUT_FOLDER
+# Measures the tables of the radiosity chart. Times are user CPU seconds on one thread: the
+# median of RUNS runs, errors the rms over them.
+# usage: [RUNS=3] run.sh BUILD_FOLDER OUT_FOLDER [scene ...] [stability] [pictures]
 set -u
-build=$1 out=$2
+build=$(cd "$1" && pwd) out=$(cd "$2" && pwd)
+shift 2
 here=$(cd "$(dirname "$0")" && pwd)
-solve() { timeout -s KILL 900 "$build/radiosity_bench" "$here/$1.pov" "${@:2}" >>"$out/solutions.tsv"; }
-
-printf '#scene\tmethod\tsolver\tpatches\terror\tuser s\twall s\trays\tbytes\tsteps\testimate\n' >"$out/solutions.tsv"
-for scene in cube cornell cap discs; do
-  n=300
-  [ $scene = cornell ] && n=1000
-  for rays in 3e4 1e5 3e5 1e6 3e6; do
-    solve $scene analytic stochastic $n 1e-2 $rays
-  done
-  for n in 100 300 1000; do
-    solve $scene analytic gauss-seidel $n 2e-3
-  done
-done
-for method in rays sobol area disc; do
-  FACTOR_RAYS=1024 solve cube $method gauss-seidel 300 2e-3
-done
-for resolution in 32 64 128 256; do
-  RESOLUTION=$resolution solve cube hemicube gauss-seidel 300 2e-3
-done
-for solver in cg jacobi elimination shooting hierarchical; do
-  solve cube analytic $solver 300 2e-3
-done
-"$build/radiosity_stability" >"$out/stability.tsv"
-
-# POV-Ray on the cube: means of floor, ceiling and wall less what they give off, per
-# settings; error relative to the truth as in radiosity_bench.
-command -v povray >/dev/null || exit 0
+runs=${RUNS:-3}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-printf '#settings\terror\tuser s of three views\n' >"$out/povray.tsv"
-while read -r name count bound recursion nearest pretrace; do
-  total=0
-  for view in 0 1 2; do
-    TIMEFORMAT=%U
-    t=$({ time timeout -s KILL 1800 povray +I"$here/cube.pov" +O"$work/$view.ppm" +FP16 File_Gamma=1.0 \
-      +W64 +H64 -D -GA +WT1 Declare=View=$view Declare=Count=$count Declare=Error=$bound \
-      Declare=Recursion=$recursion Declare=Nearest=$nearest Declare=Pretrace=$pretrace \
-      >/dev/null 2>&1; } 2>&1)
-    total=$(echo "$total $t" | awk '{print $1 + $2}')
-    tail -c 24576 "$work/$view.ppm" | od -An -v -w6 -tu1 |
-      awk '{s += 256 * $1 + $2} END {print s / NR / 65535}' >"$work/$view.mean"
+
+solve() { # scene key=value ...
+  local truth=$here/$1.truth.tsv
+  [ "$1" = csg ] && truth=furnace
+  timeout -s KILL 600 "$build/radiosity_bench" "$here/$1.pov" "$truth" runs="$runs" "${@:2}" \
+    >>"$work/table"
+}
+
+scene() { # replaces the lines of a scene in the table
+  : >"$work/table"
+  local n rays solver
+  for n in 60 150 400; do
+    solve "$1" method=analytic solver=gauss-seidel patches=$n tolerance=2e-3
+    for solver in elimination jacobi cg shooting hierarchical; do
+      solve "$1" method=analytic solver=$solver patches=$n tolerance=2e-3
+    done
+    solve "$1" method=hemicube solver=gauss-seidel patches=$n tolerance=2e-3 resolution=128
+    solve "$1" method=rays solver=gauss-seidel patches=$n tolerance=2e-3 factor-rays=1024
+    solve "$1" method=sobol solver=gauss-seidel patches=$n tolerance=2e-3 factor-rays=1024
+    solve "$1" method=area solver=gauss-seidel patches=$n tolerance=2e-3
+    solve "$1" method=disc solver=gauss-seidel patches=$n tolerance=2e-3
+    solve "$1" method=analytic solver=stochastic patches=$n tolerance=1e-2 rays=$((n * 250))
   done
-  paste "$work"/0.mean "$work"/1.mean "$work"/2.mean |
-    awk -v name="$name" -v t=$total '{
-      f = ($1 - .5) / .0521808 - 1; c = $2 / .085608 - 1; w = $3 / .0905528 - 1
-      a = .0521808 ^ 2; b = .085608 ^ 2; d = .0905528 ^ 2
-      print name "\t" sqrt((f * f * a + c * c * b + 4 * w * w * d) / (a + b + 4 * d)) "\t" t
-    }' >>"$out/povray.tsv"
-done <<END
-default 35 1.8 2 5 .04
-medium 100 .5 4 5 .02
-high 400 .2 8 10 .01
-END
+  for rays in 1e4 1e5 1e6; do
+    solve "$1" method=analytic solver=stochastic patches=1000 tolerance=1e-2 rays=$rays
+  done
+  # What one gets who sets nothing.
+  solve "$1"
+  awk -F'\t' -v s="$1" '$1 != s' "$out/solutions.tsv" >"$work/rest" 2>/dev/null
+  {
+    printf '#scene\tmethod\tsolver\tsettings\tpatches\terror\tuser s\trays\tbytes\tsteps\testimate\truns\n'
+    sort "$work/rest" "$work/table" | grep -v '^#'
+  } >"$work/all"
+  mv "$work/all" "$out/solutions.tsv"
+}
+
+# ---- pictures --------------------------------------------------------------------------
+# Each setting renders the views of a scene; the programs take turns.
+views() {
+  case $1 in cube) echo 0 1 2 ;; *) echo 0 ;; esac
+}
+light() {
+  case $1 in cube) echo .5 ;; *) echo 20 ;; esac
+}
+size() {
+  case $1 in cube) echo 64 64 ;; *) echo 160 160 ;; esac
+}
+
+picture() { # scene program label options...
+  local scene=$1 program=$2 label=$3 view total=0 t args=() w h i
+  shift 3
+  read -r w h < <(size "$scene")
+  local times=()
+  for ((i = 0; i < runs; i++)); do
+    total=0
+    args=()
+    for view in $(views "$scene"); do
+      printf '#version 3.7;\n#declare View = %s;\n#include "%s.pov"\n' "$view" "$scene" >"$work/$scene$view.pov"
+      TIMEFORMAT=%U
+      if [ "$program" = povray ]; then
+        t=$({ time timeout -s KILL 1800 povray +I"$work/$scene$view.pov" +L"$here" +O"$work/p$view.ppm" +FP16 \
+          File_Gamma=1.0 +W"$w" +H"$h" -D -GA +WT1 "$@" >/dev/null 2>&1; } 2>&1)
+      else
+        t=$({ time timeout -s KILL 1800 "$build/lambert" "$work/$scene$view.pov" +L"$here" -o "$work/p$view.ppm" +FP16 \
+          File_Gamma=1.0 +W"$w" +H"$h" --threads=1 --gi=radiosity "$@" >/dev/null 2>&1; } 2>&1)
+      fi
+      total=$(echo "$total $t" | awk '{print $1 + $2}')
+      args+=("$work/$scene$view.pov" "$work/p$view.ppm")
+    done
+    times+=("$total")
+    [ "$(echo "$total" | awk '{print ($1 > 20)}')" = 1 ] && break # long ones once
+  done
+  t=$(printf '%s\n' "${times[@]}" | sort -g | awk '{x[NR] = $1} END {print x[int((NR + 1) / 2)]}')
+  local off
+  off=$(cd "$here" && "$build/radiosity_picture" "$here/$scene.truth.tsv" "$(light "$scene")" "${args[@]}" | cut -f1)
+  printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$scene" "$program" "$label" "$off" "$t" "${#times[@]}" >>"$out/pictures.tsv"
+}
+
+pov() { # scene label count error_bound recursion_limit nearest_count pretrace_end
+  picture "$1" povray "$2" Declare=Count="$3" Declare=Error="$4" Declare=Recursion="$5" \
+    Declare=Nearest="$6" Declare=Pretrace="$7"
+}
+
+pictures() {
+  local s
+  printf '#scene\tprogram\tsettings\terror\tuser s\truns\n' >"$out/pictures.tsv"
+  for s in cube cornell; do
+    pov $s "defaults" 35 1.8 2 5 .04
+    picture $s lambert "defaults"
+    pov $s "count 100, error_bound .5, recursion_limit 4" 100 .5 4 5 .02
+    picture $s lambert "300 patches" --gi-patches=300
+    pov $s "count 200, error_bound .3, recursion_limit 6, nearest_count 8" 200 .3 6 8 .02
+    picture $s lambert "8000 patches" --gi-patches=8000
+    pov $s "count 400, error_bound .2, recursion_limit 8, nearest_count 10" 400 .2 8 10 .01
+    picture $s lambert "error 1%" --error=1%
+  done
+}
+
+[ $# -gt 0 ] || set -- cube cornell csg room stability pictures
+for what in "$@"; do
+  case $what in
+  stability) "$build/radiosity_stability" >"$out/stability.tsv" ;;
+  pictures) pictures ;;
+  *) scene "$what" ;;
+  esac
+done

@@ -11,39 +11,36 @@
 static const double pi = 3.14159265358979323846;
 
 // ---- solutions ---------------------------------------------------------------------------
-static bool bright(const struct element *e) { return e->emission.r > .5f; }
-static bool dim(const struct element *e)
-{
-    return e->emission.r < .5f && e->reflectance.r > 0;
-}
+static bool reflects(const struct element *e) { return e->reflectance.r > 0; }
 
 struct solution_case {
     const char *name, *scene;
-    double bright, dim; // B of what emits and of what does not; 0: not asked
-    double off;         // allowed, relative
+    double h;   // irradiance of all that reflects, in the mean
+    double off; // allowed, relative
 };
 
 static const struct solution_case solutions[] = {
-    // Any closed scene: E / (1 - rho).
+    // Any closed scene: B = E / (1 - rho).
     {"S1",
      "camera { location <.05, -.15, .75> look_at 0 }\n"
      "difference { box { -2, 2 } box { -1, 1 M(.5, 1) } M(.5, 1) }"
      "difference { sphere { <.1, 0, -.3>, .5 } cylinder { -z, z, .2 } M(.5, 1) }",
-     2, 0, .03},
-    // A tenth of a sphere's inside emits.
+     2, 2e-3},
+    // A tenth of a sphere's inside emits: H = f E / (1 - rho). The rim of the tenth runs
+    // through patches, whose emission is the mean of 36 points.
     {"S3",
      "camera { location .1 look_at .5*z }\n"
      "difference { box { -2, 2 } sphere { .5*z, .5 texture { gradient z texture_map {"
      " [.9 pigment { rgb 1 } finish { ambient 0 diffuse .7 }]"
      " [.9 pigment { rgb 1 } finish { ambient 0 diffuse .7 emission 1 }] } } }"
      " M(0, 0) }",
-     1.2333333333, 0.2333333333, .02},
-    // A bowl, open at the top.
+     1.0 / 3, .05},
+    // A bowl, open at the top: B = E / (1 - rho / 2).
     {"S9",
      "camera { location z look_at 0 }\n"
      "difference { sphere { 0, 1.1 M(0, 0) } sphere { 0, 1 M(.5, 1) }"
      " plane { -z, 0 M(0, 0) } }",
-     4.0 / 3, 0, .01},
+     2.0 / 3, .01},
 };
 
 static void solutions_s1_s3_s9(void **state)
@@ -58,12 +55,10 @@ static void solutions_s1_s3_s9(void **state)
             struct radiosity_options o = with(in_full() ? 600 : 100, solvers[k]);
             o.solver.tolerance = k ? .02 : 1e-4;
             struct scene_run s = scene_solve(text, &o);
-            const struct mean b = mean_of(&s, bright), d = mean_of(&s, dim);
-            print_message("%s %s: %.5f %.5f (%u patches)\n", c->name, solvers[k], b.b,
-                          d.b, s.r->report.elements);
-            assert_near(b.b / c->bright, 1, c->off);
-            if (c->dim > 0)
-                assert_near(d.b / c->dim, 1, 2 * c->off);
+            const struct mean m = mean_of(&s, reflects);
+            print_message("%s %s: %.5f of %.5f (%u patches)\n", c->name, solvers[k], m.h,
+                          c->h, s.r->report.elements);
+            assert_near(m.h / c->h, 1, c->off);
             scene_free(&s);
         }
     }
@@ -173,10 +168,10 @@ static double light_at(const struct eye *eye, struct vec3 o, struct vec3 d, uint
 // On the black floor z = 0 at x, over many draws.
 static double floor_light(const struct eye *eye, double x)
 {
-    enum { DRAWS = 256 };
+    const uint32_t draws = in_full() ? 512 : 64;
     double sum = 0;
-    for (uint32_t k = 0; k < DRAWS; k++)
-        sum += light_at(eye, vec3(x, 0, .01), vec3(0, 0, -1), k * 7919) / DRAWS;
+    for (uint32_t k = 0; k < draws; k++)
+        sum += light_at(eye, vec3(x, 0, .01), vec3(0, 0, -1), k * 7919) / draws;
     return sum;
 }
 
@@ -189,7 +184,7 @@ struct direct_case {
 
 #define FLOOR                                                                            \
     "camera { location <5, -5, 3> look_at 0 sky z }\n"                                   \
-    "mesh { triangle { <-99, -99, 0>, <99, -99, 0>, <0, 199, 0> } M(0, 0) }\n"
+    "mesh { triangle { <-5, -4, 0>, <5, -4, 0>, <0, 8, 0> } M(0, 0) }\n"
 #define LAMP3                                                                            \
     "mesh { triangle { <-1, -1, 2>, <1, -1, 2>, <1, 1, 2> }"                             \
     " triangle { <-1, -1, 2>, <1, 1, 2>, <-1, 1, 2> } M(0, 1) }\n"
@@ -207,19 +202,20 @@ static const struct direct_case directs[] = {
      {0.0872664625997164788 / 3.14159265358979324},
      1,
      3e-4},
-    // T21 with d = 2 r, at 80, 90 and 110 degrees.
+    // T21 with d = 2 r, at 80, 90 and 110 degrees. Patches of which only a rim is above
+    // the horizon may be missed.
     {"D2 80",
      FLOOR "sphere { 2*z, 1 rotate 80*y M(0, 1) }",
      {0},
      {0.0546958164455372532},
      1,
-     1e-3},
+     2e-3},
     {"D2 90",
      FLOOR "sphere { 2*z, 1 rotate 90*y M(0, 1) }",
      {0},
      {0.0288344428112186543},
      1,
-     1e-3},
+     2e-3},
     {"D2 110",
      FLOOR "sphere { 2*z, 1 rotate 110*y M(0, 1) }",
      {0},
@@ -242,7 +238,7 @@ static const struct direct_case directs[] = {
       0.116412809115846359 / 3.14159265358979324,
       0.0133615431992125321 / 3.14159265358979324, 0},
      6,
-     1e-3},
+     4e-3},
 };
 
 static void direct_light_d1_to_d4(void **state)
@@ -253,7 +249,7 @@ static void direct_light_d1_to_d4(void **state)
         const struct direct_case *c = &directs[i];
         char text[1024];
         snprintf(text, sizeof text, HEAD "%s", c->scene);
-        struct radiosity_options o = with(600, "stochastic");
+        struct radiosity_options o = with(400, "stochastic");
         o.solver.rays = 1000;
         struct scene_run s = scene_solve(text, &o);
         const struct eye eye = {tracer_new(s.job), radiosity_indirect(s.r)};
@@ -287,7 +283,7 @@ static void no_seams_f13(void **state)
     struct scene_run s = scene_solve(text, &o);
     const struct eye eye = {tracer_new(s.job), radiosity_indirect(s.r)};
     double least = INFINITY, most = -INFINITY;
-    for (uint32_t k = 0; k < 4000; k++) {
+    for (uint32_t k = 0; k < (in_full() ? 20000u : 2000u); k++) {
         double x[4];
         random_point(k, 3, x);
         const struct vec3 up = vec3(0, 0, x[2] < .5 ? 1 : -1);
@@ -303,12 +299,93 @@ static void no_seams_f13(void **state)
     scene_free(&s);
 }
 
+// ---- the Cornell box ---------------------------------------------------------------------
+// Area, and irradiance by surface for a light of radiosity 1 (particle tracing, 1e8 particles, 2e-4
+// or better on the walls), in the order of the scene.
+static const struct {
+    const char *name;
+    double area, h[3];
+} cornell[16] = {
+    {"light", 13650.0, {0.011394, 0.010454, 0.009008}},
+    {"floor", 308231.0, {0.0090689, 0.0088400, 0.0078402}},
+    {"ceiling", 297265.2, {0.0083087, 0.0073108, 0.0059764}},
+    {"back", 303376.6, {0.0137741, 0.0132337, 0.0117231}},
+    {"right", 306889.0, {0.0148453, 0.0143999, 0.0133418}},
+    {"left", 306904.5, {0.0132363, 0.0121969, 0.0113562}},
+    {"short top", 27633.0, {0.025696, 0.026194, 0.024555}},
+    {"short side", 27562.4, {0.0013115, 0.0038147, 0.0014248}},
+    {"short side", 27199.0, {0.0079103, 0.0101912, 0.0076353}},
+    {"short side", 27344.2, {0.0088587, 0.0065057, 0.0062168}},
+    {"short side", 27610.3, {0.0011324, 0.0007172, 0.0006599}},
+    {"tall top", 27626.5, {0.059159, 0.056632, 0.055742}},
+    {"tall side", 54589.8, {0.0064886, 0.0059277, 0.0053309}},
+    {"tall side", 55220.5, {0.0073973, 0.0100371, 0.0071589}},
+    {"tall side", 54688.5, {0.0082001, 0.0058322, 0.0052822}},
+    {"tall side", 54905.1, {0.0071249, 0.0008553, 0.0008086}},
+};
+enum { CORNELL = 16, CORNELL_BLOCKS = 6, CORNELL_TALL = 11 };
+
+// The surface of the table that an element belongs to; CORNELL: none. The blocks are
+// hollow in the scene; their inner sides and the lamp's upper one are none of the table's.
+static int cornell_surface(const struct patches *p, uint32_t i)
+{
+    static const struct vec3 middle[2] = {{185.5, 82.5, 168.5}, {368.5, 165, 351.25}};
+    const struct element *e = &p->element[i];
+    const uint32_t leaf = p->chart[p->cell[p->element_cell[i] / 2].chart].leaf;
+    const int k = (int)p->job->world->leaf[leaf].object;
+    const bool within =
+        k >= CORNELL_BLOCKS &&
+        vec3_dot(e->normal, vec3_sub(e->centre, middle[k >= CORNELL_TALL])) < 0;
+    return within || (k == 0 && e->normal.y > 0) ? CORNELL : k;
+}
+
+// Every surface and channel within 1 %. Of a coarse mesh and few rays 3 %, but for the
+// lamp and the sides of the blocks, which get little light.
+static void cornell_box(void **state)
+{
+    (void)state;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/tests/perf/radiosity/cornell.pov",
+             getenv("top_srcdir") ? getenv("top_srcdir") : "..");
+    struct scene_run s = scene_load_file(path);
+    struct radiosity_options o = with(in_full() ? 60000 : 2000, "stochastic");
+    o.solver.rays = in_full() ? 20000000 : 300000;
+    scene_solve_loaded(&s, &o);
+    double h[CORNELL + 1][3] = {{0}}, off = 0, all = 0;
+    const struct patches *p = s.r->patches;
+    for (uint32_t i = 0; i < p->element_count; i++) {
+        const int k = cornell_surface(p, i);
+        for (int c = 0; c < 3; c++)
+            h[k][c] += p->element[i].area * s.r->solution.h[i][c] / 20;
+    }
+    int wrong = 0;
+    for (int k = 0; k < CORNELL; k++) {
+        const bool side = k >= CORNELL_BLOCKS && strstr(cornell[k].name, "side");
+        const double allowed = in_full() ? .01 : k == 0 || side ? 1 : .03;
+        double most = 0;
+        for (int c = 0; c < 3; c++) {
+            const double d = h[k][c] / cornell[k].area - cornell[k].h[c];
+            most = fmax(most, fabs(d / cornell[k].h[c]));
+            off += cornell[k].area * d * d;
+            all += cornell[k].area * cornell[k].h[c] * cornell[k].h[c];
+        }
+        print_message("%s%s: off by %.4f\n", most > allowed ? "WRONG " : "",
+                      cornell[k].name, most);
+        wrong += most > allowed;
+    }
+    print_message("Cornell box: off by %.4f (rms), %u patches\n", sqrt(off / all),
+                  p->element_count);
+    assert_int_equal(wrong, 0);
+    assert_true(sqrt(off / all) < .01);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions_s1_s3_s9),  cmocka_unit_test(sphere_t25),
         cmocka_unit_test(nothing_escapes_f19), cmocka_unit_test(direct_light_d1_to_d4),
-        cmocka_unit_test(no_seams_f13),
+        cmocka_unit_test(no_seams_f13),        cmocka_unit_test(cornell_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,14 +90,14 @@ static void cut_quadrics(void **state)
                       "difference { box { -5, 5 } intersection { %s } M(.5, .5) }\n",
                  cases[i].solid);
         struct radiosity_options o = with(60, "gauss-seidel");
-        struct scene_run s = solve(text, &o);
+        struct scene_run s = scene_solve(text, &o);
         const struct mean m = mean_of(&s, NULL), side = mean_of(&s, curved);
         print_message("quadric %zu: %u patches, area %.4f, %.4f to %.4f\n", i,
                       s.r->report.elements, side.area, m.least, m.most);
         assert_near(side.area / cases[i].area, 1, .015);
         assert_near(m.least, 1, 1e-3);
         assert_near(m.most, 1, 1e-3);
-        run_free(&s);
+        scene_free(&s);
     }
 }
 
@@ -203,12 +203,12 @@ static void small_over_large_t12(void **state)
     const char *text = HEAD "camera { location <0, -30, 20> look_at 0 }\n"
                             "disc { 0, z, 10 M(.5, 1) } sphere { z, .02 M(.5, 0) }";
     struct radiosity_options o = with(150, "gauss-seidel");
-    struct scene_run s = solve(text, &o);
+    struct scene_run s = scene_solve(text, &o);
     const struct mean m = mean_of(&s, small_sphere);
     print_message("T12: %.5f, area %.6f\n", m.h, m.area);
     assert_near(m.area / (4 * 3.14159265 * .0004), 1, 1e-3);
     assert_near(m.h / .450248, 1, .02);
-    run_free(&s);
+    scene_free(&s);
 }
 
 static bool dark_room(const struct element *e) { return e->centre.x > .06; }
