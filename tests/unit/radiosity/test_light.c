@@ -160,9 +160,16 @@ static double light_at(const struct eye *eye, struct vec3 o, struct vec3 d, uint
     struct interaction at;
     assert_true(hit.b.t < INFINITY);
     trace_interaction(eye->t->job->world, &q.ray, &hit, &at);
-    return (double)eye->light
-        .irradiance(eye->light.data, eye->t, &q.ray, &hit, &at, at.ng, hash)
-        .g;
+    const struct vec3 side = vec3_dot(at.ng, d) > 0 ? vec3_neg(at.ng) : at.ng;
+    const struct indirect_query query = {.ray = &q.ray,
+                                         .hit = &hit,
+                                         .at = &at,
+                                         .n = side,
+                                         .side = side,
+                                         .weight = 1,
+                                         .hash = hash,
+                                         .level = 1};
+    return (double)eye->light.irradiance(eye->light.data, NULL, eye->t, &query).g;
 }
 
 // On the black floor z = 0 at x, over many draws.
