@@ -150,8 +150,6 @@ bool color_map_is_default(const struct color_map *m);
 
 const struct interior *build_interior(struct args *a, const struct ast *block,
                                       const struct interior *start);
-const struct interior *interior_move(struct builder *b, const struct interior *i,
-                                     const struct transform *t);
 const struct media *build_media(struct args *a, const struct ast *block);
 struct material build_material(struct args *a, const struct ast *block,
                                struct material start);

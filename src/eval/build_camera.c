@@ -1,5 +1,9 @@
 #include "eval/build.h"
 #include "math/elementary.h"
+#include "scene/mesh_camera.h"
+#include "scene/shapes/mesh.h"
+
+#include <string.h>
 
 // camera { } (spec/language 4.12, spec/lighting 1.2). Items are collected, then
 // combined in a fixed order when the block ends.
@@ -99,35 +103,70 @@ static void bokeh(struct args *a)
     args_not_rendered(a, WORD_bokeh, block->where);
 }
 
-// Rays from the faces of meshes: read, and what cannot be is said.
-static void mesh_camera(struct args *a)
+// Whether an object is a mesh and nothing else; its faces are in the space of *out.
+static bool mesh_of(const struct object *o, struct camera_mesh *out)
+{
+    if (o->kind != OBJECT_SHAPE || (strcmp(o->ops->keyword, "mesh") != 0 &&
+                                    strcmp(o->ops->keyword, "mesh2") != 0))
+        return false;
+    *out = (struct camera_mesh){o->shape, o->transform};
+    return true;
+}
+
+static void meshes(struct args *in, const struct ast *block, struct mesh_camera *m)
+{
+    struct pointer_list l = {0};
+    for (;;) {
+        const struct span where = args_span(in);
+        bool was = true;
+        struct camera_mesh *mesh = arena_new_struct(in->b->arena, struct camera_mesh);
+        const struct object *o = args_object(in, &was);
+        if (!was)
+            break;
+        if (o && mesh_of(o, mesh))
+            pointer_list_add(in->b->arena, &l, mesh);
+        else if (o)
+            args_error(in, where, "mesh_camera takes meshes only");
+    }
+    if (!l.count && !in->failed)
+        args_error(in, block->where, "mesh_camera needs a mesh");
+    struct camera_mesh *all = arena_new_array(in->b->arena, struct camera_mesh, l.count);
+    for (uint32_t i = 0; i < l.count; i++)
+        all[i] = *(const struct camera_mesh *)l.at[i];
+    m->mesh = all;
+    m->mesh_count = l.count;
+}
+
+// mesh_camera { rays, distribution, [distance] meshes [smooth] }
+static void mesh_camera(struct args *a, struct camera *c)
 {
     const struct ast *block = args_next(a);
     struct args in = args_of(a->b, block, a);
-    long rays, method;
-    double distance = 0;
-    unsigned meshes = 0;
-    bool was = true;
-    if (!args_int(&in, "rays per pixel", &rays) ||
-        !args_int(&in, "distribution", &method))
+    struct mesh_camera *m = arena_new_struct(a->b->arena, struct mesh_camera);
+    long rays, way;
+    if (!args_int(&in, "rays per pixel", &rays) || !args_int(&in, "distribution", &way))
         return;
     if (args_at_number(&in))
-        args_float(&in, "largest distance", &distance);
-    if (rays < 1 || method < 0 || method > 3)
-        args_error(
-            &in, block->where,
-            "mesh_camera takes 1 ray or more a pixel and a distribution of 0 to 3");
-    for (;; meshes++) {
-        args_object(&in, &was);
-        if (!was)
-            break;
-    }
-    if (!meshes)
-        args_error(&in, block->where, "mesh_camera needs a mesh");
-    args_take(&in, WORD_smooth);
+        args_float(&in, "largest distance", &m->max_distance);
+    if (rays < 1 || rays > 1000000 || way < 0 || way > MESH_CAMERA_UV)
+        args_error(&in, block->where,
+                   "mesh_camera takes 1 to 1000000 rays a pixel and a distribution of 0 to 3");
+    meshes(&in, block, m);
+    m->smooth = args_take(&in, WORD_smooth);
     if (in.at)
         args_unknown(&in, NULL, 0);
-    args_not_rendered(a, WORD_mesh_camera, block->where);
+    if (in.failed)
+        return;
+    if (rays > 1 && way >= MESH_CAMERA_WIDTH)
+        args_error(&in, block->where, "distributions 2 and 3 have 1 ray a pixel");
+    m->rays = (uint32_t)rays;
+    m->way = (enum mesh_camera_way)way;
+    if (m->way == MESH_CAMERA_UV && !m->mesh->mesh->face_uv)
+        args_error(&in, block->where,
+                   "distribution 3 finds faces by uv_vectors, which the first mesh has not");
+    mesh_camera_finish(m, a->b->arena);
+    c->kind = CAMERA_MESH;
+    c->mesh = m;
 }
 
 static bool item(struct args *a, struct camera_state *c)
@@ -142,7 +181,7 @@ static bool item(struct args *a, struct camera_state *c)
         return true;
     }
     if (args_at_block(a) == WORD_mesh_camera) {
-        mesh_camera(a);
+        mesh_camera(a, &c->camera);
         return true;
     }
     if (w != WORD_up && w != WORD_right && w != WORD_look_at && w != WORD_angle &&

@@ -131,11 +131,10 @@ static bool photon_item(struct args *a, struct photon_settings *p)
             p->expand_min = (int)v;
         return true;
     case WORD_load_file:
-        args_next(a);
-        return args_string(a, "file", &p->load_file) || true;
     case WORD_save_file:
-        args_next(a);
-        return args_string(a, "file", &p->save_file) || true;
+        args_not_rendered(a, w, args_next(a)->where);
+        return args_string(a, "file", w == WORD_load_file ? &p->load_file : &p->save_file) ||
+               true;
     default: return false;
     }
 }
@@ -150,6 +149,5 @@ bool build_photons_settings(struct args *a, const struct ast *block)
             !photon_item(&in, p))
             fields_unknown(&in, photon_fields, ARRAY_COUNT(photon_fields), photon_words,
                            ARRAY_COUNT(photon_words));
-    args_not_rendered(a, WORD_photons, block->where);
     return !in.failed;
 }

@@ -64,18 +64,6 @@ static void set_densities(struct builder *b, struct media *m,
     m->density_count = l->count;
 }
 
-static const struct media *media_move(struct builder *b, const struct media *m,
-                                      const struct transform *t)
-{
-    struct pointer_list l = {0};
-    struct media *out = arena_new_struct(b->arena, struct media);
-    *out = *m;
-    for (uint32_t i = 0; i < m->density_count; i++)
-        pointer_list_add(b->arena, &l, pigment_transform(b->arena, m->density[i], t));
-    set_densities(b, out, &l);
-    return out;
-}
-
 static void density(struct args *a, struct pointer_list *l)
 {
     static const struct pigment white = {.kind = PIGMENT_SOLID, .color = {1, 1, 1, 0, 0}};
@@ -96,7 +84,7 @@ static const struct media media_defaults = {.method = 3,
                                             .variance = 1.0f / 128,
                                             .ratio = 0.9f,
                                             .extinction = 1,
-                                            .aa_level = 4,
+                                            .aa_level = 3,
                                             .aa_threshold = 0.1f,
                                             .collect = true};
 
@@ -131,7 +119,6 @@ const struct media *build_media(struct args *a, const struct ast *block)
             fields_unknown(&in, media_fields, ARRAY_COUNT(media_fields), media_words,
                            ARRAY_COUNT(media_words));
     }
-    args_not_rendered(a, WORD_media, block->where);
     if (in.failed)
         return NULL;
     set_densities(a->b, m, &l);
@@ -159,20 +146,6 @@ static void add_media(struct builder *b, struct interior *i, const struct media 
         all[k] = i->media[k];
     all[i->media_count++] = m;
     i->media = all;
-}
-
-const struct interior *interior_move(struct builder *b, const struct interior *i,
-                                     const struct transform *t)
-{
-    if (i->media_count == 0)
-        return i;
-    struct interior *out = arena_new_struct(b->arena, struct interior);
-    *out = *i;
-    out->media = NULL;
-    out->media_count = 0;
-    for (uint32_t k = 0; k < i->media_count; k++)
-        add_media(b, out, media_move(b, i->media[k], t));
-    return out;
 }
 
 const struct interior *build_interior(struct args *a, const struct ast *block,
@@ -254,7 +227,7 @@ struct material build_material(struct args *a, const struct ast *block,
             move(a->b->arena, &m.texture, &t);
             move(a->b->arena, &m.interior_texture, &t);
             if (m.interior)
-                m.interior = interior_move(a->b, m.interior, &t);
+                m.interior = interior_moved(a->b->arena, m.interior, &t);
         } else {
             args_unknown(&in, known, ARRAY_COUNT(known));
         }

@@ -94,19 +94,20 @@ static bool direction_item(struct args *a, struct light *l)
     return true;
 }
 
-static void light_photons(struct args *a)
+static void light_photons(struct args *a, struct light *l)
 {
-    static const struct field fields[] = {
-        {WORD_refraction, FIELD_SWITCH, offsetof(struct photon_target, refraction), 0, 0},
-        {WORD_reflection, FIELD_SWITCH, offsetof(struct photon_target, reflection), 0, 0},
-        {WORD_area_light, FIELD_FLAG, offsetof(struct photon_target, area_light), 0, 0},
-    };
-    struct photon_target t = {0};
+    static const enum word words[] = {WORD_refraction, WORD_reflection, WORD_area_light};
     struct args in = args_of(a->b, args_next(a), a);
-    while (in.at)
-        if (!fields_read(&in, fields, ARRAY_COUNT(fields), &t))
-            fields_unknown(&in, fields, ARRAY_COUNT(fields), NULL, 0);
-    args_not_rendered(a, WORD_photons, in.owner->where);
+    while (in.at) {
+        if (args_take(&in, WORD_refraction))
+            l->photon_refraction = args_switch(&in) ? 1 : -1;
+        else if (args_take(&in, WORD_reflection))
+            l->photon_reflection = args_switch(&in) ? 1 : -1;
+        else if (args_take(&in, WORD_area_light))
+            l->photon_area = true;
+        else
+            args_unknown(&in, words, ARRAY_COUNT(words));
+    }
 }
 
 static void looks_like(struct args *a, struct light *l)
@@ -126,7 +127,7 @@ static bool block_item(struct args *a, struct light *l)
         return true;
     case WORD_color_map:
     case WORD_colour_map: spectrum(a, l); return true;
-    case WORD_photons: light_photons(a); return true;
+    case WORD_photons: light_photons(a, l); return true;
     default: return false;
     }
 }

@@ -8,7 +8,7 @@ void object_move(struct builder *b, struct object *o, const struct transform *t)
 {
     object_transform(b->arena, o, t);
     if (o->interior)
-        o->interior = interior_move(b, o->interior, t);
+        o->interior = interior_moved(b->arena, o->interior, t);
 }
 
 // The attached texture with its own transform folded in, or the default one.
@@ -130,22 +130,53 @@ static void material(struct args *a, struct object *o)
     o->interior = m.interior;
 }
 
-static void object_photons(struct args *a)
+static bool photon_item(struct args *a, struct photon_target *t)
 {
-    static const struct field fields[] = {
-        {WORD_target, FIELD_SWITCH, offsetof(struct photon_target, target), 0, 0},
-        {WORD_refraction, FIELD_SWITCH, offsetof(struct photon_target, refraction), 0, 0},
-        {WORD_reflection, FIELD_SWITCH, offsetof(struct photon_target, reflection), 0, 0},
-        {WORD_pass_through, FIELD_SWITCH, offsetof(struct photon_target, pass_through), 0,
-         0},
-        {WORD_collect, FIELD_SWITCH, offsetof(struct photon_target, collect), 0, 0},
-    };
-    struct photon_target t = {0};
+    const enum word w = args_at_word(a);
+    switch (w) {
+    case WORD_target:
+        args_next(a);
+        t->spacing = 1;
+        args_optional(a, &t->spacing);
+        t->target = t->spacing > 0;
+        return true;
+    case WORD_refraction: args_next(a); t->refraction = args_switch(a) ? 1 : -1; return true;
+    case WORD_reflection: args_next(a); t->reflection = args_switch(a) ? 1 : -1; return true;
+    case WORD_collect: args_next(a); t->collect = args_switch(a); return true;
+    case WORD_pass_through: args_next(a); t->pass_through = args_switch(a); return true;
+    default: return false;
+    }
+}
+
+// What is to bend light cannot let it pass as if nothing were there: the later word holds.
+static void photon_conflict(struct args *a, struct span where, bool pass_through,
+                            struct photon_target *t)
+{
+    if (!t->pass_through || !t->target || t->refraction <= 0)
+        return;
+    args_warning(a, where, "a target with refraction cannot have pass_through too");
+    if (pass_through)
+        t->refraction = 0;
+    else
+        t->pass_through = false;
+}
+
+static void object_photons(struct args *a, struct object *o)
+{
+    static const enum word words[] = {WORD_target, WORD_refraction, WORD_reflection,
+                                      WORD_pass_through, WORD_collect};
+    struct photon_target *t = arena_new_struct(a->b->arena, struct photon_target);
     struct args in = args_of(a->b, args_next(a), a);
-    while (in.at)
-        if (!fields_read(&in, fields, ARRAY_COUNT(fields), &t))
-            fields_unknown(&in, fields, ARRAY_COUNT(fields), NULL, 0);
-    args_not_rendered(a, WORD_photons, in.owner->where);
+    *t = o->photons ? *o->photons : (struct photon_target){.collect = true};
+    while (in.at) {
+        const struct span where = args_span(&in);
+        const bool pass_through = args_at_word(&in) == WORD_pass_through;
+        if (!photon_item(&in, t))
+            args_unknown(&in, words, ARRAY_COUNT(words));
+        else
+            photon_conflict(&in, where, pass_through, t);
+    }
+    o->photons = t;
 }
 
 double build_importance(struct args *a)
@@ -175,7 +206,7 @@ static bool block_modifier(struct args *a, struct object *o)
     case WORD_material: material(a, o); return true;
     case WORD_clipped_by: clip_or_bound(a, o, true); return true;
     case WORD_bounded_by: clip_or_bound(a, o, false); return true;
-    case WORD_photons: object_photons(a); return true;
+    case WORD_photons: object_photons(a, o); return true;
     case WORD_radiosity: o->importance = (float)build_importance(a); return true;
     default: return false;
     }

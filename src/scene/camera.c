@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "math/elementary.h"
+#include "scene/mesh_camera.h"
 #include "scene/texture.h"
 
 static const double pi = 3.14159265358979323846;
@@ -190,9 +191,22 @@ static struct vec3 bent(const struct view *w, struct vec3 d)
 bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct ray *out)
 {
     struct view view;
+    if (c->kind == CAMERA_MESH)
+        return camera_mesh_ray(c, x, y, w, h, 0, out);
     if (!view_at(&view, c, x, y, w, h))
         return false;
     *out = (struct ray){view.origin, bent(&view, vec3_normalize(view.d)), 0, INFINITY};
+    return true;
+}
+
+bool camera_mesh_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
+                     struct ray *out)
+{
+    const struct view at = {.c = c}; // one bend for all: at the origin
+    struct vec3 o, d;
+    if (!mesh_camera_ray(c, x, y, w, h, k, &o, &d))
+        return false;
+    *out = (struct ray){o, bent(&at, d), 0, INFINITY};
     return true;
 }
 
@@ -222,10 +236,10 @@ bool camera_lens_ray(const struct camera *c, const struct camera_lens *l, double
 bool camera_has_one_eye(const struct camera *c)
 {
     return c->kind != CAMERA_ORTHOGRAPHIC && c->kind != CAMERA_CYLINDER_3 &&
-           c->kind != CAMERA_CYLINDER_4 && !camera_has_lens(c);
+           c->kind != CAMERA_CYLINDER_4 && c->kind != CAMERA_MESH && !camera_has_lens(c);
 }
 
 bool camera_has_lens(const struct camera *c)
 {
-    return c->aperture != 0 && c->blur_samples > 0;
+    return c->aperture != 0 && c->blur_samples > 0 && c->kind != CAMERA_MESH;
 }

@@ -2,6 +2,7 @@
 #define SCENE_CAMERA_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "math/vec.h"
 
@@ -17,6 +18,7 @@ enum camera_kind {
     CAMERA_CYLINDER_3,
     CAMERA_CYLINDER_4,
     CAMERA_SPHERICAL,
+    CAMERA_MESH,
 };
 
 // As it stands after every item was combined (spec/lighting.md 1.2).
@@ -26,7 +28,8 @@ struct camera {
     double angle, angle_v; // degrees; for the angular kinds
     double aperture, focal_distance, confidence, variance;
     int blur_samples_min, blur_samples;
-    const struct normal *normal; // NULL: none
+    const struct normal *normal;    // NULL: none
+    const struct mesh_camera *mesh; // of CAMERA_MESH (scene/mesh_camera.h)
 };
 extern const struct camera camera_default;
 
@@ -35,6 +38,10 @@ extern const struct camera camera_default;
 // t_min = 0, t_max = infinity. False: no ray there (fisheye corner).
 bool camera_ray(const struct camera *c, double x, double y, int w, int h,
                 struct ray *out);
+
+// The same of ray k of a CAMERA_MESH, whose pixels are the mean of their rays.
+bool camera_mesh_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
+                     struct ray *out);
 
 // The plane of the lens, and how many lengths of `direction` away all is sharp.
 struct camera_lens {

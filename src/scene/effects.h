@@ -52,11 +52,11 @@ struct subsurface_settings {
     int samples_diffuse, samples_single;
 };
 
-// photons {} of an object or a light.
+// photons {} of an object (spec/lighting.md 11.1).
 struct photon_target {
-    bool target, refraction, reflection, pass_through, collect;
-    bool refraction_set, reflection_set, area_light;
-    double spacing; // factor of `target`
+    bool target, pass_through, collect;
+    signed char refraction, reflection; // 1 on, -1 off, 0: not written
+    double spacing;                     // factor of `target`
 };
 
 #endif

@@ -26,6 +26,8 @@ struct light {
     const struct object *looks_like;        // already moved to the light; NULL: none
     const struct object *projected_through; // NULL: none
     bool media_interaction, media_attenuation;
+    signed char photon_refraction, photon_reflection; // 1 on, -1 off, 0: not written
+    bool photon_area; // photons leave all of an area light
 };
 extern const struct light light_default;
 

@@ -1,5 +1,5 @@
 liblambert_a_SOURCES += \
-	%D%/args.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/effects.h %D%/light.h \
+	%D%/args.h %D%/mesh_camera.c %D%/mesh_camera.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/effects.h %D%/light.h \
 	%D%/object.c %D%/object.h %D%/object_print.c \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shapes.def %D%/texture.h \
 	%D%/shapes/blob.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
@@ -21,7 +21,7 @@ liblambert_a_SOURCES += \
 	%D%/tape_packet.c %D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \
-	%D%/finish.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
+	%D%/finish.c %D%/interior.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
 	%D%/pattern.c %D%/pattern_math.h %D%/pigment.c %D%/surface_eval.h %D%/texture.c \
 	%D%/warp.c
 liblambert_a_SOURCES += \

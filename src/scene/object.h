@@ -12,6 +12,7 @@ struct arena;
 struct texture;
 struct interior;
 struct light;
+struct photon_target;
 
 enum object_kind { OBJECT_SHAPE, OBJECT_CSG, OBJECT_LIGHT };
 enum csg_op { CSG_UNION, CSG_MERGE, CSG_INTERSECTION, CSG_DIFFERENCE };
@@ -67,6 +68,7 @@ struct object {
     const struct interior *interior; // NULL: inherit
     unsigned flags;                  // enum object_flags
     float importance; // share of the rays that gather light which see it; 0: inherit
+    const struct photon_target *photons; // NULL: inherit
 
     // Clips and bounds, each in the outermost space of this node; a point must
     // be inside all clips. Bounds only cull rays (they never change a picture

@@ -192,5 +192,8 @@ struct interior {
     const struct media *const *media; // scene/effects.h; they add up
     uint32_t media_count;
 };
+// A copy whose densities are moved by t; i itself where nothing moves.
+const struct interior *interior_moved(struct arena *a, const struct interior *i,
+                                      const struct transform *t);
 
 #endif

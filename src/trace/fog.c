@@ -1,5 +1,6 @@
 #include "math/elementary.h"
 #include "scene/noise.h"
+#include "trace/media.h"
 #include "trace/sky.h"
 
 // The mean density of a ground fog between two heights, in units of its scale: the
@@ -51,14 +52,17 @@ static struct rgb fog_pass(const struct fog *f, float clear)
                clear * ((1 - k) + k * f->color.b));
 }
 
-struct rgb fog_filter(const struct job *job, struct vec3 o, struct vec3 d, double s)
+struct rgb air_filter(struct tracer *t, struct vec3 o, struct vec3 d, double s)
 {
+    const struct job *job = t->job;
     struct rgb pass = {1, 1, 1};
     for (uint32_t i = job->scene->fog_count; i-- > 0;) {
         const struct fog *f = job->scene->fog[i];
         if (f->distance != 0)
             pass = rgb_mul(pass, fog_pass(f, fog_clear(job, f, o, d, s)));
     }
+    if (job->has_air_media)
+        pass = rgb_mul(pass, media_air_shadow(t, o, d, s));
     return pass;
 }
 
@@ -141,13 +145,15 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
     path->through_t *= pass_t;
 }
 
-void air_apply(struct tracer *t, struct path *path, double s)
+void air_apply(struct tracer *t, struct path *path, double s, uint32_t group)
 {
     const struct scene *scene = t->job->scene;
     if (!t->job->has_air || !inside_hollow(path->inside))
         return;
     if (scene->fog_count)
         fogs_apply(t, path, s);
+    if (t->job->has_air_media)
+        media_air_apply(t, path, s, group);
     if (scene->rainbow_count)
         rainbows_apply(t, path, s);
 }

@@ -1,6 +1,12 @@
 #include "trace/job.h"
 
 #include "base/arena.h"
+#include "scene/mesh_camera.h"
+#include "scene/noise_kernel.h"
+#include "trace/accel.h"
+#include "trace/packet.h"
+#include "trace/photons.h"
+#include "trace/media.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
 
@@ -71,7 +77,8 @@ static void spectrum_init(struct job *job)
 static void sky_init(struct job *job)
 {
     const struct scene *s = job->scene;
-    job->has_air = job->atmosphere && (s->fog_count || s->rainbow_count);
+    job->has_air =
+        job->atmosphere && (s->fog_count || s->rainbow_count || job->has_air_media);
     job->even_sky = !s->sky && !job->has_air;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
@@ -157,8 +164,12 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         settings->purpose == RENDER_GATHER ? (unsigned)OBJECT_NO_RADIOSITY : 0;
     job->hidden_by[0] = never ? never : (unsigned)OBJECT_NO_IMAGE;
     job->hidden_by[1] = never | (unsigned)OBJECT_NO_REFLECTION;
+    job->reach = job->camera->mesh ? job->camera->mesh->max_distance : 0;
+    job->noise = noise_kernels_find(w->accel->kernels->name);
     lamps_init(job, a, w);
     spectrum_init(job);
+    media_compile(job, a);
+    job->shoots = photons_wanted(job);
     sky_init(job);
     pass_init(job, a);
     simple_compile(job, a);

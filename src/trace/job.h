@@ -21,6 +21,9 @@ struct even_pass {
     struct rgb pass;
 };
 
+struct media_threshold;
+struct photons;
+struct noise_kernels;
 struct simple_surface;
 struct simple_class;
 struct shade_kernels;
@@ -48,7 +51,7 @@ struct job {
     // What a miss sees where that does not depend on the direction: [1] where the
     // background never shows as alpha.
     unsigned hidden_by[2]; // of rays: [1] once they were mirrored
-    bool has_air; // fog or rainbows
+    bool has_air; // fog, rainbows or media that fill the scene
     bool even_sky;
     struct rgb sky[2];
     float sky_clear[2];
@@ -56,8 +59,17 @@ struct job {
         *pass;                // per surface of the world; NULL: none lets light through
     const struct aabb *clear; // around everything that lets light through
     uint32_t clear_count;
+    // Photons (trace/photons.h).
+    bool shoots; // lamps shoot at targets
+    const struct photons *photons; // NULL: not shot, or nothing to shoot at
+    // Media (trace/media.h).
+    bool has_media, has_air_media; // somewhere; filling the scene
+    const struct media_threshold *media_threshold;
+    uint32_t media_threshold_count;
+    const struct noise_kernels *noise;
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
+    double reach; // of rays with PATH_SHORT; 0: none has a limit
     bool quick_camera;                   // its rays are made eight at a time
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;

@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "base/stack.h"
+#include "trace/photons.h"
 #include "trace/tile.h"
 
 const struct render_settings render_settings_default = {
@@ -183,6 +184,18 @@ static double now(clockid_t clock)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+struct shooting {
+    struct job *job;
+    const volatile bool *cancel;
+    struct photons *photons;
+};
+
+static void shoot(void *user)
+{
+    struct shooting *s = user;
+    s->photons = photons_shoot(s->job, s->cancel);
+}
+
 bool render_world(const struct world *w, const struct render_settings *settings,
                   const struct render_progress *progress, struct image *out,
                   struct render_stats *stats)
@@ -201,12 +214,17 @@ bool render_world(const struct world *w, const struct render_settings *settings,
         r.stats.tiles_done += progress->have[i];
     pthread_mutex_init(&r.lock, NULL);
     const double begin = now(CLOCK_MONOTONIC), cpu_begin = now(CLOCK_PROCESS_CPUTIME_ID);
+    struct shooting shooting = {&job, progress ? progress->cancel : NULL, NULL};
+    if (r.tiles_total && job.shoots)
+        stack_run(shoot, &shooting);
+    job.photons = shooting.photons;
     if (r.tiles_total)
         work_in_threads(&r);
     r.stats.seconds = now(CLOCK_MONOTONIC) - begin;
     r.stats.cpu_seconds = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
     r.stats.tiles_total = r.tiles_total;
     pthread_mutex_destroy(&r.lock);
+    photons_free(shooting.photons);
     arena_free(arena);
     if (stats)
         *stats = r.stats;

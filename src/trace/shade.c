@@ -1,6 +1,8 @@
 #include "trace/shade.h"
 
 #include "base/arena.h"
+#include "trace/media.h"
+#include "trace/photons.h"
 #include "trace/sky.h"
 
 // How far a ray that hits nothing goes, as fog and rainbow see it (spec/lighting.md 0).
@@ -9,7 +11,7 @@ static const double far_away = 2e10;
 void shade_miss(struct tracer *t, const struct path *path)
 {
     struct path p = *path;
-    air_apply(t, &p, far_away);
+    air_apply(t, &p, far_away, 0);
     float clear;
     const struct rgb c = sky_color(t->job, p.d, (p.flags & PATH_REFLECTED) != 0, &clear);
     tracer_add(t, rgb_mul(p.through, c));
@@ -40,9 +42,9 @@ static void add_own(struct shading *s, const struct layer *l)
 }
 
 // The layers of one plain texture, from the top (spec/lighting.md 5.2).
-static void shade_plain(void *user, const struct surface_view *v, const struct texture *x,
-                        const struct texture_point *at, const struct texture_chain *chain,
-                        double weight)
+void shade_plain(void *user, const struct surface_view *v, const struct texture *x,
+                 const struct texture_point *at, const struct texture_chain *chain,
+                 double weight)
 {
     struct shading *s = user;
     const struct job *job = s->t->job;
@@ -62,7 +64,8 @@ static void shade_plain(void *user, const struct surface_view *v, const struct t
             s->layer_count--;
             return;
         }
-        add_own(s, l);
+        if (!s->dark)
+            add_own(s, l);
         if (!l->found)
             continue;
         r.any = true;
@@ -78,7 +81,7 @@ static void shade_plain(void *user, const struct surface_view *v, const struct t
         r.trans = fminf(1, fabsf(rgb_grey(filter)));
     }
     r.end = s->layer_count;
-    shade_transmit(s, &r);
+    s->go_on(s, &r);
 }
 
 // The matt part of all layers that is worth asking for, and the first such layer.
@@ -134,10 +137,16 @@ static void shade_indirect(struct shading *s, const struct hit *hit,
 void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
 {
     struct path here = *path;
-    air_apply(t, &here, hit->b.t);
+    if (t->job->has_air || t->job->has_media) {
+        const struct world *w = t->job->world;
+        const uint32_t group = w->surface[w->leaf[hit->b.leaf].surface].light_group;
+        air_apply(t, &here, hit->b.t, group);
+        if (t->job->has_media)
+            media_apply(t, &here, hit->b.t, group);
+    }
     if (!(here.flags & PATH_CONTINUED))
         here.level++;
-    here.flags &= (uint8_t)~PATH_CONTINUED;
+    here.flags &= (uint8_t)~PATH_OF_ONE_WAY;
     struct shading s;
     s.t = t;
     s.path = &here;
@@ -145,6 +154,8 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     s.layer = s.few;
     s.layer_count = 0;
     s.layer_capacity = HIT_LAYERS;
+    s.dark = false;
+    s.go_on = shade_transmit;
     const struct ray ray = {path->o, path->d, 0, INFINITY};
     trace_interaction(t->job->world, &ray, hit, &s.at);
     surface_view_init(&s.view, &s.at, path->d);
@@ -156,4 +167,6 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     if (t->job->settings.indirect.both_sides)
         shade_indirect(&s, hit, &ray, true);
     shade_lights(&s);
+    if (t->job->photons)
+        shade_photons(&s);
 }

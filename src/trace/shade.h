@@ -5,6 +5,8 @@
 
 enum { HIT_LAYERS = 32 };
 
+struct plain_result;
+
 // A hit being shaded: the layers of all its textures.
 struct shading {
     struct tracer *t;
@@ -14,9 +16,15 @@ struct shading {
     struct surface_view view;
     struct layer *layer;
     uint32_t layer_count, layer_capacity;
+    bool dark; // for photons: what layers give off by themselves is left out
+    // What becomes of the rays that go on from one plain texture.
+    void (*go_on)(struct shading *s, const struct plain_result *r);
+    void *user; // of go_on
     struct layer few[HIT_LAYERS];
 };
 
+// The layers of one plain texture, for texture_walk; the user is the shading.
+plain_function shade_plain;
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
 // A hit as light by way of other surfaces is asked for: n is the layer's, towards the ray,
@@ -29,6 +37,9 @@ struct indirect_hit {
     const struct path *path;
 };
 struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool back);
+// What all layers send to the eye of light of colour 1 from `to`; lamp: NULL for photons.
+struct rgb layers_lit(const struct shading *s, const struct lamp *lamp, struct vec3 to,
+                      bool side_test);
 // Iridescence for light from l (spec/lighting.md 5.3).
 struct rgb irid_factor(const struct shading *s, const struct finish *f, struct vec3 n,
                        struct vec3 l);
@@ -46,6 +57,11 @@ struct plain_result {
     bool any;
 };
 void shade_transmit(struct shading *s, const struct plain_result *r);
+// Its two halves. False: the light was reflected totally, along the top layer's normal.
+bool shade_refract(struct shading *s, const struct plain_result *r);
+// except: a normal along which there is no mirror; NULL: none.
+void shade_mirrors(struct shading *s, const struct plain_result *r,
+                   const struct vec3 *except);
 // The index of Fresnel's formula seen from the ray (spec/lighting.md 5.5).
 double fresnel_index(const struct inside *list, const struct interior *interior);
 // Its factor on what a mirror shows, at this cosine between normal and eye; *weight is

@@ -1,6 +1,7 @@
 #include "math/elementary.h"
 #include "scene/noise.h"
 #include "trace/area.h"
+#include "trace/photons.h"
 #include "trace/shade.h"
 
 // "Is zero" for colours and cosines, as the scene language has it (spec/lighting.md 0).
@@ -109,10 +110,10 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
             (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));
         i *= d * l->att;
         if (f->crand > 0)
-            i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp->index + 100));
+            i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp ? lamp->index + 100 : 99));
         c = rgb_scale(i, l->color);
     }
-    if (!back && !lamp->dull)
+    if (!back && !(lamp && lamp->dull))
         c = rgb_add(c, highlights(l, s->path->d, to, facing));
     if (f->irid != 0)
         c = rgb_mul(c, irid_factor(s, f, l->n, to));
@@ -124,8 +125,8 @@ bool finish_takes_light(const struct finish *f)
     return f->diffuse != 0 || f->diffuse_back != 0 || f->specular != 0 || f->phong != 0;
 }
 
-static struct rgb layers_lit(const struct shading *s, const struct lamp *lamp,
-                             struct vec3 to, bool side_test)
+struct rgb layers_lit(const struct shading *s, const struct lamp *lamp, struct vec3 to,
+                      bool side_test)
 {
     struct rgb sum = {0, 0, 0};
     for (uint32_t i = 0; i < s->layer_count; i++)
@@ -192,7 +193,8 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
                                      .value = value,
                                      .inside = s->path->inside,
                                      .slot = s->t->slot,
-                                     .lamp = lamp->index};
+                                     .lamp = lamp->index,
+                                     .photons = photons_instead(job, s->at.surface, light)};
     if (area && !light->shadowless)
         tracer_add(s->t, rgb_mul(value, area_shadow(s, lamp, &r)));
     else if (light->projected_through)

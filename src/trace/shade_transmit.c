@@ -99,8 +99,8 @@ static bool same(struct vec3 a, struct vec3 b)
 
 // The mirror terms of all layers; those along `except` are left out (spec/lighting.md
 // 6.4: total reflection has brought them).
-static void mirrors(struct shading *s, const struct plain_result *r,
-                    const struct vec3 *except)
+void shade_mirrors(struct shading *s, const struct plain_result *r,
+                   const struct vec3 *except)
 {
     for (uint32_t i = r->begin; i < r->end; i++) {
         const struct layer *l = &s->layer[i];
@@ -115,6 +115,8 @@ static void mirrors(struct shading *s, const struct plain_result *r,
         p.flags |= PATH_REFLECTED;
         p.through_t = 0;
         p.weight *= l->trans * weight;
+        if (s->dark)
+            p.weight *= weight; // photons end by the square, as in POV-Ray
         struct rgb irid = {1, 1, 1};
         if (f->irid != 0)
             irid = irid_factor(s, f, l->n, p.d);
@@ -270,25 +272,30 @@ struct rgb way_fade(const struct interior *x, const struct inside *inside, doubl
     return fade;
 }
 
-void shade_transmit(struct shading *s, const struct plain_result *r)
+bool shade_refract(struct shading *s, const struct plain_result *r)
 {
     const struct job *job = s->t->job;
-    const struct vec3 *except = NULL;
     struct bending b;
-    if (r->trans > job->adc_bailout && job->refraction && r->end > r->begin) {
-        const struct vec3 top = s->layer[r->begin].n;
-        b.r = r;
-        b.sides = interior_cross(s->t, s->path->inside, s->at.surface->interior);
-        b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
-        b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
-        b.weight = s->path->weight;
-        if (r->any && r->weight > 0)
-            b.weight *=
-                fmaxf(fabsf(r->filter.r), fmaxf(fabsf(r->filter.g), fabsf(r->filter.b))) /
-                r->weight;
-        if (!refract(s, &b))
-            except = &s->layer[r->begin].n;
-    }
-    if (job->mirrors)
-        mirrors(s, r, except);
+    if (!(r->trans > job->adc_bailout) || !job->refraction || r->end == r->begin)
+        return true;
+    const struct vec3 top = s->layer[r->begin].n;
+    b.r = r;
+    b.sides = interior_cross(s->t, s->path->inside, s->at.surface->interior);
+    b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
+    b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
+    b.weight = s->path->weight;
+    if (r->any && r->weight > 0)
+        b.weight *=
+            fmaxf(fabsf(r->filter.r), fmaxf(fabsf(r->filter.g), fabsf(r->filter.b))) /
+            r->weight;
+    return refract(s, &b);
+}
+
+void shade_transmit(struct shading *s, const struct plain_result *r)
+{
+    const struct vec3 *except = NULL;
+    if (!shade_refract(s, r))
+        except = &s->layer[r->begin].n;
+    if (s->t->job->mirrors)
+        shade_mirrors(s, r, except);
 }

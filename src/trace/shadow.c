@@ -3,6 +3,8 @@
 #include "math/elementary.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
+#include "trace/media.h"
+#include "trace/photons.h"
 #include "trace/shade_kernel.h"
 #include "trace/sky.h"
 
@@ -58,6 +60,8 @@ struct shadow_walk {
     struct rgb pass;
     double t; // so far
     uint32_t ray;
+    bool air;        // fog and the like dim this light
+    uint8_t photons; // photons_instead
 };
 
 static const struct rgb none = {0, 0, 0}, all = {1, 1, 1};
@@ -73,6 +77,22 @@ static struct rgb surface_pass(struct tracer *t, const struct ray *ray,
     return occluder_filter(t, &at, ray->d);
 }
 
+// Whether photons bring the light that goes through a surface.
+static bool is_target(const struct surface *surface, uint8_t photons)
+{
+    const struct photon_target *p = surface->photons;
+    return p && p->target && p->refraction >= 0 && (p->refraction > 0 || photons == 2);
+}
+
+// Fog and media of the scene on the stretch up to t, where it is hollow.
+static void air_between(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
+                        double end)
+{
+    if (inside_hollow(s->inside))
+        s->pass = rgb_mul(s->pass, air_filter(t, vec3_mad(ray->o, s->t, ray->d), ray->d,
+                                              end - s->t));
+}
+
 // Crosses the surface that was hit; false: nothing passes.
 static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
                     const struct hit *hit)
@@ -80,9 +100,14 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
     const struct world *w = t->job->world;
     const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
     struct rgb pass = none;
-    if (!surface->opaque)
+    if (!surface->opaque && !(s->photons && is_target(surface, s->photons)))
         pass = surface_pass(t, ray, hit, surface);
+    if (s->air)
+        air_between(t, s, ray, hit->b.t);
     const struct interior *x = surface->interior;
+    if (t->job->has_media && s->inside)
+        pass = rgb_mul(pass, media_shadow(t, s->inside, vec3_mad(ray->o, s->t, ray->d),
+                                          ray->d, hit->b.t - s->t));
     if (inside_find(s->inside, x)) {
         if (x->fade_power > 0 && fabs(x->fade_distance) > zero)
             pass = rgb_mul(pass, interior_fade(x, hit->b.t - s->t));
@@ -99,15 +124,19 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
 }
 
 // The light that passes, with opaque objects known not to be in the way.
-static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r)
+static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r, bool air)
 {
-    struct shadow_walk s = {r->inside, all, 0, 0};
+    struct shadow_walk s = {r->inside, all, 0, 0, air, r->photons};
     struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
     struct hit hit;
+    bool on;
     do {
         q.ray.t_min = s.t;
         hit = trace_closest_1(t->job->world, t->scratch, &q);
-    } while (hit.b.t < r->t_max && walk_on(t, &s, &q.ray, &hit));
+        on = hit.b.t < r->t_max;
+    } while (on && walk_on(t, &s, &q.ray, &hit));
+    if (air && !on)
+        air_between(t, &s, &q.ray, r->t_max);
     return s.pass;
 }
 
@@ -147,7 +176,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
             lit &= job->kernels->meets(job->clear, job->clear_count, b->rays, first);
         for (; lit; lit &= lit - 1) {
             const uint32_t k = first + (uint32_t)__builtin_ctz(lit);
-            s[n++] = (struct shadow_walk){wave_inside(t, b->slot[k]), all, 0, k};
+            s[n++] = (struct shadow_walk){wave_inside(t, b->slot[k]), all, 0, k, false,
+                                            b->photons[k]};
         }
     }
     while (n) {
@@ -168,12 +198,20 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
     }
 }
 
-// Fog on the way to the light, for lights that are attenuated by it.
-static bool fog_counts(const struct job *job, uint32_t lamp, const struct inside *inside)
+// Whether fog and media that fill the scene dim the light.
+static bool air_counts(const struct job *job, uint32_t lamp)
 {
     const struct light *light = job->lamp[lamp].light;
     return light->media_attenuation && light->media_interaction && job->atmosphere &&
-           job->scene->fog_count && inside_hollow(inside);
+           (job->scene->fog_count || job->has_air_media);
+}
+
+// What passes of light that nothing opaque stops and that the air dims.
+static struct rgb airy(struct tracer *t, const struct shadow_request *r)
+{
+    if (t->job->world->has_transparent)
+        return walk_alone(t, r, true);
+    return inside_hollow(r->inside) ? air_filter(t, r->o, r->d, r->t_max) : all;
 }
 
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
@@ -183,12 +221,9 @@ struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
     const struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
     if (trace_occluded_1(t->job->world, t->scratch, &q))
         return none;
-    struct rgb c = all;
-    if (t->job->world->has_transparent)
-        c = walk_alone(t, r);
-    if (fog_counts(t->job, r->lamp, r->inside))
-        c = rgb_mul(c, fog_filter(t->job, r->o, r->d, r->t_max));
-    return c;
+    if (air_counts(t->job, r->lamp))
+        return airy(t, r);
+    return t->job->world->has_transparent ? walk_alone(t, r, false) : all;
 }
 
 // ---- batches -------------------------------------------------------------------------
@@ -293,6 +328,7 @@ static void shadow_put(struct shadow_batch *b, uint32_t i, const struct shadow_r
     b->rays->d[2][i] = r->d.z;
     b->rays->t_max[i] = r->t_max;
     b->slot[i] = (uint16_t)r->slot;
+    b->photons[i] = r->photons;
 }
 
 void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
@@ -308,8 +344,8 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
         out[i] = b->occluded[i] ? none : b->pass ? b->pass[i] : all;
         if (!(r[i].t_max > 0))
             out[i] = all;
-        else if (!b->occluded[i] && fog_counts(t->job, r[i].lamp, r[i].inside))
-            out[i] = rgb_mul(out[i], fog_filter(t->job, r[i].o, r[i].d, r[i].t_max));
+        else if (!b->occluded[i] && air_counts(t->job, r[i].lamp))
+            out[i] = airy(t, &r[i]);
     }
 }
 
@@ -352,10 +388,10 @@ void shadow_flush(struct tracer *t)
             continue;
         const struct shadow_request *r = &t->shadow[i];
         struct rgb c = r->value;
-        if (b->pass)
+        if (air_counts(t->job, r->lamp))
+            c = rgb_mul(c, airy(t, r));
+        else if (b->pass)
             c = rgb_mul(c, b->pass[k]);
-        if (fog_counts(t->job, r->lamp, r->inside))
-            c = rgb_mul(c, fog_filter(t->job, r->o, r->d, r->t_max));
         light_add(t, r->slot, c);
     }
 }

@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "scene/effects.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
+#include "trace/media.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 
@@ -100,7 +102,8 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
-        s->wants_uv || s->parts)
+        s->wants_uv || s->parts ||
+        (job->shoots && (!s->photons || s->photons->collect)))
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
@@ -239,7 +242,8 @@ void simple_end(struct tracer *t)
 bool simple_take(struct tracer *t, uint32_t k)
 {
     const struct job *job = t->job;
-    if (!job->simple)
+    if (!job->simple ||
+        (job->has_media && media_inside(wave_inside(t, t->wave.slot[k]))))
         return false;
     const uint32_t class = job->simple[job->world->leaf[t->hit[k].b.leaf].surface].class;
     if (class == SIMPLE_NONE)

@@ -163,7 +163,7 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
                          .mirror = {b.mirror[0][i], b.mirror[1][i], b.mirror[2][i]}};
         if (!(l.from.flags & PATH_CONTINUED))
             l.from.level++;
-        l.from.flags &= (uint8_t)~PATH_CONTINUED;
+        l.from.flags &= (uint8_t)~PATH_OF_ONE_WAY;
         l.from.parent = g->slot[i];
         if (c->clear) {
             if (fabs(b.eta[i] - 1) < zero)

@@ -9,10 +9,10 @@
 struct rgb sky_color(const struct job *job, struct vec3 d, bool opaque, float *t);
 
 // What lies between the camera side and a point at distance s of the ray: adds the
-// light of fogs and rainbows to the sum, and filters what the path brings from there
-// on (spec/lighting.md 9.2, 9.3).
-void air_apply(struct tracer *t, struct path *path, double s);
-// The factor by which fogs filter light along a way.
-struct rgb fog_filter(const struct job *job, struct vec3 o, struct vec3 d, double s);
+// light of fogs, media and rainbows to the sum, and filters what the path brings from there
+// on (spec/lighting.md 9.2, 9.3, 10). group: the light group of what lies there, or 0.
+void air_apply(struct tracer *t, struct path *path, double s, uint32_t group);
+// The factor by which fogs and media that fill the scene filter light along a way.
+struct rgb air_filter(struct tracer *t, struct vec3 o, struct vec3 d, double s);
 
 #endif

@@ -162,6 +162,7 @@ static int blur_round(struct tracer *t, const struct tile_tables *tables,
             struct vec2 on_lens;
             lens_sample(lens, &tables->jitter, job->camera, tile->x0 + i % width,
                         tile->y0 + i / width, b->done + s, &ray->position, &on_lens);
+            ray->flags = 0;
             ray->exists = camera_lens_ray(job->camera, &lens->place, ray->position.u,
                                           ray->position.v, job->settings.width,
                                           job->settings.height, on_lens, &ray->ray);

@@ -4,6 +4,9 @@
 
 #include "base/arena.h"
 #include "trace/inside.h"
+#include "trace/media.h"
+#include "trace/mesh_samples.h"
+#include "trace/photons.h"
 #include "trace/shade_kernel.h"
 #include "trace/simple.h"
 #include "trace/wave.h"
@@ -40,6 +43,10 @@ struct tracer *tracer_new(const struct job *job)
     simple_init(t);
     if (job->settings.indirect.begin)
         t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
+    media_init(t);
+    if (job->photons)
+        t->near_photons =
+            must_alloc(job->photons->gather.max, sizeof *t->near_photons);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
     return t;
@@ -57,6 +64,8 @@ void tracer_free(struct tracer *t)
     path_queue_free(&t->camera_queue);
     shadow_end(t);
     simple_end(t);
+    media_end(t);
+    free(t->near_photons);
     free(t->hit);
     free(t->sum);
     free(t->power);
@@ -106,6 +115,7 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
                            .through = {1, 1, 1},
                            .through_t = 1,
                            .weight = 1,
+                           .flags = ray[i].flags,
                            .sample = i,
                            .hash = tracer_position_hash(ray[i].position)};
         p->inside = camera_has_one_eye(t->job->camera)
@@ -140,6 +150,7 @@ static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
     const struct render_settings *s = &t->job->settings;
     for (uint32_t i = 0; i < count; i++) {
         ray[i].position = position[i];
+        ray[i].flags = 0;
         ray[i].exists = camera_ray(t->job->camera, position[i].u, position[i].v, s->width,
                                    s->height, &ray[i].ray);
     }
@@ -150,6 +161,10 @@ void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t coun
                     float (*out)[4])
 {
     const struct job *job = t->job;
+    if (job->camera->mesh) {
+        mesh_samples(t, position, count, out);
+        return;
+    }
     for (uint32_t first = 0; first < count; first += BATCH_SIZE) {
         const uint32_t n = count - first < BATCH_SIZE ? count - first : BATCH_SIZE;
         if (!job->quick_camera) {

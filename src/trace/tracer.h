@@ -33,6 +33,8 @@ static inline bool inside_hollow(const struct inside *i) { return !i || i->hollo
 enum path_flags {
     PATH_REFLECTED = 1 << 0, // a mirror lies on the way from the camera
     PATH_CONTINUED = 1 << 1, // went straight on: its hit is not a new level
+    PATH_SHORT = 1 << 2,     // sees no farther than the job's `reach`
+    PATH_OF_ONE_WAY = PATH_CONTINUED | PATH_SHORT // what the next ray does not inherit
 };
 
 enum { BATCH_SIZE = 1024 };
@@ -72,6 +74,7 @@ struct shadow_request {
     struct rgb value; // added when nothing is in the way
     const struct inside *inside;
     uint32_t slot, lamp;
+    uint8_t photons; // photons_instead
 };
 
 // A mirrored ray whose colour is raised to a power: it is traced as a sample of its
@@ -105,6 +108,7 @@ struct shadow_batch {
     float value[3][BATCH_SIZE];
     uint16_t slot[BATCH_SIZE];
     uint8_t occluded[BATCH_SIZE];
+    uint8_t photons[BATCH_SIZE]; // photons_instead
     struct rgb *pass; // what transparent things and fog let through; NULL: all
 };
 
@@ -138,6 +142,8 @@ struct tracer {
     uint32_t sum_count, sum_capacity;
     struct power_request *power;
     uint32_t power_count, power_capacity;
+    struct photon_near *near_photons; // trace/photons.h; NULL: there are none
+    struct media_scratch *media; // trace/media.h; NULL: the scene has none
     struct wave_frame *frame;
     struct path_queue camera_queue;
     struct inside_pushed last_push;
@@ -154,6 +160,7 @@ struct tracer_ray {
     struct ray ray;
     struct vec2 position;
     bool exists; // false: the camera sees nothing there
+    uint8_t flags; // path_flags
 };
 
 struct tracer *tracer_new(const struct job *job);

@@ -176,6 +176,9 @@ static void wave_put(struct tracer *t)
         w->through[2][i] = p->through.b;
     }
     b->count = w->count;
+    for (uint32_t k = 0; k < w->count && t->job->reach > 0; k++)
+        b->t_max[k] =
+            w->path[w->order[w->slot[k]]].flags & PATH_SHORT ? t->job->reach : INFINITY;
 }
 
 // Brings the rays emitted since `first` into the order of their parents.

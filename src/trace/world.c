@@ -14,6 +14,7 @@ struct context {
     struct placed_texture texture;    // inherited; NULL: none yet
     struct placed_texture interior_texture;
     const struct interior *interior;
+    const struct photon_target *photons;
     unsigned flags;                   // OR of the flags above
     bool inverted, drawn;
     bool interior_given; // false: the scene says nothing of an interior
@@ -158,7 +159,8 @@ static const struct interior *interior_of(struct build *b, const struct object *
 {
     if (!o->interior && (c->interior || o->kind == OBJECT_SHAPE))
         return c->interior;
-    return new_interior(b, o->interior, hollow);
+    return new_interior(b, o->interior ? interior_moved(b->arena, o->interior, &c->world) : NULL,
+                        hollow);
 }
 
 // No ray enters through an opaque surface, so nobody asks for the identity of an interior
@@ -193,6 +195,8 @@ static struct context enter(struct build *b, const struct object *o, const struc
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
     in.interior_given = o->interior || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
+    if (o->photons)
+        in.photons = o->photons;
     in.world = transform_then(o->transform, &c->world);
     return in;
 }
@@ -209,7 +213,7 @@ static bool same_transform(const struct transform *a, const struct transform *b)
 static bool same_surface(const struct surface *a, const struct surface *b)
 {
     return !a->parts && !b->parts && a->texture == b->texture && a->interior_texture == b->interior_texture &&
-           a->interior == b->interior && a->flags == b->flags &&
+           a->interior == b->interior && a->photons == b->photons && a->flags == b->flags &&
            a->light_group == b->light_group && a->importance == b->importance &&
            same_transform(&a->texture_transform, &b->texture_transform) &&
            same_transform(&a->interior_texture_transform, &b->interior_texture_transform);
@@ -237,6 +241,7 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                         .interior_texture = c->interior_texture.texture,
                         .interior_texture_transform = c->interior_texture.transform,
                         .interior = c->interior,
+                        .photons = c->photons,
                         .flags = c->flags,
                         .light_group = c->light_group,
                         .importance = c->importance};

@@ -21,6 +21,7 @@ struct surface {
     struct transform interior_texture_transform;
     const struct interior *interior; // never NULL; identity decides refraction
     unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
+    const struct photon_target *photons; // NULL: nothing was written
     bool opaque;                     // never lets light through
     bool wants_uv;                   // shading may look at uv coordinates
     bool parts;                      // parts of the shape have textures of their own, or

@@ -185,6 +185,8 @@ lang_scenes = \
 	%D%/309-error-pigment-texture.scn \
 	%D%/310-error-map-empty.scn \
 	%D%/317-strings-that-change.scn \
+	%D%/318-error-mesh-camera.scn \
+	%D%/319-error-media.scn \
 	%D%/311-error-cone-equal.scn \
 	%D%/312-error-undefined-macro.scn \
 	%D%/314-error-array-access.scn \

@@ -192,7 +192,8 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/252-photons-reflect.pov \
 	%D%/253-photons-no-image.pov \
 	%D%/254-photons-slab.pov \
-	%D%/255-subsurface.pov \
+	%D%/255-subsurface.pov %D%/256-photons-truth-prism.pov %D%/257-photons-truth-mirror.pov \
+	%D%/258-photons-pass-through.pov \
 	%D%/270-hit-epsilon.pov \
 	%D%/271-layered-reflect.pov \
 	%D%/272-layer-cut.pov \
@@ -218,4 +219,44 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/308-image-gamma-missing.pov \
 	%D%/309-image-types.pov \
 	%D%/310-image-internal.pov \
-	%D%/311-cutaway-textures.pov
+	%D%/311-cutaway-textures.pov \
+	%D%/313-camera-mesh-several.pov \
+	%D%/314-camera-mesh-list.pov \
+	%D%/315-camera-mesh-width.pov \
+	%D%/316-camera-mesh-uv.pov \
+	%D%/317-camera-mesh-distance.pov \
+	%D%/320-media-intervals-unlit.pov \
+	%D%/321-media-spot-cylinder.pov \
+	%D%/322-media-spot-behind.pov \
+	%D%/323-media-parallel-density.pov \
+	%D%/324-media-area.pov \
+	%D%/325-media-area-adaptive.pov \
+	%D%/326-media-moved-union.pov \
+	%D%/327-media-nested.pov \
+	%D%/328-media-light-group.pov \
+	%D%/329-media-around-camera.pov \
+	%D%/330-media-mirror.pov \
+	%D%/331-media-looks-like.pov \
+	%D%/332-media-air-spot.pov \
+	%D%/333-media-two-densities.pov \
+	%D%/334-media-shadow-method2.pov \
+	%D%/335-media-extinction-0.pov \
+	%D%/336-media-negative.pov \
+	%D%/337-media-deep-aa.pov \
+	%D%/338-media-half-clear.pov \
+	%D%/339-media-interaction.pov \
+	%D%/340-media-air-fog.pov \
+	%D%/341-media-wide-spot.pov \
+	%D%/342-fog-light-hollow.pov \
+	%D%/343-media-random.pov \
+	%D%/350-media-truth-absorption.pov \
+	%D%/351-media-truth-emission.pov \
+	%D%/352-media-truth-glow-in-smoke.pov \
+	%D%/353-media-truth-ramp.pov \
+	%D%/354-media-truth-ramp-glow.pov \
+	%D%/355-media-truth-random.pov \
+	%D%/360-media-truth-isotropic.pov \
+	%D%/361-media-truth-hazy.pov \
+	%D%/362-media-truth-rayleigh.pov \
+	%D%/363-media-truth-eccentric.pov \
+	%D%/364-media-truth-shadow.pov

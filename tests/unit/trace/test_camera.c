@@ -1,15 +1,6 @@
 #include "test.h"
 
 #include "scene/camera.h"
-#include "scene/texture.h"
-
-// No camera here has a normal.
-struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at)
-{
-    (void)n;
-    fail();
-    return at->normal;
-}
 
 // POV-Ray 3.7's colours for the hit point of the ray on a sphere of radius 3 around
 // the origin, (p/3.2+1)/2 (linear values, five digits).

@@ -1,0 +1,248 @@
+#include "trace/media.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "scene/effects.h"
+#include "scene/texture.h"
+#include "trace/inside.h"
+#include "trace/lens.h"
+#include "trace/media_march.h"
+
+enum { WAY_EYE, WAY_SHADOW };
+
+bool media_inside(const struct inside *list)
+{
+    if (!inside_hollow(list))
+        return false;
+    for (; list; list = list->outer)
+        if (list->interior->media_count)
+            return true;
+    return false;
+}
+
+// The media of all interiors of a list, the outermost first.
+static const struct media *const *media_of(struct arena *a, const struct inside *list,
+                                           uint32_t *count)
+{
+    uint32_t n = 0;
+    for (const struct inside *i = list; i; i = i->outer)
+        n += i->interior->media_count;
+    const struct media **all = arena_new_array(a, const struct media *, n + 1);
+    *count = n;
+    for (const struct inside *i = list; i; i = i->outer)
+        for (uint32_t k = i->interior->media_count; k-- > 0;)
+            all[--n] = i->interior->media[k];
+    return all;
+}
+
+static struct media_result walk_lit(struct tracer *t, const struct media_mix *mix,
+                                    const struct media_way *way)
+{
+    struct media_scratch *s = &t->media[WAY_EYE];
+    struct media_march m = {.t = t, .scratch = s, .mix = mix, .way = way};
+    if (t->job->lamps[way->group].count) {
+        struct media_lamp *lamp = arena_new_array(s->arena, struct media_lamp,
+                                                  t->job->lamps[way->group].count + 1);
+        m.lamp_count = media_lamps(t->job, way->group, way->o, way->d, way->s, lamp);
+        m.lamp = lamp;
+    }
+    m.interval =
+        media_intervals(s->arena, mix, way->s, m.lamp, m.lamp_count, &m.interval_count);
+    return media_walk(&m);
+}
+
+static void apply(struct tracer *t, struct path *path, const struct media_mix *mix,
+                  const struct media_way *way)
+{
+    const struct media_result r = walk_lit(t, mix, way);
+    const struct rgb light = {(float)r.light.x, (float)r.light.y, (float)r.light.z};
+    const struct rgb pass = {(float)r.pass.x, (float)r.pass.y, (float)r.pass.z};
+    tracer_add(t, rgb_mul(path->through, light));
+    path->through = rgb_mul(path->through, pass);
+    path->through_t *= rgb_grey(pass);
+}
+
+struct media_mix media_mix_inside(struct tracer *t, const struct inside *list)
+{
+    struct arena *a = t->media[WAY_EYE].arena;
+    arena_reset(a);
+    uint32_t count;
+    const struct media *const *media = media_of(a, list, &count);
+    return media_mix_of(media, count);
+}
+
+void media_apply(struct tracer *t, struct path *path, double s, uint32_t group)
+{
+    if (!media_inside(path->inside))
+        return;
+    const struct media_mix mix = media_mix_inside(t, path->inside);
+    const struct media_way way = {path->o, path->d, s, path->inside, group, path->hash};
+    apply(t, path, &mix, &way);
+}
+
+void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t group)
+{
+    const struct scene *scene = t->job->scene;
+    arena_reset(t->media[WAY_EYE].arena);
+    const struct media_mix mix = media_mix_of(scene->media, scene->media_count);
+    const struct media_way way = {path->o,      path->d, s,
+                                  path->inside, group,   hash_mix(path->hash, 11)};
+    apply(t, path, &mix, &way);
+}
+
+// ---- shadows -------------------------------------------------------------------------
+
+static uint32_t hash_of_double(uint32_t h, double v)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return hash_mix(hash_mix(h, (uint32_t)bits), (uint32_t)(bits >> 32));
+}
+
+static struct rgb shadow_of(struct tracer *t, const struct media *const *media,
+                            uint32_t count, const struct media_way *way)
+{
+    struct media_scratch *s = &t->media[WAY_SHADOW];
+    const struct media **dark =
+        arena_new_array(s->arena, const struct media *, count + 1);
+    const uint32_t n = media_opaque_only(media, count, dark);
+    if (!n)
+        return rgb(1, 1, 1);
+    const struct media_mix mix = media_mix_of(dark, n);
+    struct media_march m = {
+        .t = t, .scratch = s, .mix = &mix, .way = way, .depth_only = true};
+    m.interval = media_intervals(s->arena, &mix, way->s, NULL, 0, &m.interval_count);
+    const struct vec3 pass = media_walk(&m).pass;
+    return rgb((float)pass.x, (float)pass.y, (float)pass.z);
+}
+
+static struct media_way shadow_way(struct vec3 o, struct vec3 d, double s)
+{
+    // A shadow ray has no history of its own: where it runs tells it apart.
+    uint32_t h = hash_of_double(5, o.x);
+    h = hash_of_double(h, o.y + o.z);
+    return (struct media_way){.o = o, .d = d, .s = s, .hash = hash_of_double(h, d.x)};
+}
+
+struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
+                        struct vec3 d, double s)
+{
+    if (!media_inside(list))
+        return rgb(1, 1, 1);
+    struct arena *a = t->media[WAY_SHADOW].arena;
+    arena_reset(a);
+    uint32_t count;
+    const struct media *const *media = media_of(a, list, &count);
+    const struct media_way way = shadow_way(o, d, s);
+    return shadow_of(t, media, count, &way);
+}
+
+struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s)
+{
+    const struct scene *scene = t->job->scene;
+    const struct media_way way = shadow_way(o, d, s);
+    arena_reset(t->media[WAY_SHADOW].arena);
+    return shadow_of(t, scene->media, scene->media_count, &way);
+}
+
+// ---- preparation -----------------------------------------------------------------------
+
+static bool wants_thresholds(const struct media *m)
+{
+    return m->method != 3 && m->samples_max > m->samples_min;
+}
+
+// Bounds what tables of thresholds cost, which chi_square finds by bisection.
+enum { THRESHOLDS = 1024 };
+
+static void threshold_add(struct job *job, struct arena *a, struct media_threshold *all,
+                          const struct media *m)
+{
+    const int n = m->samples_max < THRESHOLDS ? m->samples_max : THRESHOLDS;
+    double *enough = arena_new_array(a, double, (size_t)n + 2);
+    const double whole = chi_square((double)m->confidence, n - 1);
+    for (int k = 1; k <= n + 1 && whole > 0; k++)
+        enough[k] = (double)m->variance * chi_square((double)m->confidence, k) / whole;
+    all[job->media_threshold_count++] = (struct media_threshold){m, enough, (uint32_t)n};
+}
+
+// Calls visit for every medium of the scene; those of shared interiors several times.
+static void each_media(const struct job *job,
+                       void (*visit)(void *user, const struct media *m), void *user)
+{
+    const struct world *w = job->world;
+    for (uint32_t i = 0; i < job->scene->media_count; i++)
+        visit(user, job->scene->media[i]);
+    for (uint32_t i = 0; i < w->surface_count; i++) {
+        const struct interior *x = w->surface[i].interior;
+        if (i && x == w->surface[i - 1].interior)
+            continue;
+        for (uint32_t k = 0; k < x->media_count; k++)
+            visit(user, x->media[k]);
+    }
+}
+
+struct gathering {
+    struct job *job;
+    struct arena *arena;
+    struct media_threshold *all;
+    uint32_t count, wanted;
+};
+
+static void count_one(void *user, const struct media *m)
+{
+    struct gathering *g = user;
+    g->count++;
+    g->wanted += wants_thresholds(m);
+}
+
+static void take_one(void *user, const struct media *m)
+{
+    struct gathering *g = user;
+    if (!wants_thresholds(m))
+        return;
+    for (uint32_t i = 0; i < g->job->media_threshold_count; i++)
+        if (g->all[i].media == m)
+            return;
+    threshold_add(g->job, g->arena, g->all, m);
+}
+
+void media_compile(struct job *job, struct arena *a)
+{
+    struct gathering g = {.job = job, .arena = a};
+    const enum render_purpose purpose = job->settings.purpose;
+    if (!job->atmosphere || purpose == RENDER_SCOUT ||
+        (purpose == RENDER_GATHER && !job->scene->settings.radiosity_settings.media))
+        return;
+    each_media(job, count_one, &g);
+    job->has_media = g.count > 0;
+    job->has_air_media = job->scene->media_count > 0;
+    if (!g.wanted)
+        return;
+    g.all = arena_new_array(a, struct media_threshold, g.wanted);
+    each_media(job, take_one, &g);
+    job->media_threshold = g.all;
+}
+
+void media_init(struct tracer *t)
+{
+    if (!t->job->has_media)
+        return;
+    t->media = calloc(2, sizeof *t->media);
+    if (!t->media)
+        abort();
+    for (int i = 0; i < 2; i++)
+        t->media[i].arena = arena_new(4096);
+}
+
+void media_end(struct tracer *t)
+{
+    for (int i = 0; t->media && i < 2; i++) {
+        arena_free(t->media[i].arena);
+        free(t->media[i].sample);
+        free(t->media[i].span);
+    }
+    free(t->media);
+}

@@ -1,0 +1,42 @@
+#ifndef TRACE_MEDIA_H
+#define TRACE_MEDIA_H
+
+#include "trace/tracer.h"
+
+struct media;
+
+// Participating media (spec/lighting.md 10): what a stretch of a ray collects and loses on
+// its way through smoke, dust and fire. Colours are in double precision here, in x, y, z:
+// sums of many small terms.
+
+// A stretch of a ray from its origin on.
+struct media_way {
+    struct vec3 o, d; // d unit
+    double s;         // length
+    const struct inside *inside;
+    uint32_t group; // light group of what lies at its end; 0: none
+    uint32_t hash;  // seeds what is random along it
+};
+
+struct media_result {
+    struct vec3 light; // that is added
+    struct vec3 pass;  // of what comes from the far end
+};
+
+// Whether the ray is in a medium of an object (spec/lighting.md 10.2).
+bool media_inside(const struct inside *list);
+// Adds the light of the media of the interiors to the slot, and filters the path.
+void media_apply(struct tracer *t, struct path *path, double s, uint32_t group);
+// The same of the media that fill the scene.
+void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t group);
+// What they let through of light on its way to a lamp.
+struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
+                        struct vec3 d, double s);
+struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s);
+
+// What a job works out for all rays.
+void media_compile(struct job *job, struct arena *a);
+void media_init(struct tracer *t);
+void media_end(struct tracer *t);
+
+#endif

@@ -1,0 +1,92 @@
+#include "scene/effects.h"
+#include "trace/area.h"
+#include "trace/media_march.h"
+#include "trace/photons.h"
+
+// What of a lamp reaches the samples that it lights, at most as many as fit a batch.
+struct lighting {
+    struct media_march *m;
+    const struct lamp *lamp;
+    uint8_t photons; // photons_instead_in_media
+    struct shadow_request request[64];
+    struct rgb factor[64];
+    uint32_t sample[64];
+    uint32_t count;
+};
+
+// Whether a lamp's shadow at a point takes more than one ray.
+static bool is_special(const struct job *job, const struct light *light)
+{
+    return (light->area && job->area_lights) || light->projected_through;
+}
+
+static struct rgb special_shadow(const struct media_march *m, const struct lamp *lamp,
+                                 const struct shadow_request *r, uint32_t hash)
+{
+    if (!lamp->light->area || !m->t->job->area_lights)
+        return projected_shadow(m->t, lamp, r);
+    // A place in the open air: no surface to start from.
+    const struct path path = {.hash = hash, .inside = m->way->inside};
+    struct shading s;
+    s.t = m->t;
+    s.path = &path;
+    s.at = (struct interaction){.p = r->o, .error = 0};
+    return area_shadow(&s, lamp, r);
+}
+
+static void shadows(struct lighting *l)
+{
+    const struct job *job = l->m->t->job;
+    if (!job->shadows) {
+        for (uint32_t i = 0; i < l->count; i++)
+            l->factor[i] = rgb(1, 1, 1);
+    } else if (is_special(job, l->lamp->light)) {
+        for (uint32_t i = 0; i < l->count; i++)
+            l->factor[i] = special_shadow(l->m, l->lamp, &l->request[i],
+                                          hash_mix(l->m->way->hash, ~l->sample[i]));
+    } else {
+        shadow_factors(l->m->t, l->request, l->count, l->factor);
+    }
+}
+
+static void ask(struct lighting *l, uint32_t sample, struct vec3 p)
+{
+    struct lamp_view view;
+    if (!lamp_view(l->lamp, l->lamp->light->location, p, &view))
+        return;
+    l->sample[l->count] = sample;
+    l->request[l->count++] = (struct shadow_request){.o = p,
+                                                     .d = view.l,
+                                                     .t_max = view.distance,
+                                                     .value = view.color,
+                                                     .inside = l->m->way->inside,
+                                                     .slot = l->m->t->slot,
+                                                     .lamp = l->lamp->index,
+                                                     .photons = l->photons};
+}
+
+void media_samples_lit(struct media_march *m, struct media_sample *sample,
+                       const struct media_point *point, uint32_t count)
+{
+    struct lighting l = {.m = m};
+    for (uint32_t k = 0; k < m->lamp_count; k++) {
+        const struct media_lamp *lamp = &m->lamp[k];
+        l.lamp = lamp->lamp;
+        l.photons = photons_instead_in_media(m->t->job, m->mix, l.lamp->light);
+        l.count = 0;
+        for (uint32_t i = 0; i < count; i++)
+            if (m->interval[sample[i].interval].lit && sample[i].t >= lamp->begin &&
+                sample[i].t <= lamp->end)
+                ask(&l, i, vec3_mad(m->way->o, sample[i].t, m->way->d));
+        if (!l.count)
+            continue;
+        shadows(&l);
+        for (uint32_t i = 0; i < l.count; i++) {
+            const double phase = media_phase(m->mix, vec3_dot(l.request[i].d, m->way->d));
+            const struct vec3 c = vec3_of_rgb(rgb_mul(l.request[i].value, l.factor[i]));
+            struct media_sample *s = &sample[l.sample[i]];
+            s->light =
+                vec3_mad(s->light, phase, vec3_mul(c, point[l.sample[i]].scattering));
+        }
+    }
+}

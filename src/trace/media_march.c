@@ -1,0 +1,367 @@
+#include "trace/media_march.h"
+
+#include <stdlib.h>
+
+#include "math/elementary.h"
+#include "scene/effects.h"
+#include "trace/photons.h"
+
+static void *grow(void *at, uint32_t capacity, size_t size)
+{
+    at = realloc(at, capacity * size);
+    if (!at)
+        abort();
+    return at;
+}
+
+static double drawn(struct media_march *m)
+{
+    return hash_unit(hash_mix(m->way->hash, ++m->drawn));
+}
+
+static struct vec3 exp_minus(struct vec3 depth)
+{
+    return vec3(det_exp(-depth.x), det_exp(-depth.y), det_exp(-depth.z));
+}
+
+// ---- samples -----------------------------------------------------------------------
+
+static uint32_t sample_add(struct media_march *m, uint32_t interval, double t)
+{
+    struct media_scratch *s = m->scratch;
+    if (s->sample_count == s->sample_capacity) {
+        s->sample_capacity = s->sample_capacity ? 2 * s->sample_capacity : 256;
+        s->sample = grow(s->sample, s->sample_capacity, sizeof *s->sample);
+    }
+    s->sample[s->sample_count] = (struct media_sample){.t = t, .interval = interval};
+    return s->sample_count++;
+}
+
+static void samples_eval_few(struct media_march *m, struct media_sample *sample,
+                             uint32_t count)
+{
+    enum { FEW = 64 };
+    double t[FEW];
+    struct media_point p[FEW];
+    for (uint32_t i = 0; i < count; i++) {
+        t[i] = sample[i].t;
+        p[i] = m->mix->everywhere;
+    }
+    if (!m->mix->even)
+        media_points(m->t->job, m->mix, m->way->o, m->way->d, t, count, p);
+    for (uint32_t i = 0; i < count; i++) {
+        const double l = m->interval[sample[i].interval].length;
+        sample[i].depth = vec3_scale(l, p[i].extinction);
+        sample[i].light = p[i].emission;
+    }
+    if (m->depth_only)
+        return;
+    if (m->mix->scatters)
+        media_samples_lit(m, sample, p, count);
+    if (m->t->job->photons && m->t->job->photons->media.count)
+        photon_media_lit(m, sample, p, count);
+    for (uint32_t i = 0; i < count; i++)
+        sample[i].light =
+            vec3_scale(m->interval[sample[i].interval].length, sample[i].light);
+}
+
+// Finds what is at the samples from `first` on.
+static void samples_eval(struct media_march *m, uint32_t first)
+{
+    enum { FEW = 64 };
+    const uint32_t count = m->scratch->sample_count;
+    for (uint32_t i = first; i < count; i += FEW)
+        samples_eval_few(m, m->scratch->sample + i, count - i < FEW ? count - i : FEW);
+}
+
+// ---- method 3 --------------------------------------------------------------------------
+
+// Samples of an interval, the last of which lies before its end: as POV-Ray places them.
+static uint32_t parts_of(const struct media *rules)
+{
+    const int half = rules->samples_min / 2 + 1;
+    return (uint32_t)(half < 2 ? 2 : half);
+}
+
+static uint32_t span_add(struct media_march *m, uint32_t first, uint32_t last)
+{
+    struct media_scratch *s = m->scratch;
+    const struct media_sample a = s->sample[first], b = s->sample[last];
+    const double jitter = (double)m->mix->rules->jitter;
+    double t = (a.t + b.t) / 2;
+    if (jitter != 0)
+        t += jitter * (b.t - a.t) * (drawn(m) - 0.5);
+    if (s->span_count == s->span_capacity) {
+        s->span_capacity = s->span_capacity ? 2 * s->span_capacity : 256;
+        s->span = grow(s->span, s->span_capacity, sizeof *s->span);
+    }
+    const uint32_t middle = sample_add(m, a.interval, t);
+    s->span[s->span_count] = (struct media_span){first, middle, last, {0, 0}};
+    return s->span_count++;
+}
+
+static bool differ(const struct media_march *m, uint32_t a, uint32_t b)
+{
+    const struct vec3 d =
+        vec3_sub(m->scratch->sample[a].light, m->scratch->sample[b].light);
+    return fabs(d.x) + fabs(d.y) + fabs(d.z) > m->mix->aa_threshold;
+}
+
+// Halves the spans from `first` on whose samples differ too much, level by level, so that
+// the samples of a level are found together.
+static void spans_refine(struct media_march *m, uint32_t first)
+{
+    enum { DEEPEST = 20 }; // a millionth of a span
+    struct media_scratch *s = m->scratch;
+    int depth = m->mix->rules->aa_level - 1;
+    if (depth > DEEPEST)
+        depth = DEEPEST;
+    for (; depth > 0; depth--) {
+        const uint32_t begin = first, end = s->span_count, sample = s->sample_count;
+        first = end;
+        for (uint32_t i = begin; i < end; i++) {
+            const struct media_span p = s->span[i];
+            if (differ(m, p.first, p.middle)) {
+                const uint32_t half = span_add(m, p.first, p.middle);
+                s->span[i].half[0] = half;
+            }
+            if (differ(m, p.middle, p.last)) {
+                const uint32_t half = span_add(m, p.middle, p.last);
+                s->span[i].half[1] = half;
+            }
+        }
+        if (s->span_count == end)
+            return;
+        samples_eval(m, sample);
+    }
+}
+
+struct value {
+    struct vec3 light, depth;
+};
+
+static struct value value_of(const struct media_sample *a, double ka,
+                             const struct media_sample *b, double kb)
+{
+    return (struct value){vec3_mad(vec3_scale(ka, a->light), kb, b->light),
+                          vec3_mad(vec3_scale(ka, a->depth), kb, b->depth)};
+}
+
+static struct value value_add(struct value a, struct value b, double k)
+{
+    return (struct value){vec3_mad(a.light, k, b.light), vec3_mad(a.depth, k, b.depth)};
+}
+
+// The mean over a span (spec/lighting.md 10.6).
+static struct value span_value(const struct media_march *m, uint32_t i, int depth)
+{
+    const struct media_scratch *s = m->scratch;
+    const struct media_span *p = &s->span[i];
+    const struct media_sample *a = &s->sample[p->first], *b = &s->sample[p->middle],
+                              *c = &s->sample[p->last];
+    struct value v = {{0, 0, 0}, {0, 0, 0}};
+    v = p->half[0] ? value_add(v, span_value(m, p->half[0], depth - 1), 0.5)
+                   : value_of(a, 1.0 / 3, b, 1.0 / 6);
+    return p->half[1] ? value_add(v, span_value(m, p->half[1], depth - 1), 0.5)
+                      : value_add(v, value_of(b, 1.0 / 6, c, 1.0 / 3), 1);
+}
+
+// The first samples of an interval and the spans between them.
+static void interval_begin(struct media_march *m, uint32_t k, uint32_t parts)
+{
+    const struct media_interval *v = &m->interval[k];
+    const double step = 1.0 / (parts + 1), jitter = (double)m->mix->rules->jitter;
+    uint32_t before = 0;
+    for (uint32_t j = 0; j <= parts; j++) {
+        double q = j * step;
+        if (jitter != 0)
+            q += step * jitter * (drawn(m) - 0.5);
+        const uint32_t sample = sample_add(m, k, v->begin + q * v->length);
+        if (j)
+            span_add(m, before, sample);
+        before = sample;
+    }
+}
+
+struct total {
+    struct vec3 light, depth;
+};
+
+// What an interval adds behind the total so far (spec/lighting.md 10.5): its light and
+// depth are the means of n parts.
+static void total_add(struct total *all, struct vec3 light, struct vec3 depth, double n)
+{
+    all->light =
+        vec3_add(all->light, vec3_mul(vec3_scale(1 / n, light), exp_minus(all->depth)));
+    all->depth = vec3_mad(all->depth, 1 / n, depth);
+}
+
+static void interval_end(const struct media_march *m, uint32_t first, uint32_t parts,
+                         struct total *all)
+{
+    struct vec3 light = {0, 0, 0}, depth = {0, 0, 0};
+    for (uint32_t j = 0; j < parts; j++) {
+        const struct value v = span_value(m, first + j, 0);
+        const struct vec3 clear = exp_minus(vec3_scale(1.0 / parts, depth));
+        light = vec3_add(light, vec3_mul(v.light, clear));
+        depth = vec3_add(depth, v.depth);
+    }
+    total_add(all, light, depth, parts);
+}
+
+// Intervals [begin, end) together.
+static void adaptive(struct media_march *m, uint32_t begin, uint32_t end,
+                     struct total *all)
+{
+    const uint32_t parts = parts_of(m->mix->rules);
+    m->scratch->sample_count = m->scratch->span_count = 0;
+    for (uint32_t k = begin; k < end; k++)
+        interval_begin(m, k, parts);
+    samples_eval(m, 0);
+    spans_refine(m, 0);
+    for (uint32_t k = begin; k < end; k++)
+        interval_end(m, (k - begin) * parts, parts, all);
+}
+
+// ---- methods 1 and 2 -------------------------------------------------------------------
+
+// The samples of an interval so far: light as it leaves the interval, and its square.
+struct spread {
+    struct vec3 light, square, depth;
+    uint32_t count;
+};
+
+static void spread_add(const struct media_march *m, const struct media_sample *s,
+                       struct spread *sum)
+{
+    const struct media_interval *v = &m->interval[s->interval];
+    const double q = v->length > 0 ? (s->t - v->begin) / v->length : 0;
+    const struct vec3 light = vec3_mul(s->light, exp_minus(vec3_scale(q, s->depth)));
+    sum->light = vec3_add(sum->light, light);
+    sum->square = vec3_add(sum->square, vec3_mul(light, light));
+    sum->depth = vec3_add(sum->depth, s->depth);
+    sum->count++;
+}
+
+static bool is_enough(const struct spread *sum, double enough)
+{
+    const double n = sum->count;
+    const struct vec3 mean = vec3_scale(1 / n, sum->light);
+    const struct vec3 v = vec3_sub(vec3_scale(1 / n, sum->square), vec3_mul(mean, mean));
+    return v.x / n < enough && v.y / n < enough && v.z / n < enough;
+}
+
+static const struct media_threshold *threshold_of(const struct job *job,
+                                                  const struct media *rules)
+{
+    for (uint32_t i = 0; i < job->media_threshold_count; i++)
+        if (job->media_threshold[i].media == rules)
+            return &job->media_threshold[i];
+    return NULL;
+}
+
+static double random_place(struct media_march *m, const struct media_interval *v)
+{
+    return v->begin + drawn(m) * v->length;
+}
+
+static void more_samples(struct media_march *m, uint32_t k, struct spread *sum)
+{
+    const struct media_threshold *h = threshold_of(m->t->job, m->mix->rules);
+    while (h && sum->count <= h->most && !is_enough(sum, h->enough[sum->count])) {
+        const uint32_t i = sample_add(m, k, random_place(m, &m->interval[k]));
+        samples_eval(m, i);
+        spread_add(m, &m->scratch->sample[i], sum);
+    }
+}
+
+static void straight(struct media_march *m, uint32_t begin, uint32_t end,
+                     struct total *all)
+{
+    const struct media *rules = m->mix->rules;
+    const uint32_t n = (uint32_t)rules->samples_min;
+    const double jitter = (double)rules->jitter;
+    m->scratch->sample_count = 0;
+    for (uint32_t k = begin; k < end; k++) {
+        const struct media_interval *v = &m->interval[k];
+        for (uint32_t j = 0; j < n; j++) {
+            double t;
+            if (rules->method == 1) {
+                t = random_place(m, v);
+            } else {
+                double q = j + 0.5;
+                if (jitter != 0)
+                    q += jitter * drawn(m);
+                t = v->begin + q / n * v->length;
+            }
+            sample_add(m, k, t);
+        }
+    }
+    samples_eval(m, 0);
+    for (uint32_t k = begin; k < end; k++) {
+        struct spread sum = {.count = 0};
+        for (uint32_t j = 0; j < n; j++)
+            spread_add(m, &m->scratch->sample[(k - begin) * n + j], &sum);
+        more_samples(m, k, &sum);
+        total_add(all, sum.light, sum.depth, sum.count);
+    }
+}
+
+// ---- without samples -------------------------------------------------------------------
+
+// 1 + q + ... + q^(n-1)
+static double powers(double q, uint32_t n)
+{
+    double sum = 0, term = 1;
+    for (uint32_t i = 0; i < n; i++) {
+        sum += term;
+        term *= q;
+    }
+    return sum;
+}
+
+// What method 3 finds in media that are the same everywhere and are not lit: samples all
+// alike, so that the light of the parts is a geometric series.
+static void uniform(const struct media_march *m, struct total *all)
+{
+    const uint32_t parts = parts_of(m->mix->rules);
+    for (uint32_t k = 0; k < m->interval_count; k++) {
+        const double l = m->interval[k].length;
+        const struct vec3 depth = vec3_scale(l, m->mix->everywhere.extinction);
+        const struct vec3 step = exp_minus(vec3_scale(1.0 / parts, depth));
+        const struct vec3 light = vec3_mul(
+            vec3_scale(l, m->mix->everywhere.emission),
+            vec3(powers(step.x, parts), powers(step.y, parts), powers(step.z, parts)));
+        total_add(all, light, vec3_scale(parts, depth), parts);
+    }
+}
+
+// How many intervals are walked at once: enough for full batches of shadow rays.
+static uint32_t stride_of(const struct media_march *m)
+{
+    enum { SAMPLES = 512 };
+    const uint32_t each = (uint32_t)m->mix->rules->samples_min + 2;
+    return each >= SAMPLES ? 1 : SAMPLES / each;
+}
+
+struct media_result media_walk(struct media_march *m)
+{
+    // Deeper than this nothing behind is seen: exp(-100) is below any float next to light.
+    static const double opaque = 100;
+    struct total all = {{0, 0, 0}, {0, 0, 0}};
+    const int method = m->mix->rules->method;
+    if (m->mix->even && (m->depth_only || !m->mix->scatters) &&
+        (m->depth_only || !m->mix->emits || method == 3)) {
+        uniform(m, &all);
+    } else {
+        const uint32_t stride = stride_of(m);
+        for (uint32_t k = 0; k < m->interval_count; k += stride) {
+            const uint32_t end =
+                m->interval_count - k < stride ? m->interval_count : k + stride;
+            (method == 3 ? adaptive : straight)(m, k, end, &all);
+            if (fmin(all.depth.x, fmin(all.depth.y, all.depth.z)) > opaque)
+                break;
+        }
+    }
+    return (struct media_result){all.light, exp_minus(all.depth)};
+}

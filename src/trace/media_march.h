@@ -1,0 +1,57 @@
+#ifndef TRACE_MEDIA_MARCH_H
+#define TRACE_MEDIA_MARCH_H
+
+#include "trace/media_lit.h"
+
+// A sample on a stretch. `light` and `depth` are those of an interval that is like the
+// sample everywhere.
+struct media_sample {
+    double t;
+    uint32_t interval;
+    struct vec3 light, depth;
+};
+
+// Between two samples of method 3, with one in the middle; halves that differ too much are
+// spans of their own.
+struct media_span {
+    uint32_t first, middle, last; // samples
+    uint32_t half[2];             // spans; 0: none, since spans come after their parent
+};
+
+// What a thread needs to walk through media: rays to the eye and shadow rays have one each,
+// because a sample of the one may ask for the other.
+struct media_scratch {
+    struct arena *arena;
+    struct media_sample *sample;
+    struct media_span *span;
+    uint32_t sample_count, sample_capacity, span_count, span_capacity;
+};
+
+// How the settings of a medium end the random samples of methods 1 and 2: [n], the variance
+// of the mean at which n samples are enough (spec/lighting.md 10.5). Of each that has them.
+struct media_threshold {
+    const struct media *media;
+    const double *enough;
+    uint32_t most; // samples
+};
+
+// One walk along a stretch.
+struct media_march {
+    struct tracer *t;
+    struct media_scratch *scratch;
+    const struct media_mix *mix;
+    const struct media_way *way;
+    const struct media_interval *interval;
+    const struct media_lamp *lamp;
+    uint32_t interval_count, lamp_count;
+    uint32_t drawn;  // random numbers so far
+    bool depth_only; // light is not asked for
+};
+
+struct media_result media_walk(struct media_march *m);
+
+// Light that reaches samples from the lamps: added to their `light` (media_light.c).
+void media_samples_lit(struct media_march *m, struct media_sample *sample,
+                       const struct media_point *point, uint32_t count);
+
+#endif

@@ -1,0 +1,185 @@
+#include "trace/media_mix.h"
+
+#include "math/elementary.h"
+#include "scene/effects.h"
+#include "scene/noise_kernel.h"
+#include "scene/texture.h"
+
+static bool is_even(const struct media *m)
+{
+    for (uint32_t i = 0; i < m->density_count; i++)
+        if (m->density[i]->kind != PIGMENT_SOLID && m->density[i]->kind != PIGMENT_NONE)
+            return false;
+    return true;
+}
+
+static bool is_black(struct rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+static struct vec3 extinction(const struct media *m)
+{
+    return vec3_mad(vec3_of_rgb(m->absorption), (double)m->extinction,
+                    vec3_of_rgb(m->scattering));
+}
+
+static void point_add(struct media_point *p, const struct media *m, struct vec3 density)
+{
+    p->extinction = vec3_add(p->extinction, vec3_mul(density, extinction(m)));
+    p->emission = vec3_add(p->emission, vec3_mul(density, vec3_of_rgb(m->emission)));
+    p->scattering =
+        vec3_add(p->scattering, vec3_mul(density, vec3_of_rgb(m->scattering)));
+}
+
+static struct vec3 even_density(const struct media *m)
+{
+    struct vec3 density = {1, 1, 1};
+    for (uint32_t i = 0; i < m->density_count; i++)
+        density = vec3_mul(density, vec3_of_rgb(rgbft_rgb(m->density[i]->color)));
+    return density;
+}
+
+struct media_mix media_mix_of(const struct media *const *media, uint32_t count)
+{
+    struct media_mix mix = {.media = media, .count = count, .even = true};
+    for (uint32_t i = 0; i < count; i++) {
+        const struct media *m = media[i];
+        if (!mix.rules || m->intervals > mix.rules->intervals)
+            mix.rules = m;
+        if (!i || (double)m->aa_threshold < mix.aa_threshold)
+            mix.aa_threshold = (double)m->aa_threshold;
+        mix.even &= is_even(m);
+        mix.scatters |= !is_black(m->scattering);
+        mix.emits |= !is_black(m->emission);
+    }
+    for (uint32_t i = 0; i < count && mix.even; i++)
+        point_add(&mix.everywhere, media[i], even_density(media[i]));
+    return mix;
+}
+
+uint32_t media_opaque_only(const struct media *const *media, uint32_t count,
+                           const struct media **out)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct vec3 e = extinction(media[i]);
+        if (e.x != 0 || e.y != 0 || e.z != 0)
+            out[n++] = media[i];
+    }
+    return n;
+}
+
+// ---- densities ---------------------------------------------------------------------
+
+// At most eight points at a time.
+struct places {
+    struct vec3 d; // of the ray
+    double at[3][8], ray_d[3][8], normal[3][8];
+    uint32_t count;
+};
+
+static void density_alone(const struct pigment *p, const struct places *w,
+                          double out[3][8])
+{
+    for (uint32_t i = 0; i < w->count; i++) {
+        const struct vec3 at = {w->at[0][i], w->at[1][i], w->at[2][i]};
+        const struct texture_point point = {.p = at, .p_world = at, .ray_d = w->d};
+        struct rgbft c;
+        if (!pigment_color(p, &point, &c))
+            c = (struct rgbft){0};
+        out[0][i] *= (double)c.r;
+        out[1][i] *= (double)c.g;
+        out[2][i] *= (double)c.b;
+    }
+}
+
+// Patterns with a colour map have a form for eight points (scene/noise_kernel.h).
+static void density_times(const struct job *job, const struct pigment *p,
+                          const struct places *w, double out[3][8])
+{
+    enum { WORTH = 3 };
+    float c[3][8];
+    if (p->kind != PIGMENT_COLORS || w->count < WORTH) {
+        density_alone(p, w, out);
+        return;
+    }
+    const struct pattern_packet packet = {job->noise, w->at, w->normal, w->ray_d};
+    pigment_colors8(p, &packet, w->at, c);
+    for (int k = 0; k < 3; k++)
+        for (uint32_t i = 0; i < w->count; i++)
+            out[k][i] *= (double)c[k][i];
+}
+
+static void places_fill(struct places *w, struct vec3 o, const double *t)
+{
+    for (uint32_t i = 0; i < 8; i++) {
+        const double at = t[i < w->count ? i : 0];
+        w->at[0][i] = o.x + at * w->d.x;
+        w->at[1][i] = o.y + at * w->d.y;
+        w->at[2][i] = o.z + at * w->d.z;
+        w->ray_d[0][i] = w->d.x;
+        w->ray_d[1][i] = w->d.y;
+        w->ray_d[2][i] = w->d.z;
+        w->normal[0][i] = w->normal[1][i] = w->normal[2][i] = 0;
+    }
+}
+
+static void eight(const struct job *job, const struct media_mix *mix,
+                  const struct places *w, struct media_point *out)
+{
+    for (uint32_t i = 0; i < w->count; i++)
+        out[i] = (struct media_point){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    for (uint32_t k = 0; k < mix->count; k++) {
+        const struct media *m = mix->media[k];
+        double density[3][8];
+        for (uint32_t i = 0; i < 8; i++)
+            density[0][i] = density[1][i] = density[2][i] = 1;
+        for (uint32_t j = 0; j < m->density_count; j++)
+            density_times(job, m->density[j], w, density);
+        for (uint32_t i = 0; i < w->count; i++)
+            point_add(&out[i], m, vec3(density[0][i], density[1][i], density[2][i]));
+    }
+}
+
+void media_points(const struct job *job, const struct media_mix *mix, struct vec3 o,
+                  struct vec3 d, const double *t, uint32_t count, struct media_point *out)
+{
+    struct places w = {.d = d};
+    for (uint32_t i = 0; i < count; i += 8) {
+        w.count = count - i < 8 ? count - i : 8;
+        places_fill(&w, o, t + i);
+        eight(job, mix, &w, out + i);
+    }
+}
+
+// ---- phase functions -----------------------------------------------------------------
+
+static double power_8(double v)
+{
+    v *= v;
+    v *= v;
+    return v * v;
+}
+
+// Of one medium (spec/lighting.md 10.4); the constants make the means over the sphere 1 in
+// the language's own measure.
+static double phase(const struct media *m, double cosine)
+{
+    const double half = (1 + cosine) / 2, g = (double)m->eccentricity;
+    switch (m->scattering_type) {
+    case 2: return 0.576655375 * (1 + 9 * power_8(half));
+    case 3: return 0.495714547 * (1 + 50 * power_8(half * half * half * half));
+    case 4: return 0.799372013 * (1 + cosine * cosine);
+    case 5: {
+        const double q = 1 + g * g - 2 * g * cosine;
+        return q > 0 ? (1 - g * g) / (q * sqrt(q)) : 0;
+    }
+    default: return 1; // isotropic, and media without scattering
+    }
+}
+
+double media_phase(const struct media_mix *mix, double cosine)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < mix->count; i++)
+        sum += phase(mix->media[i], cosine);
+    return sum / mix->count;
+}

@@ -1,0 +1,49 @@
+#ifndef TRACE_PHOTONS_H
+#define TRACE_PHOTONS_H
+
+#include "scene/effects.h"
+#include "trace/photon_map.h"
+#include "trace/shade.h"
+
+// Photons (spec/lighting.md 11): light that goes from lamps to targets and on by mirrors and
+// glass, shot before the picture and found again where surfaces and media are shaded.
+struct photons {
+    struct photon_map surface, media;
+    struct photon_gather gather;
+};
+
+// Whether lamps and targets of the scene have anything to do with each other.
+bool photons_wanted(const struct job *job);
+// Whether a target bends (mirrors) the light of a lamp.
+bool photons_refract(const struct photon_target *target, const struct light *light);
+bool photons_reflect(const struct photon_target *target, const struct light *light);
+// Shoots them all; NULL: the scene has none. *cancel ends it early; may be NULL.
+struct photons *photons_shoot(const struct job *job, const volatile bool *cancel);
+void photons_free(struct photons *p);
+
+// Whether photons bring the light of a lamp to a surface past targets, which then throw
+// shadows (spec/lighting.md 7.5). 0: no; 1: past those with refraction on; 2: past all.
+static inline uint8_t photons_instead(const struct job *job, const struct surface *to,
+                                      const struct light *light)
+{
+    if (!job->photons || !job->photons->surface.count || light->photon_refraction < 0 ||
+        (to->photons && !to->photons->collect))
+        return 0;
+    return light->photon_refraction > 0 ? 2 : 1;
+}
+struct media_mix;
+// The same to a point in media.
+uint8_t photons_instead_in_media(const struct job *job, const struct media_mix *mix,
+                                 const struct light *light);
+
+struct media_march;
+struct media_sample;
+struct media_point;
+// The light of photons at samples in media: added to their `light` (photon_media.c).
+void photon_media_lit(struct media_march *m, struct media_sample *sample,
+                      const struct media_point *point, uint32_t count);
+
+// The light of photons on the layers of a hit (shade_photons.c).
+void shade_photons(struct shading *s);
+
+#endif
