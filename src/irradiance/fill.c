@@ -13,8 +13,11 @@ struct pass {
     uint32_t number;
     double size;         // distance of its points, in pixels
     bool final;          // by the picture's rules, at the middle of every pixel
+    double from, to;     // what part of the whole it is
     struct store *fresh; // by square
     uint64_t *rays;      // by square
+    uint32_t *order;     // of the squares
+    uint32_t done;       // of that order
 };
 
 static uint32_t squares_across(const struct render_settings *s)
@@ -104,7 +107,8 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
     struct pass *p = user;
     struct scout *s = state;
     const uint32_t across = squares_across(p->settings);
-    for (uint32_t i = from; i < to; i++) {
+    for (uint32_t k = from; k < to; k++) {
+        const uint32_t i = p->order[p->done + k];
         const int x0 = p->settings->col_begin + SQUARE * (int)(i % across),
                   y0 = p->settings->row_begin + SQUARE * (int)(i / across);
         store_init(&p->fresh[i]);
@@ -117,15 +121,52 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
     }
 }
 
-// Takes over what the squares have found, in their order.
-static void squares_join(struct pass *p, uint32_t squares,
-                         struct irradiance_report *report)
+// Takes over what a square has found, but for what others of its round have made needless.
+static void square_join(struct pass *p, struct store *fresh)
 {
-    for (uint32_t i = 0; i < squares; i++) {
-        for (uint32_t k = 0; k < p->fresh[i].count; k++)
-            store_add(&p->cache->store, &p->fresh[i].sample[k]);
-        store_free(&p->fresh[i]);
-        report->rays += p->rays[i];
+    for (uint32_t k = 0; k < fresh->count; k++)
+        if (p->final || gather_is_wanted(p->cache, &fresh->sample[k]))
+            store_add(&p->cache->store, &fresh->sample[k]);
+    store_free(fresh);
+}
+
+static uint32_t bits_mirrored(uint32_t x, uint32_t bits)
+{
+    uint32_t y = 0;
+    for (uint32_t i = 0; i < bits; i++)
+        y |= (x >> i & 1) << (bits - 1 - i);
+    return y;
+}
+
+// Squares in an order in which each of the first ones is far from those before it.
+static void squares_spread(uint32_t *order, uint32_t count)
+{
+    uint32_t bits = 0, n = 0;
+    while ((uint64_t)1 << bits < count)
+        bits++;
+    for (uint32_t i = 0; n < count; i++) {
+        const uint32_t x = bits_mirrored(i, bits);
+        if (x < count)
+            order[n++] = x;
+    }
+}
+
+// Squares of a round do not see what the others find. The first pass begins with few:
+// what they find at depth serves nearly all of the picture.
+static void rounds_run(struct pass *p, struct parallel *parallel, uint32_t squares,
+                       struct irradiance_report *report)
+{
+    for (uint32_t end; p->done < squares; p->done = end) {
+        end = p->number > 1 ? squares : p->done ? 2 * p->done : 1;
+        if (end > squares)
+            end = squares;
+        watch_part(parallel->watch, p->from + (p->to - p->from) * p->done / squares,
+                   p->from + (p->to - p->from) * end / squares);
+        parallel_run(parallel, end - p->done);
+        for (uint32_t i = p->done; i < end; i++) {
+            square_join(p, &p->fresh[p->order[i]]);
+            report->rays += p->rays[p->order[i]];
+        }
     }
 }
 
@@ -134,20 +175,22 @@ static bool run(struct pass *p, struct watch *watch, struct irradiance_report *r
     const uint32_t squares = squares_across(p->settings) * squares_down(p->settings);
     p->fresh = calloc(squares, sizeof *p->fresh);
     p->rays = calloc(squares, sizeof *p->rays);
-    if (!p->fresh || !p->rays)
+    p->order = calloc(squares, sizeof *p->order);
+    if (!p->fresh || !p->rays || !p->order)
         abort();
-    const struct parallel parallel = {.threads = p->settings->threads,
-                                      .piece = 1,
-                                      .watch = watch,
-                                      .tells = true,
-                                      .user = p,
-                                      .begin = begin,
-                                      .end = end,
-                                      .work = work};
-    parallel_run(&parallel, squares);
-    squares_join(p, squares, report);
+    squares_spread(p->order, squares);
+    struct parallel parallel = {.threads = p->settings->threads,
+                                .piece = 1,
+                                .watch = watch,
+                                .tells = true,
+                                .user = p,
+                                .begin = begin,
+                                .end = end,
+                                .work = work};
+    rounds_run(p, &parallel, squares, report);
     free(p->fresh);
     free(p->rays);
+    free(p->order);
     report->passes++;
     return !watch_cancelled(watch);
 }
@@ -177,8 +220,12 @@ bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *s
         if (!run(&p, watch, report))
             return false;
     }
-    struct pass p = {
-        .cache = c, .settings = settings, .number = count + 1, .size = 1, .final = true};
-    watch_part(watch, count / (count + 1.0), 1);
+    struct pass p = {.cache = c,
+                     .settings = settings,
+                     .number = count + 1,
+                     .size = 1,
+                     .final = true,
+                     .from = count / (count + 1.0),
+                     .to = 1};
     return run(&p, watch, report);
 }

@@ -192,8 +192,8 @@ static void mean_light(const struct gather_level *l, uint32_t count,
     if (!(known > 0))
         return;
     out->quality = (float)(known / all);
-    out->light = rgb((float)(sum[0] / known), (float)(sum[1] / known),
-                     (float)(sum[2] / known));
+    out->light =
+        rgb((float)(sum[0] / known), (float)(sum[1] / known), (float)(sum[2] / known));
 }
 
 // Fills in radius and nearest surface; false: too close to something to be stored.
@@ -229,7 +229,9 @@ static double widest_bound(const struct irradiance_cache *c, uint32_t depth)
 
 static void keep(struct gather_level *l, struct cache_sample *sample)
 {
-    enum { CLOSER = 5 }; // deeper samples are found by points that are about so much nearer
+    enum {
+        CLOSER = 5
+    }; // deeper samples are found by points that are about so much nearer
     const double reach = sample->radius * widest_bound(l->owner->cache, l->depth);
     sample->reach = l->depth ? reach / CLOSER : reach;
     store_add(l->owner->fresh, sample);
@@ -253,33 +255,43 @@ static void take_sample(struct gather_level *l, const struct indirect_query *q,
 
 // ---- queries ----------------------------------------------------------------------------
 
-static double error_bound(const struct gather_level *l, float weight)
+static double error_bound(const struct gatherer *g, uint32_t depth, float weight)
 {
     static const double light_weight = 0.25;
-    const struct radiosity_settings *s = l->owner->cache->settings;
+    const struct radiosity_settings *s = g->cache->settings;
     double bound = s->error_bound;
-    if (!l->owner->final)
+    if (!g->final)
         bound *= s->low_error_factor;
     if ((double)weight < light_weight)
         bound += light_weight - (double)weight;
-    return bound * (double)(1u << l->depth);
+    return bound * (double)(1u << depth);
 }
 
-static double required(const struct gather_level *l)
+static double required(const struct gatherer *g, uint32_t depth)
 {
-    const double n = l->owner->cache->settings->nearest_count;
-    return l->depth == 0 ? n : l->depth == 1 ? fmin(2, n) : 1;
+    const double n = g->cache->settings->nearest_count;
+    return depth == 0 ? n : depth == 1 ? fmin(2, n) : 1;
 }
 
 // Four samples in the right place count as one of weight 4.
 static const double sample_weight = 4;
 
-static bool is_enough(const struct gather_level *l, double weight)
+static bool is_enough(const struct gatherer *g, uint32_t depth, double weight)
 {
-    const struct gatherer *g = l->owner;
     if (g->final && !g->cache->settings->always_sample)
         return weight > 0;
-    return sample_weight * weight >= required(l);
+    return sample_weight * weight >= required(g, depth);
+}
+
+bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s)
+{
+    const struct gatherer before = {.cache = c};
+    const struct cache_point at = {s->p, s->n, error_bound(&before, s->depth, 1),
+                                   s->depth, false};
+    struct cache_mean mean = {0};
+    if (c->store.count)
+        store_mean(&c->store, &at, &mean);
+    return !is_enough(&before, s->depth, mean.weight);
 }
 
 static struct rgb shown(const struct radiosity_settings *s, const struct cache_mean *mean)
@@ -303,7 +315,8 @@ static void tell_quality(const struct gather_level *l, const struct indirect_que
         return;
     struct gather_level *above = &l->owner->level[l->depth - 1];
     if (q->level == above->tracer->first_level + 1)
-        above->quality[q->sample] = (float)fmin(1, sample_weight * weight / required(l));
+        above->quality[q->sample] =
+            (float)fmin(1, sample_weight * weight / required(l->owner, l->depth));
 }
 
 struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
@@ -313,14 +326,14 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
     struct gather_level *l = state;
     const struct gatherer *g = l->owner;
     (void)t;
-    const struct cache_point at = {q->at->p, q->n, error_bound(l, q->weight), l->depth,
-                                   g->final && l->depth == 0};
+    const struct cache_point at = {q->at->p, q->n, error_bound(g, l->depth, q->weight),
+                                   l->depth, g->final && l->depth == 0};
     struct cache_mean mean = {0};
     if (c->store.count)
         store_mean(&c->store, &at, &mean);
     if (g->fresh && g->fresh->count)
         store_mean(g->fresh, &at, &mean);
-    if (!is_enough(l, mean.weight)) {
+    if (!is_enough(g, l->depth, mean.weight)) {
         struct cache_sample fresh;
         if (!g->fresh)
             l->next = q->hash % c->direction_count;

@@ -44,6 +44,8 @@ struct gatherer {
 struct gatherer *gatherer_new(const struct irradiance_cache *c);
 void gatherer_free(struct gatherer *g);
 uint64_t gatherer_rays(const struct gatherer *g);
+// Whether a query before the picture would take a sample where this one lies.
+bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s);
 // Directions from here on.
 void gatherer_start(struct gatherer *g, uint32_t direction);
 
