@@ -19,9 +19,14 @@ static double drawn(struct media_march *m)
     return hash_unit(hash_mix(m->way->hash, ++m->drawn));
 }
 
+// Most media are grey, or dim nothing.
 static struct vec3 exp_minus(struct vec3 depth)
 {
-    return vec3(det_exp(-depth.x), det_exp(-depth.y), det_exp(-depth.z));
+    struct vec3 e;
+    e.x = depth.x == 0 ? 1 : det_exp(-depth.x);
+    e.y = depth.y == depth.x ? e.x : det_exp(-depth.y);
+    e.z = depth.z == depth.y ? e.y : det_exp(-depth.z);
+    return e;
 }
 
 // ---- samples -----------------------------------------------------------------------
@@ -325,6 +330,10 @@ static double powers(double q, uint32_t n)
 static void uniform(const struct media_march *m, struct total *all)
 {
     const uint32_t parts = parts_of(m->mix->rules);
+    if (m->depth_only || !m->mix->emits) {
+        all->depth = vec3_scale(m->way->s, m->mix->everywhere.extinction);
+        return;
+    }
     for (uint32_t k = 0; k < m->interval_count; k++) {
         const double l = m->interval[k].length;
         const struct vec3 depth = vec3_scale(l, m->mix->everywhere.extinction);
