@@ -135,7 +135,6 @@ static void subsurface(struct args *a, struct finish *f)
     while (in.at)
         if (!fields_read(&in, fields, ARRAY_COUNT(fields), f))
             fields_unknown(&in, fields, ARRAY_COUNT(fields), NULL, 0);
-    args_not_rendered(a, WORD_subsurface, block->where);
 }
 
 static bool block_item(struct args *a, struct finish *f)

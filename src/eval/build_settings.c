@@ -83,8 +83,11 @@ static void subsurface(struct args *a, struct settings *s)
     long n, m;
     s->subsurface = (struct subsurface_settings){true, false, 50, 50};
     while (in.at) {
+        const struct span where = args_span(&in);
         if (args_take(&in, WORD_samples)) {
             if (args_int(&in, "samples", &n) && args_int(&in, "samples", &m)) {
+                if (n < 1 || m < 1 || n > 1000000 || m > 1000000)
+                    args_error(&in, where, "subsurface takes 1 to 1000000 samples of each kind");
                 s->subsurface.samples_diffuse = (int)n;
                 s->subsurface.samples_single = (int)m;
             }
@@ -95,7 +98,6 @@ static void subsurface(struct args *a, struct settings *s)
             args_unknown(&in, NULL, 0);
         }
     }
-    args_not_rendered(a, WORD_subsurface, in.owner->where);
 }
 
 static bool word_item(struct args *a, struct settings *s)

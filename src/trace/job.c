@@ -170,6 +170,9 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     spectrum_init(job);
     media_compile(job, a);
     job->shoots = photons_wanted(job);
+    job->subsurface = s->subsurface.on && job->atmosphere &&
+                      (settings->purpose == RENDER_PICTURE ||
+                       (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface));
     sky_init(job);
     pass_init(job, a);
     simple_compile(job, a);

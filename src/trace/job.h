@@ -61,6 +61,7 @@ struct job {
     uint32_t clear_count;
     // Photons (trace/photons.h).
     bool shoots; // lamps shoot at targets
+    bool subsurface; // light goes on below surfaces (trace/subsurface.h)
     const struct photons *photons; // NULL: not shot, or nothing to shoot at
     // Media (trace/media.h).
     bool has_media, has_air_media; // somewhere; filling the scene

@@ -4,6 +4,7 @@
 #include "trace/media.h"
 #include "trace/photons.h"
 #include "trace/sky.h"
+#include "trace/subsurface.h"
 
 // How far a ray that hits nothing goes, as fog and rainbow see it (spec/lighting.md 0).
 static const double far_away = 2e10;
@@ -169,4 +170,7 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     shade_lights(&s);
     if (t->job->photons)
         shade_photons(&s);
+    for (uint32_t i = 0; t->job->subsurface && i < s.layer_count; i++)
+        if (s.layer[i].finish->has_subsurface)
+            shade_subsurface(&s, &s.layer[i]);
 }

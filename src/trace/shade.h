@@ -64,6 +64,8 @@ void shade_mirrors(struct shading *s, const struct plain_result *r,
                    const struct vec3 *except);
 // The index of Fresnel's formula seen from the ray (spec/lighting.md 5.5).
 double fresnel_index(const struct inside *list, const struct interior *interior);
+// Fresnel's reflectance of unpolarised light.
+float fresnel_reflectance(double cosine, double index);
 // Its factor on what a mirror shows, at this cosine between normal and eye; *weight is
 // what it counts for adc_bailout (spec/lighting.md 5.4).
 struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,

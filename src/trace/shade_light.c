@@ -104,7 +104,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     }
     struct rgb c = {0, 0, 0};
     const float d = back ? f->diffuse_back : f->diffuse;
-    if (d > 0) {
+    if (d > 0 && !(f->has_subsurface && s->t->job->subsurface)) {
         const double cosine = fabs(facing);
         float i =
             (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));

@@ -34,7 +34,7 @@ static struct rgb mix(struct rgb a, struct rgb b, float f)
 }
 
 // Fresnel's reflectance of unpolarised light.
-static float fresnel(double cosine, double n)
+float fresnel_reflectance(double cosine, double n)
 {
     const double s = n * n + cosine * cosine - 1;
     if (s <= 0)
@@ -51,7 +51,7 @@ struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb
     struct rgb r;
     if (f->fresnel) {
         const double n = fresnel_index(inside, interior);
-        r = mix(f->reflection_min, f->reflection_max, fresnel(cosine, n));
+        r = mix(f->reflection_min, f->reflection_max, fresnel_reflectance(cosine, n));
         *weight = rgb_max(r);
     } else {
         const double base = 1 - cosine;

@@ -108,7 +108,7 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
     return normal_is_simple(job, l) && pigment_is_simple(l->pigment) &&
-           !(dispersion && pigment_is_clear(l->pigment)) && f->irid == 0 &&
+           !(dispersion && pigment_is_clear(l->pigment)) && f->irid == 0 && !(f->has_subsurface && job->subsurface) &&
            f->crand <= 0 && f->reflection_exponent == 1 &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
