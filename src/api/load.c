@@ -238,6 +238,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .image_height = (int)option_number(ctx, "height"),
         .input_name = path,
         .output_alpha = option_flag(ctx, "alpha"),
+        .pov_patches = option_flag(ctx, "pov-patches"),
         .steps_max = (uint64_t)option_number(ctx, "max-parse-steps"),
         .memory_max = (size_t)option_number(ctx, "max-parse-memory") << 20,
         .message = scene_text,

@@ -240,6 +240,8 @@ bool args_end(struct args *a)
     return !n || n->kind == AST_BLOCK || n->kind == AST_WORD;
 }
 
+bool args_pov_patches(struct args *a) { return a->b->e->options->pov_patches; }
+
 struct arena *args_arena(struct args *a) { return a->b->arena; }
 
 struct diag_sink *args_diags(struct args *a) { return a->b->e->diags; }

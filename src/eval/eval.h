@@ -28,6 +28,7 @@ struct eval_options {
     int image_width, image_height;
     const char *input_name;
     bool output_alpha;
+    bool pov_patches; // bicubic patches are the triangles that POV-Ray draws
     // Limits for scenes of unknown origin: tokens read, those of loops and macros each
     // time anew, and bytes of all that is kept meanwhile. 0: none.
     uint64_t steps_max;

@@ -73,6 +73,9 @@ bool args_part(struct args *a, struct transform *out, const struct texture **tex
 // the scene's and shared (image/texels.h; texels_height for heights).
 const struct texels *args_image(struct args *a, struct transfer *decode);
 
+// Whether bicubic patches are to be the triangles that POV-Ray draws.
+bool args_pov_patches(struct args *a);
+
 struct arena *args_arena(struct args *a); // the scene's
 struct diag_sink *args_diags(struct args *a);
 struct span args_where(struct args *a); // of the next item, or of the block's end

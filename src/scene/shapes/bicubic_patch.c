@@ -1,12 +1,13 @@
 // bicubic_patch { type t [flatness f] [u_steps u] [v_steps v] [uv_vectors ...] 16 points }
 //
-// The true surface, whatever the flatness and the steps say: they are accepted, and needed by
-// nothing here.
+// The true surface, whatever the flatness and the steps say: they count with --pov-patches
+// alone, which draws the triangles that POV-Ray draws.
 #include <math.h>
 
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
+#include "scene/shapes/mesh.h"
 #include "scene/shapes/patch.h"
 #include "scene/shapes/slabs.h"
 
@@ -15,28 +16,36 @@ struct bicubic {
     struct vec2 uv[4];
     long type;
     bool empty; // a point or a line
+    double hint[4]; // as hint_word
+    const struct mesh *triangles; // drawn instead; NULL: the surface
+    struct arena *arena;          // to make them anew
 };
+
+enum { FLATNESS, U_STEPS, V_STEPS, ACCURACY, HINTS };
+static const char *const hint_word[HINTS] = {"flatness", "u_steps", "v_steps", "accuracy"};
 
 static bool read_options(struct bicubic *s, struct args *args)
 {
-    double unused;
     s->type = -1;
     if (args_at_number(args) && !args_at_vector(args)) { // the old form
         if (!args_int(args, "type", &s->type))
             return false;
         args_warn(args, "numbers without keywords are an old form; write type, flatness, "
                         "u_steps, v_steps");
-        while (args_at_number(args) && !args_at_vector(args))
-            if (!args_float(args, "flatness or steps", &unused))
+        double number[HINTS] = {0};
+        int n = 0;
+        while (args_at_number(args) && !args_at_vector(args) && n < HINTS)
+            if (!args_float(args, "flatness or steps", &number[n++]))
                 return false;
+        for (int i = 0; i < n && i < 3; i++) // the flatness may be left out
+            s->hint[n < 3 ? U_STEPS + i : i] = number[i];
     }
     for (;;) {
-        static const char *const word[] = {"flatness", "u_steps", "v_steps", "accuracy"};
         bool known = false;
-        for (int i = 0; i < 4 && !known; i++)
-            if (args_word(args, word[i])) {
+        for (int i = 0; i < HINTS && !known; i++)
+            if (args_word(args, hint_word[i])) {
                 known = true;
-                if (!args_float(args, word[i], &unused))
+                if (!args_float(args, hint_word[i], &s->hint[i]))
                     return false;
             }
         if (!known && args_word(args, "type")) {
@@ -80,6 +89,12 @@ static bool is_line(const struct patch *p)
     return true;
 }
 
+static void make_triangles(struct bicubic *s)
+{
+    s->triangles = patch_triangles(&s->patch, s->hint[FLATNESS], s->hint[U_STEPS],
+                                   s->hint[V_STEPS], s->arena);
+}
+
 static bool build(void *shape, struct args *args)
 {
     struct bicubic *s = shape;
@@ -98,6 +113,22 @@ static bool build(void *shape, struct args *args)
             return false;
     s->empty = is_line(&s->patch);
     patch_build(&s->patch, args_arena(args));
+    s->arena = args_arena(args);
+    if (args_pov_patches(args))
+        make_triangles(s);
+    return true;
+}
+
+// How flat POV-Ray's pieces are counts where they are, after all transforms.
+static bool absorb(void *shape, const struct transform *t)
+{
+    struct bicubic *s = shape;
+    if (!s->triangles)
+        return false;
+    for (int i = 0; i < 16; i++)
+        s->patch.p[i / 4][i % 4] = transform_point(t, s->patch.p[i / 4][i % 4]);
+    patch_build(&s->patch, s->arena);
+    make_triangles(s);
     return true;
 }
 
@@ -138,6 +169,10 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     const struct bicubic *s = shape;
     const struct patch *p = &s->patch;
+    if (s->triangles) {
+        mesh_intersect(s->triangles, ray, out);
+        return;
+    }
     if (s->empty)
         return;
     const struct slabs slabs = slabs_of(&p->bounds, ray);
@@ -175,6 +210,8 @@ static bool closest(const void *shape, const struct ray *ray, struct boundary *o
 {
     const struct bicubic *s = shape;
     const struct patch *p = &s->patch;
+    if (s->triangles)
+        return mesh_closest(s->triangles, ray, out);
     if (s->empty)
         return false;
     const struct slabs slabs = slabs_of(&p->bounds, ray);
@@ -234,9 +271,16 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     const struct bicubic *s = shape;
-    const double u = b->u, v = b->v;
-    out->p = p;
-    out->ng = out->ns = normal_at(&s->patch, u, v);
+    double u = b->u, v = b->v;
+    if (s->triangles) {
+        out->uv = (struct vec2){0, 0};
+        mesh_surface(s->triangles, b, p, out);
+        u = out->uv.u;
+        v = out->uv.v;
+    } else {
+        out->p = p;
+        out->ng = out->ns = normal_at(&s->patch, u, v);
+    }
     const double w[4] = {(1 - u) * (1 - v), (1 - u) * v, u * v, u * (1 - v)};
     out->uv = (struct vec2){0, 0};
     for (int i = 0; i < 4; i++) {
@@ -248,7 +292,13 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
 static void print(const void *shape, FILE *out)
 {
     const struct bicubic *s = shape;
-    fprintf(out, "bicubic_patch { type %ld uv_vectors", s->type);
+    fprintf(out, "bicubic_patch { type %ld", s->type);
+    for (int i = 0; i < HINTS; i++)
+        if (s->hint[i] != 0) {
+            fprintf(out, " %s ", hint_word[i]);
+            shape_print_number(out, s->hint[i]);
+        }
+    fputs(" uv_vectors", out);
     for (int i = 0; i < 4; i++) {
         fputs(i ? ", <" : " <", out);
         shape_print_number(out, s->uv[i].u);
@@ -267,6 +317,7 @@ const struct shape_ops bicubic_patch_ops = {
     .size = sizeof(struct bicubic),
     .flags = SHAPE_BOUNDED | SHAPE_UV,
     .build = build,
+    .absorb = absorb,
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,

@@ -41,6 +41,11 @@ void patch_build(struct patch *p, struct arena *arena);
 void patch_derivatives(const struct patch *p, double u, double v, struct vec3 *at,
                        struct vec3 *du, struct vec3 *dv);
 
+// The triangles that POV-Ray draws instead, with corner normals and (u, v): pieces of two
+// triangles, halved until they are flat or 2^steps lie side by side.
+struct mesh *patch_triangles(const struct patch *p, double flatness, double u_steps,
+                             double v_steps, struct arena *arena);
+
 // A ray with a frame across it.
 struct patch_ray {
     struct vec3 o, d, e1, e2; // unit

@@ -234,6 +234,11 @@ bool args_at_texture(struct args *a)
     return false;
 }
 
+bool args_pov_patches(struct args *a)
+{
+    (void)a;
+    return false;
+}
 struct arena *args_arena(struct args *a) { return a->arena; }
 struct diag_sink *args_diags(struct args *a) { return a->diags; }
 struct span args_where(struct args *a)
