@@ -21,6 +21,10 @@ enum shape_flags {
     SHAPE_HIERARCHY = 8,
     SHAPE_CONVEX = 16, // at most one ENTER and one EXIT on any line
     SHAPE_UV = 32, // surface fills uv; otherwise uv is the world x and y of the hit
+    // Which rays a bounded_by { } culls, as in POV-Ray: those that miss its box, or its
+    // shape. With neither, none.
+    SHAPE_BOUND_BOX = 64,
+    SHAPE_BOUND_SHAPE = 128,
 };
 
 // A point on a surface, as shading wants it. In the shape's own space.

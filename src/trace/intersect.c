@@ -6,6 +6,7 @@
 #include "trace/accel.h"
 #include "trace/packet.h"
 #include "trace/scratch.h"
+#include "trace/user_bounds.h"
 
 // ---- scratch, batches ---------------------------------------------------------------
 
@@ -145,13 +146,15 @@ static bool single_leaf(const struct world *w, struct trace_scratch *s,
     return false;
 }
 
-// User bounds cull: the ray must meet the box of every bounding solid or start in it.
-static bool culled(const struct world_object *o, const struct ray *ray)
+// User bounds cull: the ray must meet every bounding solid or start in it.
+static bool culled(const struct world_object *o, const struct ray *ray,
+                   struct trace_scratch *s)
 {
     const struct box_ray r = box_ray_of(ray);
     for (uint32_t i = 0; i < o->bound_count; i++) {
         double t;
-        if (!box_meets(&o->bound_box[i], &r, &t))
+        if (!box_meets(&o->bound[i].box, &r, &t) ||
+            user_bound_culls(&o->bound[i], ray, &s->crossings))
             return true;
     }
     return false;
@@ -178,7 +181,7 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
 {
     const struct world_object *o = &f->w->object[object];
     const struct ray_query *q = f->q;
-    if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, &q->ray)))
+    if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, &q->ray, f->s)))
         return false;
     if (o->is_csg) {
         double t;

@@ -7,6 +7,7 @@
 #include "trace/accel.h"
 #include "trace/csg_bounds.h"
 #include "trace/cutaway.h"
+#include "trace/user_bounds.h"
 
 // What a node takes from the nodes above it, in world space.
 struct context {
@@ -20,6 +21,8 @@ struct context {
     bool interior_given; // false: the scene says nothing of an interior
     uint32_t light_group;
     float importance;
+    const struct user_bound *bound; // of unions that were split
+    uint32_t bound_count;
 };
 
 // A node waiting to be flattened into its slot. A stack rather than recursion: trees may
@@ -438,6 +441,47 @@ static void mark_required(struct build *b, uint32_t root, uint32_t first_leaf)
     }
 }
 
+// The bounds of the unions around an object and its own; POV-Ray takes no notice of those of
+// shapes that it meets quickly, and only the boxes of some others.
+static const struct user_bound *join_bounds(struct build *b, const struct object *o,
+                                            const struct context *c, uint32_t *count)
+{
+    const unsigned flags = o->kind == OBJECT_SHAPE ? o->ops->flags : SHAPE_BOUND_SHAPE;
+    const bool exact = (flags & SHAPE_BOUND_SHAPE) != 0;
+    const uint32_t own = exact || (flags & SHAPE_BOUND_BOX) ? o->bound_count : 0;
+    *count = c->bound_count + own;
+    if (own == 0)
+        return c->bound;
+    struct user_bound *all = arena_new_array(b->arena, struct user_bound, *count);
+    if (c->bound_count)
+        memcpy(all, c->bound, c->bound_count * sizeof *all);
+    for (uint32_t i = 0; i < own; i++)
+        all[c->bound_count + i] = user_bound_of(o->bound[i], &c->world, exact);
+    return all;
+}
+
+// Those that hold the whole object, as they should, cost nothing.
+static void drop_bounds(struct build *b, struct world_object *w)
+{
+    if (w->bound_count == 0)
+        return;
+    struct user_bound *kept =
+        arena_new_array(b->arena, struct user_bound, w->bound_count);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < w->bound_count; i++) {
+        bool holds = true;
+        for (uint32_t k = 0; k < w->leaf_count && holds; k++) {
+            const struct leaf *l = (struct leaf *)b->leaf.at + w->first_leaf + k;
+            const struct aabb box = aabb_meet(l->bounds, w->bounds);
+            holds = aabb_is_empty(box) || user_bound_holds(&w->bound[i], &box);
+        }
+        if (!holds)
+            kept[n++] = w->bound[i];
+    }
+    w->bound = kept;
+    w->bound_count = n;
+}
+
 static void add_object(struct build *b, const struct object *o, const struct context *c)
 {
     const uint32_t first_leaf = b->leaf.count;
@@ -468,13 +512,8 @@ static void add_object(struct build *b, const struct object *o, const struct con
     }
     w->flags = o->flags | c->flags;
     w->source = o;
-    if (o->kind == OBJECT_CSG && o->bound_count) {
-        struct aabb *box = arena_new_array(b->arena, struct aabb, o->bound_count);
-        for (uint32_t i = 0; i < o->bound_count; i++)
-            box[i] = aabb_pad(aabb_transform(object_bounds(o->bound[i]), &c->world));
-        w->bound_box = box;
-        w->bound_count = o->bound_count;
-    }
+    w->bound = join_bounds(b, o, c, &w->bound_count);
+    drop_bounds(b, w);
 }
 
 // A light group's lights are children of it and are added when they are met.
@@ -520,7 +559,8 @@ static void add_top(struct build *b, const struct object *o, const struct contex
     if (o->kind == OBJECT_LIGHT) {
         add_light(b, o, &here);
     } else if (splits(o)) {
-        const struct context in = enter(b, o, &here);
+        struct context in = enter(b, o, &here);
+        in.bound = join_bounds(b, o, &here, &in.bound_count);
         for (uint32_t i = 0; i < o->child_count; i++)
             add_top(b, o->child[i], &in);
     } else {

@@ -12,6 +12,7 @@
 struct arena;
 struct accel;
 struct cutaway;
+struct user_bound;
 
 // The material of a leaf with inheritance resolved: what shading needs to know.
 struct surface {
@@ -87,7 +88,7 @@ struct world_object {
     bool opaque;               // every leaf is
     unsigned flags;            // visibility of the whole
     const struct object *source;
-    const struct aabb *bound_box; // world boxes of user bounds, which cull rays
+    const struct user_bound *bound; // bounded_by, its own and those of unions around it
     uint32_t bound_count;
 };
 

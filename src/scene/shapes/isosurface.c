@@ -142,7 +142,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops isosurface_ops = {
     .keyword = "isosurface",
     .size = sizeof(struct isosurface),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

@@ -158,7 +158,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops lathe_ops = {
     .keyword = "lathe",
     .size = sizeof(struct lathe),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

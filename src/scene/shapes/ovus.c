@@ -247,7 +247,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops ovus_ops = {
     .keyword = "ovus",
     .size = sizeof(struct ovus),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_CONVEX,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_CONVEX | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

@@ -360,7 +360,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops parametric_ops = {
     .keyword = "parametric",
     .size = sizeof(struct parametric),
-    .flags = SHAPE_BOUNDED | SHAPE_UV,
+    .flags = SHAPE_BOUNDED | SHAPE_UV | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

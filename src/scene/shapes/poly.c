@@ -322,7 +322,7 @@ static void print(const void *shape, FILE *out)
     const struct shape_ops word##_ops = {                                                \
         .keyword = #word,                                                                \
         .size = sizeof(struct poly),                                                     \
-        .flags = SHAPE_SOLID | SHAPE_STURM,                                              \
+        .flags = SHAPE_SOLID | SHAPE_STURM | SHAPE_BOUND_SHAPE,                                              \
         .build = build_##word,                                                           \
         .bounds = bounds,                                                                \
         .inside = inside,                                                                \

@@ -214,7 +214,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops quadric_ops = {
     .keyword = "quadric",
     .size = sizeof(struct quadric),
-    .flags = SHAPE_SOLID,
+    .flags = SHAPE_SOLID | SHAPE_BOUND_BOX,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

@@ -440,7 +440,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops sphere_sweep_ops = {
     .keyword = "sphere_sweep",
     .size = sizeof(struct sweep),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

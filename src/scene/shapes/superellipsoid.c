@@ -346,7 +346,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops superellipsoid_ops = {
     .keyword = "superellipsoid",
     .size = sizeof(struct superellipsoid),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

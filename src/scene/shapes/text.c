@@ -287,7 +287,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops text_ops = {
     .keyword = "text",
     .size = sizeof(struct text),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,
