@@ -156,15 +156,30 @@ static int print_table(const char *path)
     return 0;
 }
 
+static int print_failure(const char *name)
+{
+    for (size_t i = 0; i < sizeof failures / sizeof failures[0]; i++)
+        if (strcmp(name, failures[i].name) == 0) {
+            fputs(failures[i].scene, stdout);
+            return 0;
+        }
+    fprintf(stderr, "no picture is called %s\n", name);
+    return 1;
+}
+
 static int print_picture_scene(const char *name, double size, double place)
 {
-    puts("#version 3.7; global_settings { assumed_gamma 1 }");
+    if (strcmp(name, "still-life") == 0 || strcmp(name, "sheet") == 0 ||
+        strcmp(name, "glass") == 0)
+        puts("#version 3.7; global_settings { assumed_gamma 1 }");
     if (strcmp(name, "still-life") == 0)
         printf(still_life, size, place);
     else if (strcmp(name, "sheet") == 0)
         fputs(rising_sheet, stdout);
-    else
+    else if (strcmp(name, "glass") == 0)
         printf(close_glass, size);
+    else
+        return print_failure(name);
     return 0;
 }
 
@@ -197,6 +212,32 @@ static int count_pixels(const char *path, const char *other)
     return 0;
 }
 
+enum { GAP = 4 };
+
+// Pictures side by side in two rows, each pixel as two by two.
+static int write_sheet(const char *path, char **picture, int count)
+{
+    const int columns = (count + 1) / 2, step = 2 * PICTURE_SIZE + GAP;
+    struct image out;
+    char error[256];
+    if (!image_init(&out, columns * step - GAP, 2 * step - GAP, 3))
+        return 1;
+    for (int i = 0; i < out.width * out.height * 3; i++)
+        out.pixel[i] = 1;
+    for (int p = 0; p < count; p++) {
+        const struct image im = read_picture(picture[p]);
+        for (int y = 0; y < 2 * PICTURE_SIZE; y++)
+            for (int x = 0; x < 2 * PICTURE_SIZE; x++)
+                memcpy(image_at(&out, x + p % columns * step, y + p / columns * step),
+                       image_at(&im, x / 2, y / 2), 3 * sizeof(float));
+    }
+    const struct image_write_options o = {.bits = 8, .transfer = {TRANSFER_NONE, 1}};
+    if (image_write(&out, path, &o, error, sizeof error))
+        return 0;
+    fprintf(stderr, "%s: %s\n", path, error);
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 2 && strcmp(argv[1], "scene") == 0) {
@@ -209,8 +250,10 @@ int main(int argc, char **argv)
         return print_picture_scene(argv[2], atof(argv[3]), atof(argv[4]));
     if ((argc == 3 || argc == 4) && strcmp(argv[1], "pixels") == 0)
         return count_pixels(argv[2], argc == 4 ? argv[3] : NULL);
+    if (argc > 3 && strcmp(argv[1], "sheet") == 0)
+        return write_sheet(argv[2], argv + 3, argc - 3);
     fputs("usage: accuracy scene | table ANSWERS | picture NAME SIZE PLACE |\n"
-          "       pixels PICTURE [OTHER]\n",
+          "       pixels PICTURE [OTHER] | sheet OUT PICTURES...\n",
           stderr);
     return 2;
 }

@@ -48,4 +48,48 @@ static const char close_glass[] =
     "box { <-1, 7e-5, -1>, <1, .5, 1> pigment { rgbf 1 }\n"
     "  finish { ambient 0 diffuse 0 } interior { ior 1.5 } scale K }\n";
 
+// What POV-Ray gets wrong, for failures.sh.
+#define FACING                                                                           \
+    "#version 3.7; global_settings { assumed_gamma 1 }\n"                                \
+    "light_source { <-30, 40, -50>, rgb 1 }\n"                                           \
+    "#default { finish { ambient .2 diffuse .8 } }\n"
+static const struct failure {
+    const char *name, *scene;
+} failures[] = {
+    {"drilled", // T02: two colours of a film instead of the hole
+     FACING "camera { location -5*z right x look_at 0 angle 30 } background { rgb 1 }\n"
+            "difference { box { -1, 1 pigment { rgb x } } cylinder { -z, z, .9 pigment { "
+            "rgb y } } rotate <7, 11, 0> }\n"},
+    {"nothing", // T03
+     FACING "camera { location -5*z right x look_at 0 angle 40 } background { rgb 1 }\n"
+            "#declare A = box { -1, 1 pigment { rgb x } }\n"
+            "difference { object { A } object { A pigment { rgb z } } rotate <33, -21, "
+            "64> }\n"},
+    {"merge", // T04
+     FACING
+     "camera { location -5*z right x look_at 0 angle 40 } background { rgb 1 }\n"
+     "merge { box { -1, 1 } box { -1, 1 } pigment { rgb <.9, .6, .2> } rotate <33, "
+     "-21, 64> }\n"},
+    {"crest", // T12: the topmost ten-millionths of a torus
+     FACING
+     "camera { orthographic location <-5, .25, 0> direction x up 4e-7*y right z }\n"
+     "background { rgb 1 } torus { 1, .25 pigment { rgb <.3, .5, .9> } finish { "
+     "ambient 1 diffuse 0 } }\n"},
+    {"far", // T21, T22
+     FACING
+     "#declare T = 1e7*<.7312345, .4567891, .8123457>; background { rgb 1 }\n"
+     "camera { location T - 5*z right x look_at T angle 30 }\n"
+     "quadric { <1, 1, 1>, 0, 0, -1 translate T pigment { rgb <.9, .6, .2> } finish "
+     "{ ambient .3 } }\n"},
+    {"fan", // T44
+     FACING
+     "camera { orthographic location <.06, -5, .03> direction y up .14*z right "
+     ".14*x } background { rgb 1 }\n"
+     "bicubic_patch { type 1 flatness 0 u_steps 4 v_steps 4 <0, 0, 0>, <0, 0, 0>, "
+     "<0, 0, 0>, <0, 0, 0>, <1, 0, 0>, <1, 0, .3>, <1, 0, .6>, <1, 0, 1>, <2, 0, "
+     "0>, <2, 0, .6>, <2, 0, 1.2>, <2, 0, 2>, <3, 0, 0>, <3, 0, 1>, <3, 0, 2>, <3, "
+     "0, 3> pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n"
+     "light_source { <1, -9, 1>, rgb .6 }\n"},
+};
+
 #endif
