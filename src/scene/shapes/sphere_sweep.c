@@ -225,8 +225,9 @@ static void cover(struct chord *c, double lo, double hi)
     multiply(dt2, 2 * n, c->w, c->w_degree, 1, f);
     multiply(dw, m, dw, m, -1, f);
     try_roots(c, f, 2 * n + c->w_degree > 2 * m ? 2 * n + c->w_degree : 2 * m, lo, hi);
-    // Where both ends turn at nearly the same u, about the greatest ball, the roots above are
-    // twins and may be missed: there w is a parabola and tau a line.
+    // In a graze both ends turn at nearly the same u, about the greatest ball, and the roots
+    // above are twins that may be missed: there w is a parabola and tau a line.
+    const bool graze = hi - lo < 0x1p-8;
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
     double dw2[6] = {0};
     differentiate(dw, m, dw2);
@@ -234,7 +235,7 @@ static void cover(struct chord *c, double lo, double hi)
         const double u = root[i - 1].t, slope = polynomial_value(dt, n, u);
         const double bend = -polynomial_value(dw2, m - 1, u) / 2;
         try_u(c, u);
-        if (!(bend > 0))
+        if (!graze || !(bend > 0))
             continue;
         const double by =
             slope * sqrt(fmax(0, excess_at(c, u)) / (bend * (bend + slope * slope)));
