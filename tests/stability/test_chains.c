@@ -197,12 +197,57 @@ static void a_coplanar_cut_leaves_no_film(void **state)
             fail_msg("ray %d: %.17g, not %.17g", i, cut[i], whole[i]);
 }
 
+// Solids that end in a face at y = 1: what begins there takes nothing from them, what ends
+// there holds all of them.
+static void a_shared_face_changes_nothing(void **state)
+{
+    (void)state;
+    static const char *const capped[] = {
+        "box { <-1, -.7, -1.2>, <1, 1, 1>",
+        "cylinder { -y, y, .8",
+        "cone { -y, 1, y, .3",
+        "prism { -1, 1, 5, <-1, -1>, <1, -1>, <.5, .8>, <-.7, 1>, <-1, -1>",
+        "prism { conic_sweep .5, 1, 5, <-1, -1>, <1, -1>, <.5, .8>, <-.7, 1>, <-1, -1>",
+        "lathe { linear_spline 5, <0, -1>, <1, -.8>, <.7, 1>, <0, 1>, <0, -1>",
+        "sor { 5, <.2, -1>, <.5, -.5>, <.8, 0>, <.4, 1>, <.6, 1.5>",
+        "mesh2 { vertex_vectors { 4, <-1, 1, 1>, <1, 1, 1>, <0, 1, -1>, <0, -1, 0> } "
+        "face_indices { 4, <0, 1, 2>, <0, 1, 3>, <1, 2, 3>, <2, 0, 3> } inside_vector "
+        "<.3, "
+        "1, .2>",
+        "isosurface { function { x*x + z*z - .5 }",
+        "intersection { sphere { 0, 1.5 } plane { y, 1 }",
+    };
+    static const char *const same[] = {
+        "difference { object { A } box { <-9, 1, -9>, <9, 9, 9> transform Other } }",
+        "difference { object { A } plane { -y, -1 transform Other } }",
+        "intersection { object { A } box { <-9, -9, -9>, <9, 1, 9> transform Other } }",
+        "intersection { object { A } plane { y, 1 transform Other } }",
+    };
+    double want[RAYS], t[RAYS];
+    int off = 0;
+    for (size_t i = 0; i < sizeof capped / sizeof capped[0]; i++) {
+        assert_true(rays_met("object { A }", capped[i], want) > RAYS / 8);
+        for (size_t k = 0; k < sizeof same / sizeof same[0]; k++) {
+            rays_met(same[k], capped[i], t);
+            int here = 0;
+            for (int n = 0; n < RAYS; n++)
+                here += isfinite(want[n]) != isfinite(t[n]) ||
+                        (isfinite(want[n]) && fabs(t[n] - want[n]) > 1e-6);
+            if (here)
+                print_error("%d rays differ: %s, %s }\n", here, same[k], capped[i]);
+            off += here > 1; // a ray may graze one and miss the other
+        }
+    }
+    assert_int_equal(off, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_is_left_of_a_solid_less_itself),
         cmocka_unit_test(twice_the_same_is_the_same),
         cmocka_unit_test(a_coplanar_cut_leaves_no_film),
+        cmocka_unit_test(a_shared_face_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
