@@ -1,59 +1,86 @@
 # gnuplot -e "data='...'; out='...'" chart.gp
-set terminal svg size 1500,1900 font "sans,13" background "#ffffff"
+set terminal svg size 2000,2350 font "sans,13" background "#ffffff"
 set output out
-set multiplot layout 5,2
+set multiplot layout 6,4
 set logscale xy
-set grid
-set format y "%g"
+set grid lc rgb "#dddddd"
 set format x "%g"
+set format y "%g"
 set pointsize 0.8
-set key outside right top samplen 2 font "sans,11"
+set tics font "sans,11"
+set title font "sans,14"
+set key bottom left samplen 2 font "sans,11" spacing 1.05 opaque box lc rgb "#cccccc"
+
+# Colour-blind safe (Okabe, Ito 2008); every curve has a shape of its own as well.
+set style line 1 lc rgb "#0072b2" lw 2 pt 7  # analytic, Gauss-Seidel
+set style line 2 lc rgb "#d55e00" lw 2 pt 5  # hemicube, shooting
+set style line 3 lc rgb "#009e73" lw 2 pt 9  # rays, conjugate gradients
+set style line 4 lc rgb "#cc79a7" lw 2 pt 13 # Sobol, hierarchical
+set style line 5 lc rgb "#e69f00" lw 2 pt 11 # area, Jacobi
+set style line 6 lc rgb "#56b4e9" lw 2 pt 4  # disc, elimination
+set style line 7 lc rgb "#000000" lw 2 pt 6  # stochastic, patches and rays grow
+set style line 8 lc rgb "#888888" lw 2 pt 8 dt 2 # stochastic, 1000 patches, rays grow
+
 s = data."/solutions.tsv"
-pick(scene, method, solver) = sprintf("< awk -F'\\t' '$1==\"%s\" && index($2,\"%s\")==1 && $3==\"%s\"' %s | sort -g -k 8", scene, method, solver, s)
-set ylabel "relative error (rms)"
-set xlabel "user CPU, s"
-set title "Cube (C1), means of walls"
-plot pick("cube","analytic","stochastic") u 6:5 w lp t "stochastic", \
-     pick("cube","analytic","gauss-seidel") u 6:5 w lp t "analytic, Gauss-Seidel", \
-     pick("cube","analytic","cg") u 6:5 w p t "analytic, CG", \
-     pick("cube","analytic","shooting") u 6:5 w p t "analytic, shooting", \
-     pick("cube","analytic","hierarchical") u 6:5 w p t "analytic, hierarchical", \
-     pick("cube","sobol","gauss-seidel") u 6:5 w p t "Sobol rays", \
-     pick("cube","rays","gauss-seidel") u 6:5 w p t "random rays", \
-     pick("cube","hemicube","gauss-seidel") u 6:5 w lp t "hemicube", \
-     pick("cube","area","gauss-seidel") u 6:5 w p t "area", \
-     pick("cube","disc","gauss-seidel") u 6:5 w p t "disc", \
-     data."/povray.tsv" u 3:2 w lp lw 2 t "POV-Ray radiosity (3 views)"
-set title "Cornell box, means of surfaces"
-plot pick("cornell","analytic","stochastic") u 6:5 w lp t "stochastic", \
-     pick("cornell","analytic","gauss-seidel") u 6:5 w lp t "analytic, Gauss-Seidel"
-set title "Closed cap (S6), every patch"
-plot pick("cap","analytic","stochastic") u 6:5 w lp t "stochastic", \
-     pick("cap","analytic","gauss-seidel") u 6:5 w lp t "analytic, Gauss-Seidel"
-set title "Two discs (C4), means"
-plot pick("discs","analytic","stochastic") u 6:5 w lp t "stochastic", \
-     pick("discs","analytic","gauss-seidel") u 6:5 w lp t "analytic, Gauss-Seidel"
-set xlabel "rays"
-set title "Error against rays"
-plot for [n in "cube cornell cap discs"] pick(n,"analytic","stochastic") u 8:5 w lp t n." stochastic", \
-     for [n in "cube cornell cap discs"] pick(n,"analytic","gauss-seidel") u 8:5 w p t n." Gauss-Seidel"
-set xlabel "bytes"
-set title "Error against memory"
-plot for [n in "cube cornell cap discs"] pick(n,"analytic","stochastic") u 9:5 w p t n." stochastic", \
-     for [n in "cube cornell cap discs"] pick(n,"analytic","gauss-seidel") u 9:5 w lp t n." Gauss-Seidel"
+# Of a curve: patches, error, time, rays, bytes, by patches.
+pick(scene, method, solver) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" && $3==\"%s\" && $4 !~ /rays=1e/ && $4 ~ /tolerance/ {print $5, $6, $7, $8, $9}' %s | sort -g", scene, method, solver, s)
+grown(scene) = sprintf("< awk -F'\\t' '$1==\"%s\" && $3==\"stochastic\" && $4 ~ /rays=1e/ {print $8, $6, $7, $8, $9}' %s | sort -g", scene, s)
+method(k) = word("analytic hemicube rays sobol area disc", k)
+solver(k) = word("gauss-seidel shooting cg hierarchical jacobi elimination stochastic", k)
+title_of(scene) = scene eq "cube" ? "Cube" : scene eq "cornell" ? "Cornell box" : scene eq "csg" ? "CSG furnace" : "Room"
+
+do for [scene in "cube cornell csg room"] {
+  set xlabel "user CPU, s"
+  set ylabel "relative error (rms) of reflected light"
+  set title title_of(scene).": form factors"
+  plot for [k=1:6] pick(scene, method(k), "gauss-seidel") u 3:2 w lp ls k t method(k)
+  set title title_of(scene).": solvers"
+  plot for [k=1:7] pick(scene, "analytic", solver(k)) u 3:2 w lp ls k t solver(k), \
+       grown(scene) u 3:2 w lp ls 8 t "stochastic, 1000 patches"
+  set xlabel "rays"
+  set title title_of(scene).": rays"
+  plot pick(scene, "analytic", "gauss-seidel") u 4:2 w lp ls 1 t "analytic, Gauss-Seidel", \
+       pick(scene, "rays", "gauss-seidel") u 4:2 w lp ls 3 t "rays, Gauss-Seidel", \
+       pick(scene, "sobol", "gauss-seidel") u 4:2 w lp ls 5 t "sobol, Gauss-Seidel", \
+       pick(scene, "analytic", "shooting") u 4:2 w lp ls 2 t "analytic, shooting", \
+       pick(scene, "analytic", "hierarchical") u 4:2 w lp ls 4 t "analytic, hierarchical", \
+       pick(scene, "analytic", "stochastic") u 4:2 w lp ls 7 t "stochastic", \
+       grown(scene) u 4:2 w lp ls 8 t "stochastic, 1000 patches"
+  set xlabel "bytes"
+  set title title_of(scene).": memory"
+  plot for [k=1:7] pick(scene, "analytic", solver(k)) u 5:2 w lp ls k t solver(k)
+}
+
+# ---- stability
 st = data."/stability.tsv"
-get(what, name) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\"' %s", what, name, st)
+get(what, name) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" {print $3, $4}' %s", what, name, st)
+set key top right
 set xlabel "1 - reflectance"
 set ylabel "steps to 1 %"
-set title "Steps against reflectance, 96 patches"
-plot for [n in "jacobi gauss-seidel cg shooting hierarchical"] get("rho", n) u (1-$3):4 w lp t n
+set title "Stability: steps of solvers, 96 patches"
+plot for [k=1:5] get("rho", solver(k)) u (1-$1):2 w lp ls k t solver(k)
+set key top right
 set xlabel "distance / size"
 set ylabel "relative error of F"
-set title "Two parallel squares coming close"
-set yrange [1e-9:10]
-plot for [n in "analytic area disc hemicube rays sobol"] get("distance", n) u 3:4 w lp t n
+set yrange [1e-9:1e5]
+set title "Stability: two squares coming close"
+plot for [k=1:6] get("distance", method(k)) u 1:2 w lp ls k t method(k)
+set key bottom right
 set xlabel "side of the square between two unit squares"
-set title "Partly hidden squares, one pair"
 set yrange [1e-5:10]
-plot for [n in "analytic area disc rays sobol"] get("occluder", n) u 3:4 w lp t n
+set title "Stability: partly hidden squares, one pair"
+plot for [k=1:6] get("occluder", method(k)) u 1:2 w lp ls k t method(k)
+
+# ---- pictures
+p = data."/pictures.tsv"
+shown(scene, program) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" {print $5, $4}' %s | sort -g", scene, program, p)
+unset yrange
+set key top right
+set xlabel "user CPU, s"
+set ylabel "relative error (rms) of reflected light"
+do for [scene in "cube cornell"] {
+  set title title_of(scene).": pictures"
+  plot shown(scene, "povray") u 1:2 w lp ls 2 t "POV-Ray radiosity", \
+       shown(scene, "lambert") u 1:2 w lp ls 1 t "lambert --gi=radiosity"
+}
 unset multiplot

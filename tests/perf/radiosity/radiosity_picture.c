@@ -66,16 +66,32 @@ static void add_pixel(const struct camera *c, int k, int i, int j, int w, int h,
         seen[k].value[m] += area * value[m];
 }
 
+// The next number of the header of a PPM file, which may hold comments.
+static int header_number(FILE *file)
+{
+    int c = getc(file), n = 0;
+    while (c == '#' || c == ' ' || c == '\n') {
+        while (c == '#' && (c = getc(file)) != '\n' && c != EOF)
+            c = '#';
+        c = getc(file);
+    }
+    for (; c >= '0' && c <= '9'; c = getc(file))
+        n = 10 * n + c - '0';
+    return n; // and the blank behind it is read
+}
+
 static void add_picture(const char *scene, const char *picture)
 {
     struct lambert_context *ctx = lambert_context_new();
     FILE *file = fopen(picture, "rb");
-    int w, h, most;
+    int w, h;
     if (lambert_load_file(ctx, scene) != LAMBERT_OK) {
         fprintf(stderr, "%s\n", lambert_error(ctx));
         exit(1);
     }
-    if (!file || fscanf(file, "P6 %d %d %d%*c", &w, &h, &most) != 3 || most != 65535) {
+    if (!file || getc(file) != 'P' || getc(file) != '6' ||
+        (w = header_number(file)) < 1 || (h = header_number(file)) < 1 ||
+        header_number(file) != 65535) {
         fprintf(stderr, "%s: no PPM of 16 bits\n", picture);
         exit(1);
     }

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Measures the tables of the radiosity chart. Times are user CPU seconds on one thread: the
 # median of RUNS runs, errors the rms over them.
-# usage: [RUNS=3] run.sh BUILD_FOLDER OUT_FOLDER [scene ...] [stability] [pictures]
+# usage: [RUNS=3] run.sh BUILD_FOLDER OUT_FOLDER [scene ...] [stability] [pictures-cube] ...
 set -u
 build=$(cd "$1" && pwd) out=$(cd "$2" && pwd)
 shift 2
@@ -22,15 +22,19 @@ scene() { # replaces the lines of a scene in the table
   local n rays solver
   for n in 60 150 400; do
     solve "$1" method=analytic solver=gauss-seidel patches=$n tolerance=2e-3
-    for solver in elimination jacobi cg shooting hierarchical; do
-      solve "$1" method=analytic solver=$solver patches=$n tolerance=2e-3
-    done
-    solve "$1" method=hemicube solver=gauss-seidel patches=$n tolerance=2e-3 resolution=128
-    solve "$1" method=rays solver=gauss-seidel patches=$n tolerance=2e-3 factor-rays=1024
+    solve "$1" method=analytic solver=stochastic patches=$n tolerance=1e-2 rays=$((n * 250))
     solve "$1" method=sobol solver=gauss-seidel patches=$n tolerance=2e-3 factor-rays=1024
+    solve "$1" method=rays solver=gauss-seidel patches=$n tolerance=2e-3 factor-rays=1024
+    solve "$1" method=hemicube solver=gauss-seidel patches=$n tolerance=2e-3 resolution=128
     solve "$1" method=area solver=gauss-seidel patches=$n tolerance=2e-3
     solve "$1" method=disc solver=gauss-seidel patches=$n tolerance=2e-3
-    solve "$1" method=analytic solver=stochastic patches=$n tolerance=1e-2 rays=$((n * 250))
+    for solver in elimination jacobi cg hierarchical; do
+      solve "$1" method=analytic solver=$solver patches=$n tolerance=2e-3
+    done
+  done
+  # Rows are computed anew for every shot.
+  for n in 60 150; do
+    solve "$1" method=analytic solver=shooting patches=$n tolerance=2e-3
   done
   for rays in 1e4 1e5 1e6; do
     solve "$1" method=analytic solver=stochastic patches=1000 tolerance=1e-2 rays=$rays
@@ -46,7 +50,8 @@ scene() { # replaces the lines of a scene in the table
 }
 
 # ---- pictures --------------------------------------------------------------------------
-# Each setting renders the views of a scene; the programs take turns.
+# Each setting renders the views of a scene; the programs take turns; what takes
+# over 20 s is not repeated.
 views() {
   case $1 in cube) echo 0 1 2 ;; *) echo 0 ;; esac
 }
@@ -72,14 +77,17 @@ picture() { # scene program label options...
         t=$({ time timeout -s KILL 1800 povray +I"$work/$scene$view.pov" +L"$here" +O"$work/p$view.ppm" +FP16 \
           File_Gamma=1.0 +W"$w" +H"$h" -D -GA +WT1 "$@" >/dev/null 2>&1; } 2>&1)
       else
-        t=$({ time timeout -s KILL 1800 "$build/lambert" "$work/$scene$view.pov" +L"$here" -o "$work/p$view.ppm" +FP16 \
+        # The first view's solution serves the others.
+        local solution=--gi-load=$work/solution
+        [ "$view" = 0 ] && solution=--gi-save=$work/solution
+        t=$({ time timeout -s KILL 1800 "$build/lambert" "$work/$scene$view.pov" "$solution" +L"$here" -o "$work/p$view.ppm" +FP16 \
           File_Gamma=1.0 +W"$w" +H"$h" --threads=1 --gi=radiosity "$@" >/dev/null 2>&1; } 2>&1)
       fi
       total=$(echo "$total $t" | awk '{print $1 + $2}')
       args+=("$work/$scene$view.pov" "$work/p$view.ppm")
     done
     times+=("$total")
-    [ "$(echo "$total" | awk '{print ($1 > 20)}')" = 1 ] && break # long ones once
+    [ "$(echo "$total" | awk '{print ($1 > 20)}')" = 1 ] && break
   done
   t=$(printf '%s\n' "${times[@]}" | sort -g | awk '{x[NR] = $1} END {print x[int((NR + 1) / 2)]}')
   local off
@@ -92,26 +100,28 @@ pov() { # scene label count error_bound recursion_limit nearest_count pretrace_e
     Declare=Nearest="$6" Declare=Pretrace="$7"
 }
 
-pictures() {
-  local s
-  printf '#scene\tprogram\tsettings\terror\tuser s\truns\n' >"$out/pictures.tsv"
-  for s in cube cornell; do
-    pov $s "defaults" 35 1.8 2 5 .04
-    picture $s lambert "defaults"
-    pov $s "count 100, error_bound .5, recursion_limit 4" 100 .5 4 5 .02
-    picture $s lambert "300 patches" --gi-patches=300
-    pov $s "count 200, error_bound .3, recursion_limit 6, nearest_count 8" 200 .3 6 8 .02
-    picture $s lambert "8000 patches" --gi-patches=8000
-    pov $s "count 400, error_bound .2, recursion_limit 8, nearest_count 10" 400 .2 8 10 .01
-    picture $s lambert "error 1%" --error=1%
-  done
+pictures() { # replaces the lines of a scene in the table
+  local s=$1
+  awk -F'\t' -v s="$s" '$1 != s && !/^#/' "$out/pictures.tsv" >"$work/rest" 2>/dev/null
+  {
+    printf '#scene\tprogram\tsettings\terror\tuser s\truns\n'
+    cat "$work/rest"
+  } >"$out/pictures.tsv"
+  pov "$s" "defaults" 35 1.8 2 5 .04
+  picture "$s" lambert "300 patches, 1e5 rays" --gi-patches=300 --gi-rays=1e5
+  pov "$s" "count 100, error_bound .5, recursion_limit 4" 100 .5 4 5 .02
+  picture "$s" lambert "1000 patches, 1e6 rays" --gi-patches=1000 --gi-rays=1e6
+  picture "$s" lambert "4000 patches, 4e6 rays" --gi-patches=4000 --gi-rays=4e6
+  pov "$s" "count 200, error_bound .3, recursion_limit 6, nearest_count 8" 200 .3 6 8 .02
+  picture "$s" lambert "defaults"
+  pov "$s" "count 400, error_bound .2, recursion_limit 8, nearest_count 10" 400 .2 8 10 .01
 }
 
-[ $# -gt 0 ] || set -- cube cornell csg room stability pictures
+[ $# -gt 0 ] || set -- cube cornell csg room stability pictures-cube pictures-cornell
 for what in "$@"; do
   case $what in
   stability) "$build/radiosity_stability" >"$out/stability.tsv" ;;
-  pictures) pictures ;;
+  pictures-*) pictures "${what#pictures-}" ;;
   *) scene "$what" ;;
   esac
 done

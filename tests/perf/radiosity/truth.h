@@ -1,7 +1,10 @@
 #ifndef RADIOSITY_TRUTH_H
 #define RADIOSITY_TRUTH_H
 
+#include <stdbool.h>
+
 #include "math/vec.h"
+#include "radiosity/radiosity.h"
 
 // A parallelogram of a table by radiosity_truth: reflectance, emission relative to the
 // brightest, and the mean irradiance for a light of radiosity 1.
@@ -15,7 +18,7 @@ enum { BINS_MOST = 8192 };
 extern struct bin bin[BINS_MOST];
 extern int bins;
 
-// Ends the process when the table cannot be read.
+// In place of what was read before. Ends the process when the table cannot be read.
 void truth_read(const char *path);
 
 // The error of reflected light: the square root of the sum of area x (reflectance x error
@@ -26,5 +29,10 @@ struct error_sum {
 void error_add(struct error_sum *s, double area, const double rho[3], const double got[3],
                const double truth[3]);
 double error_of(const struct error_sum *s);
+
+// The error of a solution against the bins that were read; of a furnace, whose every patch
+// receives 1. print: tells all differences on stderr.
+double truth_error(const struct radiosity *r, bool print);
+double furnace_error(const struct radiosity *r, bool print);
 
 #endif

@@ -14,8 +14,9 @@ test_truths_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_truths.c
 test_truths_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
 test_truths_LDADD = $(test_ldadd)
 check_PROGRAMS += test_light
-test_light_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_light.c
-test_light_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D%
+test_light_SOURCES = %D%/scenes.c %D%/scenes.h %D%/test_light.c \
+	tests/perf/radiosity/truth.c tests/perf/radiosity/truth.h
+test_light_CPPFLAGS = $(test_cppflags) -I$(top_srcdir)/%D% -I$(top_srcdir)/tests/perf/radiosity
 test_light_LDADD = $(test_ldadd)
 
 # The truths of whole scenes at full size: minutes.

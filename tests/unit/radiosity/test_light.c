@@ -7,6 +7,7 @@
 #include "radiosity/sequence.h"
 #include "scenes.h"
 #include "trace/tracer.h"
+#include "truth.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -306,6 +307,12 @@ static void no_seams_f13(void **state)
     scene_free(&s);
 }
 
+static void benchmark_path(char path[1024], const char *name)
+{
+    const char *top = getenv("top_srcdir");
+    snprintf(path, 1024, "%s/tests/perf/radiosity/%s", top ? top : "..", name);
+}
+
 // ---- the Cornell box ---------------------------------------------------------------------
 // Area, and irradiance by surface for a light of radiosity 1 (particle tracing, 1e8 particles, 2e-4
 // or better on the walls), in the order of the scene.
@@ -352,8 +359,7 @@ static void cornell_box(void **state)
 {
     (void)state;
     char path[1024];
-    snprintf(path, sizeof path, "%s/tests/perf/radiosity/cornell.pov",
-             getenv("top_srcdir") ? getenv("top_srcdir") : "..");
+    benchmark_path(path, "cornell.pov");
     struct scene_run s = scene_load_file(path);
     struct radiosity_options o = with(in_full() ? 60000 : 2000, "stochastic");
     o.solver.rays = in_full() ? 20000000 : 300000;
@@ -387,12 +393,58 @@ static void cornell_box(void **state)
     scene_free(&s);
 }
 
+// ---- the estimate of an error target -----------------------------------------------------
+// The true error is within a factor 3 of the estimate, and the estimate meets the target.
+static void estimate_is_true(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene, *truth;
+        double error;
+        bool quick;
+    } cases[] = {
+        {"cube.pov", "cube.truth.tsv", .1, true},
+        {"cube.pov", "cube.truth.tsv", .03, false},
+        {"csg.pov", NULL, .1, false},
+        {"cornell.pov", "cornell.truth.tsv", .1, false},
+        {"cornell.pov", "cornell.truth.tsv", .05, false},
+        {"room.pov", "room.truth.tsv", .1, false},
+    };
+    int wrong = 0;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        if (!cases[k].quick && !in_full())
+            continue;
+        char path[1024];
+        benchmark_path(path, cases[k].scene);
+        struct scene_run s = scene_load_file(path);
+        struct radiosity_options o = radiosity_defaults;
+        o.error = cases[k].error;
+        scene_solve_loaded(&s, &o);
+        if (cases[k].truth) {
+            benchmark_path(path, cases[k].truth);
+            truth_read(path);
+        }
+        const double off =
+            cases[k].truth ? truth_error(s.r, false) : furnace_error(s.r, false);
+        const double estimate = s.r->report.error;
+        const bool right =
+            estimate <= o.error && off < 3 * estimate && estimate < 3 * off;
+        print_message("%s%s: asked %g, estimated %.4f, off by %.4f, %u patches\n",
+                      right ? "" : "WRONG ", cases[k].scene, o.error, estimate, off,
+                      s.r->report.elements);
+        wrong += !right;
+        scene_free(&s);
+    }
+    assert_int_equal(wrong, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions_s1_s3_s9),  cmocka_unit_test(sphere_t25),
         cmocka_unit_test(nothing_escapes_f19), cmocka_unit_test(direct_light_d1_to_d4),
         cmocka_unit_test(no_seams_f13),        cmocka_unit_test(cornell_box),
+        cmocka_unit_test(estimate_is_true),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
