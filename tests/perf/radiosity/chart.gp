@@ -9,7 +9,7 @@ set format y "%g"
 set pointsize 0.8
 set tics font "sans,11"
 set title font "sans,14"
-set key bottom left samplen 2 font "sans,11" spacing 1.05 opaque box lc rgb "#cccccc"
+set key below maxrows 3 samplen 2 font "sans,11" spacing 1.1
 
 # Colour-blind safe (Okabe, Ito 2008); every curve has a shape of its own as well.
 set style line 1 lc rgb "#0072b2" lw 2 pt 7  # analytic, Gauss-Seidel
@@ -19,7 +19,7 @@ set style line 4 lc rgb "#cc79a7" lw 2 pt 13 # Sobol, hierarchical
 set style line 5 lc rgb "#e69f00" lw 2 pt 11 # area, Jacobi
 set style line 6 lc rgb "#56b4e9" lw 2 pt 4  # disc, elimination
 set style line 7 lc rgb "#000000" lw 2 pt 6  # stochastic, patches and rays grow
-set style line 8 lc rgb "#888888" lw 2 pt 8 dt 2 # stochastic, 1000 patches, rays grow
+set style line 8 lc rgb "#999999" lw 2 pt 8 # stochastic, 1000 patches, rays grow
 
 s = data."/solutions.tsv"
 # Of a curve: patches, error, time, rays, bytes, by patches.
@@ -30,6 +30,8 @@ solver(k) = word("gauss-seidel shooting cg hierarchical jacobi elimination stoch
 title_of(scene) = scene eq "cube" ? "Cube" : scene eq "cornell" ? "Cornell box" : scene eq "csg" ? "CSG furnace" : "Room"
 
 do for [scene in "cube cornell csg room"] {
+  set yrange [2e-3:1]
+  set xrange [.05:20]
   set xlabel "user CPU, s"
   set ylabel "relative error (rms) of reflected light"
   set title title_of(scene).": form factors"
@@ -37,6 +39,7 @@ do for [scene in "cube cornell csg room"] {
   set title title_of(scene).": solvers"
   plot for [k=1:7] pick(scene, "analytic", solver(k)) u 3:2 w lp ls k t solver(k), \
        grown(scene) u 3:2 w lp ls 8 t "stochastic, 1000 patches"
+  set xrange [3e3:1e7]
   set xlabel "rays"
   set title title_of(scene).": rays"
   plot pick(scene, "analytic", "gauss-seidel") u 4:2 w lp ls 1 t "analytic, Gauss-Seidel", \
@@ -46,26 +49,27 @@ do for [scene in "cube cornell csg room"] {
        pick(scene, "analytic", "hierarchical") u 4:2 w lp ls 4 t "analytic, hierarchical", \
        pick(scene, "analytic", "stochastic") u 4:2 w lp ls 7 t "stochastic", \
        grown(scene) u 4:2 w lp ls 8 t "stochastic, 1000 patches"
+  set xrange [2e4:1e7]
   set xlabel "bytes"
   set title title_of(scene).": memory"
   plot for [k=1:7] pick(scene, "analytic", solver(k)) u 5:2 w lp ls k t solver(k)
 }
 
 # ---- stability
+unset xrange
+unset yrange
+set autoscale
 st = data."/stability.tsv"
 get(what, name) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" {print $3, $4}' %s", what, name, st)
-set key top right
 set xlabel "1 - reflectance"
 set ylabel "steps to 1 %"
 set title "Stability: steps of solvers, 96 patches"
 plot for [k=1:5] get("rho", solver(k)) u (1-$1):2 w lp ls k t solver(k)
-set key top right
 set xlabel "distance / size"
 set ylabel "relative error of F"
 set yrange [1e-9:1e5]
 set title "Stability: two squares coming close"
 plot for [k=1:6] get("distance", method(k)) u 1:2 w lp ls k t method(k)
-set key bottom right
 set xlabel "side of the square between two unit squares"
 set yrange [1e-5:10]
 set title "Stability: partly hidden squares, one pair"
@@ -74,8 +78,8 @@ plot for [k=1:6] get("occluder", method(k)) u 1:2 w lp ls k t method(k)
 # ---- pictures
 p = data."/pictures.tsv"
 shown(scene, program) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" {print $5, $4}' %s | sort -g", scene, program, p)
-unset yrange
-set key top right
+set xrange [.05:200]
+set yrange [5e-3:1]
 set xlabel "user CPU, s"
 set ylabel "relative error (rms) of reflected light"
 do for [scene in "cube cornell"] {

@@ -11,9 +11,10 @@ radiosity_stability_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests/unit/radiosi
 radiosity_stability_LDADD = $(lambert_libs)
 radiosity_truth_SOURCES = %D%/radiosity_truth.c
 radiosity_truth_LDADD = -lm
-EXTRA_DIST += %D%/chart.gp %D%/cornell.faces %D%/cornell.pov %D%/csg.pov %D%/cube.pov \
-	%D%/cube.truth.tsv %D%/povray.tsv %D%/room.faces %D%/room.pov %D%/run.sh \
-	%D%/solutions.tsv %D%/stability.tsv doc/radiosity.svg
+EXTRA_DIST += %D%/chart.gp %D%/cornell.faces %D%/cornell.pov %D%/cornell.truth.tsv \
+	%D%/csg.pov %D%/cube.pov %D%/cube.truth.tsv %D%/pictures.tsv %D%/room.faces \
+	%D%/room.pov %D%/room.truth.tsv %D%/run.sh %D%/solutions.tsv %D%/stability.tsv \
+	doc/radiosity.svg
 radiosity-data: radiosity_bench radiosity_picture radiosity_stability lambert
 	bash $(top_srcdir)/tests/perf/radiosity/run.sh . $(top_srcdir)/tests/perf/radiosity
 # The tables of truth: the cube in seconds, the others in minutes each.
