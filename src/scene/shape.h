@@ -12,6 +12,9 @@
 
 struct args;
 struct arena;
+struct shape_hits; // scene/shape_kernels.h
+struct shape_kernels;
+struct shape_rays;
 struct texture;
 
 enum shape_flags {
@@ -76,6 +79,15 @@ struct shape_ops {
     // The first drawn crossing with t_min < t < t_max, for shapes that find it much
     // faster than all crossings (a mesh that stands alone). NULL: use intersect.
     bool (*closest)(const void *shape, const struct ray *ray, struct boundary *out);
+
+    // The same of eight rays at once, for those of `lanes`: the lanes that meet the shape
+    // with t_min < t <= t_max. `any`: the t of any crossing in that range will do. A lane's
+    // result depends on its own ray alone. `has_lanes` (NULL: never) says for which shapes
+    // it may be called; these are always asked this way when they stand alone.
+    unsigned (*closest8)(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out);
+    bool (*has_lanes)(const void *shape);
 
     // Geometry at a crossing that intersect reported; p is the point in shape space.
     void (*surface)(const void *shape, const struct boundary *b, struct vec3 p,

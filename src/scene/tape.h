@@ -77,6 +77,9 @@ struct tape_extern {
     const char *name;
     int arguments, width;
     void (*value)(const void *data, const double *in, double *out);
+    // The same bits at eight points; NULL: one by one.
+    void (*values)(const void *data, const double (*in)[TAPE_LANES],
+                   double (*out)[TAPE_LANES]);
     void (*bounds)(const void *data, const struct interval *in, struct interval *out,
                    struct interval *partial);
     bool (*expand)(struct tape_builder *b, const void *data, const uint32_t *in,

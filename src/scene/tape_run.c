@@ -100,26 +100,41 @@ double tape_at(const void *tape, struct vec3 p)
 
 typedef double lanes[TAPE_LANES];
 
-static void called_packet(const struct tape *t, const struct tape_step *s, lanes *r)
+void tape_call_packet(const struct tape_step *s, const double (*in)[TAPE_LANES],
+                      double (*out)[TAPE_LANES])
 {
+    const struct tape_extern *f = s->op == TAPE_EXTERN ? s->callee : NULL;
+    if (f && f->values) {
+        f->values(s->data, in, out);
+        return;
+    }
     for (int l = 0; l < TAPE_LANES; l++) {
-        double in[TAPE_LIST_MAX], out[TAPE_WIDTH_MAX];
-        int width = 1;
+        double one[TAPE_LIST_MAX], v[TAPE_WIDTH_MAX];
         for (uint32_t i = 0; i < s->count; i++)
-            in[i] = r[t->list[s->list + i]][l];
-        if (s->op == TAPE_EXTERN) {
-            const struct tape_extern *f = s->callee;
-            f->value(s->data, in, out);
-            width = f->width;
+            one[i] = in[i][l];
+        if (f) {
+            f->value(s->data, one, v);
         } else if (s->op == TAPE_CALL) {
-            tape_run(s->callee, in, out);
+            tape_run(s->callee, one, v);
         } else {
             double left = TAPE_TURNS_MAX;
-            looped(s->callee, s->op == TAPE_PRODUCT, in, s->count, &left, out);
+            looped(s->callee, s->op == TAPE_PRODUCT, one, s->count, &left, v);
         }
-        for (int i = 0; i < width; i++)
-            r[s->to + i][l] = out[i];
+        for (int i = 0; i < (f ? f->width : 1); i++)
+            out[i][l] = v[i];
     }
+}
+
+static void called_packet(const struct tape *t, const struct tape_step *s, lanes *r)
+{
+    double in[TAPE_LIST_MAX][TAPE_LANES], out[TAPE_WIDTH_MAX][TAPE_LANES];
+    const int width =
+        s->op == TAPE_EXTERN ? ((const struct tape_extern *)s->callee)->width : 1;
+    for (uint32_t i = 0; i < s->count; i++)
+        memcpy(in[i], r[t->list[s->list + i]], sizeof *in);
+    tape_call_packet(s, (const double(*)[TAPE_LANES])in, out);
+    for (int i = 0; i < width; i++)
+        memcpy(r[s->to + i], out[i], sizeof *r);
 }
 
 static void step_packet(const struct tape *t, const struct tape_step *s, lanes *r)

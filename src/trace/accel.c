@@ -142,6 +142,8 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_TRIANGLE;
     if (l->ops == &mesh_ops || l->ops == &mesh2_ops)
         return PACKET_MESH;
+    if (l->ops->has_lanes && l->ops->has_lanes(l->shape))
+        return PACKET_LANES;
     return PACKET_NONE;
 }
 

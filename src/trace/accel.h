@@ -19,6 +19,7 @@ enum packet_shape {
     PACKET_TORUS,
     PACKET_TRIANGLE,
     PACKET_MESH,
+    PACKET_LANES,   // the shape takes eight rays itself
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
 };

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "math/gamma.h"
+#include "scene/shape_kernels.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
 #include "trace/scratch.h"
@@ -117,6 +118,43 @@ bool box_meets(const struct aabb *b, const struct box_ray *r, double *t)
 
 // ---- objects ----------------------------------------------------------------------------
 
+// A shape that takes eight rays, and one.
+static bool lone_lane(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                      const struct ray *ray, bool any, struct boundary *out)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    struct ray local = *ray;
+    if (!l->transform->identity)
+        local = transform_inverse_ray(l->transform, ray);
+    struct shape_rays rays;
+    struct shape_hits hits;
+    hits.evaluations = 0;
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 3; k++) {
+            rays.o[k][i] = vec3_axis(local.o, k);
+            rays.d[k][i] = vec3_axis(local.d, k);
+        }
+        rays.t_min[i] = ray->t_min;
+        rays.t_max[i] = ray->t_max;
+    }
+    const bool met =
+        l->ops->closest8(w->accel->kernels->shapes, l->shape, &rays, 1, any, &hits);
+    s->crossings.evaluations += hits.evaluations;
+    if (!met || !(hits.t[0] < ray->t_max))
+        return false;
+    *out = (struct boundary){
+        .t = hits.t[0],
+        .dt = hits.dt[0],
+        .u = hits.u[0],
+        .v = hits.v[0],
+        .part = hits.part[0],
+        .leaf = leaf,
+        .crossing = crossing_of_leaf(hits.crossing[0], l->inverted),
+        .drawn = 1,
+    };
+    return true;
+}
+
 static bool single_leaf(const struct world *w, struct trace_scratch *s,
                         const struct world_object *o, const struct ray *ray,
                         enum sweep_mode mode, struct boundary *out)
@@ -125,6 +163,8 @@ static bool single_leaf(const struct world *w, struct trace_scratch *s,
     s->stats.leaf_tests++;
     if (mode == SWEEP_OPAQUE && !w->surface[l->surface].opaque)
         return false;
+    if (w->accel->leaf_shape[o->first_leaf] == PACKET_LANES && l->drawn)
+        return lone_lane(w, s, o->first_leaf, ray, mode == SWEEP_OPAQUE, out);
     if (l->ops->closest) {
         struct ray local = *ray;
         if (!l->transform->identity)

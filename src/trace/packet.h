@@ -70,6 +70,14 @@ static inline bool packet_lane_known(const struct packet *p, int lane)
            p->search[lane].known;
 }
 
+// The crossing of an inverted leaf.
+static inline uint8_t crossing_of_leaf(uint8_t crossing, bool inverted)
+{
+    return !inverted || crossing == CROSS_TOUCH ? crossing
+           : crossing == CROSS_ENTER            ? CROSS_EXIT
+                                                : CROSS_ENTER;
+}
+
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
@@ -78,6 +86,7 @@ struct packet_kernels {
     void (*trace)(struct packet *p, struct hit *out);
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
+    const struct shape_kernels *shapes;
 };
 
 extern const struct packet_kernels packet_kernels_base, packet_kernels_avx2,

@@ -1,6 +1,7 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
 // flags choose the width in math/lanes.h. All give the same bits.
 #include "trace/packet.h"
+#include "trace/packet_lanes.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_sponge.h"
 
@@ -126,6 +127,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         return product(e, bits, object);
     if (shape == PACKET_MESH)
         return mesh8(e, bits, object);
+    if (shape == PACKET_LANES)
+        return lanes8(e, bits, object);
     if (shape == PACKET_SPONGE)
         return accel_large(a, o, object)->ball ? sponge(e, bits, object)
                                                : packet_try_object(p, bits, object);
@@ -252,4 +255,5 @@ static void trace(struct packet *p, struct hit *out)
         hits(&e, lanes, out);
 }
 
-const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace, walk};
+const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace, walk,
+                                                           &PASTE(shape_kernels_, ISA)};

@@ -7,6 +7,8 @@
 
 #include "base/arena.h"
 #include "scene/args.h"
+#include "scene/shape_kernels.h"
+#include "scene/tape_kernel.h"
 
 enum { MAX_TRACE = 10 };
 static const double ACCURACY = 0.001, MAX_GRADIENT = 1.1;
@@ -85,6 +87,19 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     iso_walk(shape, ray, out);
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    return k->isosurface(shape, rays, lanes, any, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    const struct isosurface *s = shape;
+    return !tape_is_opaque(s->f) && tape_has_lanes(s->f);
+}
+
 static struct vec3 differences(const struct isosurface *s, struct vec3 p)
 {
     const double a = s->accuracy, f = iso_value(s, p);
@@ -147,6 +162,8 @@ const struct shape_ops isosurface_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

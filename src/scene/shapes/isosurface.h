@@ -40,7 +40,16 @@ struct isosurface {
 struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
                               const struct aabb *box, int depth, uint32_t *evaluations);
 struct iso_cell *iso_tree_new(struct arena *a);
-struct aabb iso_child_box(const struct aabb *box, const struct vec3 *middle, int octant);
+
+static inline struct aabb iso_child_box(const struct aabb *box, const struct vec3 *m,
+                                        int octant)
+{
+    struct aabb b = *box;
+    *(octant & 1 ? &b.min.x : &b.max.x) = m->x;
+    *(octant & 2 ? &b.min.y : &b.max.y) = m->y;
+    *(octant & 4 ? &b.min.z : &b.max.z) = m->z;
+    return b;
+}
 
 static inline double iso_value(const struct isosurface *s, struct vec3 p)
 {
@@ -52,6 +61,19 @@ static inline double iso_value(const struct isosurface *s, struct vec3 p)
 // As shape_ops.intersect.
 void iso_walk(const struct isosurface *s, const struct ray *ray,
               struct boundary_list *out);
+
+enum {
+    ISO_EVALUATIONS_MAX =
+        20000, // of one ray: past this stretches are decided by their ends
+    ISO_REFINE_MAX = 80,
+    ISO_ERROR_TRIES = 6,
+};
+// A stretch this small a share of the chord, or of its t's rounding, is not cut.
+#define ISO_SHORTEST 0x1p-40
+// Where the function jumps or its slope has no bound nothing better is known.
+#define ISO_SHORTEST_JUMP 0x1p-20
+// An error bound this small a share of the chord is good enough.
+#define ISO_ERROR_GOOD 0x1p-36
 
 // Faces of the container are parts 1 + the container's own.
 enum { ISO_SURFACE = 0, ISO_CONTAINER = 1 };

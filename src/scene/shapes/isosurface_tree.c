@@ -6,7 +6,7 @@
 #include "scene/shapes/isosurface.h"
 
 enum {
-    DEPTH_MAX = 4,    // 16 cells along an axis
+    DEPTH_MAX = 6,    // 64 cells along an axis: 14 MB if the surface were in all of them
     DEPTH_SMOOTH = 3, // enough where the gradient hardly turns
 };
 
@@ -36,15 +36,6 @@ struct iso_cell *iso_tree_new(struct arena *a)
     root->kind = CELL_BRANCH;
     arena_at_end(a, free_tree, root);
     return root;
-}
-
-struct aabb iso_child_box(const struct aabb *box, const struct vec3 *m, int octant)
-{
-    struct aabb b = *box;
-    *(octant & 1 ? &b.min.x : &b.max.x) = m->x;
-    *(octant & 2 ? &b.min.y : &b.max.y) = m->y;
-    *(octant & 4 ? &b.min.z : &b.max.z) = m->z;
-    return b;
 }
 
 static float rounded_down(double v) { return nextafterf((float)v, -INFINITY); }

@@ -12,19 +12,9 @@
 #include "scene/shapes/isosurface.h"
 
 enum {
-    EVALUATIONS_MAX = 20000, // of one ray: past this stretches are decided by their ends
-    STRETCHES_MAX = 64,      // open at a time
-    REFINE_MAX = 80,
+    STRETCHES_MAX = 64, // open at a time
     CHEAP_STEPS = 3,
-    ERROR_TRIES = 6,
 };
-
-// A stretch this small a share of the chord, or of its t's rounding, is not halved.
-static const double SHORTEST = 0x1p-40;
-// Where the function jumps or its slope has no bound nothing better is known.
-static const double SHORTEST_JUMP = 0x1p-20;
-// An error bound this small a share of the chord is good enough.
-static const double ERROR_GOOD = 0x1p-36;
 
 struct walk {
     const struct isosurface *s;
@@ -112,9 +102,9 @@ static double error_of(struct walk *w, double t, double a, double b, double slop
     const double f = tape_is_opaque(w->s->f) ? 0 : size_at(w, t);
     if (!(f > 0 && f < INFINITY)) // unknown, or a jump at a pole
         return r;
-    if (r + f / slope < ERROR_GOOD * w->chord)
+    if (r + f / slope < ISO_ERROR_GOOD * w->chord)
         return r + f / slope;
-    for (int i = 0; i < ERROR_TRIES; i++) {
+    for (int i = 0; i < ISO_ERROR_TRIES; i++) {
         slope = least_size(over(w, t - r, t + r, 1).d[0]);
         if (slope > 0 && f / slope <= r)
             return r;
@@ -131,7 +121,7 @@ static void settle(struct walk *w, double t, bool inside)
         w->inside = inside;
         w->done = inside && w->first_only && !w->s->open && w->enter > w->t_min;
     } else if (w->inside != inside) {
-        add(w, t, SHORTEST * w->chord);
+        add(w, t, ISO_SHORTEST * w->chord);
     }
 }
 
@@ -140,7 +130,7 @@ static void settle(struct walk *w, double t, bool inside)
 static double refine(struct walk *w, double *a, double fa, double *b, double fb)
 {
     double x1 = *a, f1 = fa, x0 = *b, f0 = fb, x2 = x0, f2 = f0, u = 0.5;
-    for (int i = 0; i < REFINE_MAX; i++) {
+    for (int i = 0; i < ISO_REFINE_MAX; i++) {
         const double x = x0 + u * (x1 - x0);
         const double f = value(w, x);
         if ((f <= 0) == (f0 <= 0)) {
@@ -242,14 +232,14 @@ static bool is_settled(struct walk *w, struct stretch *s)
     }
     const double length = s->b - s->a;
     const bool bounded = s->d.hi - s->d.lo < INFINITY;
-    const double least =
-        fmax((bounded ? SHORTEST : SHORTEST_JUMP) * w->chord, 8 * ROUNDOFF * fabs(s->b));
+    const double least = fmax((bounded ? ISO_SHORTEST : ISO_SHORTEST_JUMP) * w->chord,
+                              8 * ROUNDOFF * fabs(s->b));
     const struct tape_slope r = over(w, s->a, s->b, 1);
     if (r.v.lo > 0 || r.v.hi < 0)
         return true;
     s->d = interval(fmax(s->d.lo, r.d[0].lo), fmin(s->d.hi, r.d[0].hi));
     const double slope = least_size(s->d);
-    if (slope > 0 || length <= least || w->evaluations > EVALUATIONS_MAX ||
+    if (slope > 0 || length <= least || w->evaluations > ISO_EVALUATIONS_MAX ||
         (length < 0x1p-12 * w->chord && is_rounding(w, s, r.v))) {
         decide(w, s->a, s->fa, s->b, s->fb, slope);
         return true;
@@ -290,7 +280,7 @@ static void sampled(struct walk *w, struct stretch all, double steepest)
         if (!changes && fabs(s.fa) + fabs(s.fb) >= steepest * w->scale * length)
             continue;
         if (length < w->s->accuracy || n + 2 > STRETCHES_MAX ||
-            w->evaluations > EVALUATIONS_MAX) {
+            w->evaluations > ISO_EVALUATIONS_MAX) {
             decide(w, s.a, s.fa, s.b, s.fb, 0);
             continue;
         }

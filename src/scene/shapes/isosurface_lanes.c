@@ -1,0 +1,769 @@
+// Eight rays through the cells of an isosurface side by side (isosurface.h), for the first
+// surface they meet: isosurface_walk.c in lanes. ISA names the instruction set.
+//
+// Rays whose directions have the same signs go through the cells in one order. Where the
+// bounds of a cell's gradient make f monotone along a ray, signs decide; a lane that has
+// found the bracket of its root waits, and all roots are refined together. A stretch that
+// bounds over it do not settle is cut into eight, which are looked at together.
+#include "scene/shapes/isosurface_lanes.h"
+#include "math/gamma.h"
+#include "math/lanes.h"
+#include "scene/shape_kernels.h"
+#include "scene/shapes/isosurface.h"
+#include "scene/tape_kernel.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b)  PASTE_(a, b)
+#define TAPE         PASTE(tape_kernels_, ISA)
+
+// A plane's distance along a ray that hardly moves across it; never infinite, so that a ray
+// in the plane has no NaN.
+#define STEEPEST 0x1p996
+
+struct walk8 {
+    const struct isosurface *s;
+    struct vec8 o, d, inverse; // o nearest to the middle of the container
+    struct real8 shift, chord; // t of o; length of the stretch in the container
+    struct real8 limit;        // no crossing beyond is wanted
+    struct real8 last_t, last_f;
+    double dirs[3][8];
+    unsigned alive, started, inside;
+    unsigned late;  // begin inside the container
+    unsigned face;  // meet the container first
+    unsigned found; // have a bracket
+    unsigned odd;   // for the one-ray walk
+    unsigned mirror;
+    double a[8], fa[8], b[8], fb[8], slope[8]; // the brackets
+    uint32_t spent[8];                         // evaluations of one ray alone
+    uint64_t evaluations;
+};
+
+// ---- f --------------------------------------------------------------------------------
+
+static struct real8 value_at_points(struct walk8 *w, struct vec8 p)
+{
+    double at[3][8], v[8];
+    r8_store(at[0], p.x);
+    r8_store(at[1], p.y);
+    r8_store(at[2], p.z);
+    TAPE.values(w->s->f, (const double(*)[8])at, v);
+    return r8_sub(r8_load(v), r8_set(w->s->threshold));
+}
+
+static struct real8 value(struct walk8 *w, struct real8 t, unsigned lanes)
+{
+    w->evaluations += (unsigned)__builtin_popcount(lanes);
+    return value_at_points(w, v8_mad(w->o, r8_select(m8_of(lanes), t, r8_set(0)), w->d));
+}
+
+LANES_INLINE struct real8 rounded_down(struct real8 v, double unit)
+{
+    return r8_sub(v, r8_mul(r8_abs(v), r8_set(unit)));
+}
+
+LANES_INLINE struct real8 rounded_up(struct real8 v, double unit)
+{
+    return r8_add(v, r8_mul(r8_abs(v), r8_set(unit)));
+}
+
+LANES_INLINE void stretch_axis(struct real8 o, struct real8 d, struct real8 a,
+                               struct real8 b, struct real8 slack, double *lo, double *hi)
+{
+    const struct real8 p = r8_mul(a, d), q = r8_mul(b, d);
+    const double e = INTERVAL_ROUNDING;
+    r8_store(lo,
+             r8_sub(rounded_down(r8_add(o, rounded_down(r8_min(p, q), e)), e), slack));
+    r8_store(hi, r8_add(rounded_up(r8_add(o, rounded_up(r8_max(p, q), e)), e), slack));
+}
+
+// The box of a stretch, in lanes that are not wanted of the origin.
+LANES_INLINE void stretch_box(struct vec8 o, struct vec8 d, struct real8 a,
+                              struct real8 b, struct real8 slack, unsigned lanes,
+                              struct tape_boxes *box)
+{
+    const struct mask8 m = m8_of(lanes);
+    a = r8_select(m, a, r8_set(0));
+    b = r8_select(m, b, r8_set(0));
+    stretch_axis(o.x, d.x, a, b, slack, box->lo[0], box->hi[0]);
+    stretch_axis(o.y, d.y, a, b, slack, box->lo[1], box->hi[1]);
+    stretch_axis(o.z, d.z, a, b, slack, box->lo[2], box->hi[2]);
+}
+
+struct over8 {
+    struct real8 lo, hi, slope_lo, slope_hi;
+};
+
+// Where the slope jumps the value is looked at on either side.
+static void jump(const struct isosurface *s, const struct tape_boxes *box, int lane,
+                 double *lo, double *hi)
+{
+    struct interval in[3];
+    for (int i = 0; i < 3; i++)
+        in[i] = interval(box->lo[i][lane], box->hi[i][lane]);
+    const struct interval v = tape_bounds(s->f, in);
+    *lo = fmax(*lo, v.lo);
+    *hi = fmin(*hi, v.hi);
+}
+
+// f and its derivative along d over boxes; only the bounds of `lanes` are wanted.
+static struct over8 over(struct walk8 *w, const struct tape_boxes *box,
+                         const double dirs[3][8], unsigned lanes)
+{
+    struct tape_slopes r;
+    TAPE.along(w->s->f, box, dirs, &r);
+    w->evaluations += (unsigned)__builtin_popcount(lanes);
+    struct over8 v = {.slope_lo = r8_load(r.slope_lo[0]),
+                      .slope_hi = r8_load(r.slope_hi[0])};
+    const unsigned jumps = m8_bits(m8_and(r8_le(v.slope_lo, r8_set(-INFINITY)),
+                                          r8_le(r8_set(INFINITY), v.slope_hi))) &
+                           lanes;
+    for (unsigned m = jumps; m; m &= m - 1) {
+        const int l = __builtin_ctz(m);
+        jump(w->s, box, l, &r.lo[l], &r.hi[l]);
+    }
+    const struct real8 at = r8_set(w->s->threshold);
+    v.lo = rounded_down(r8_sub(r8_load(r.lo), at), INTERVAL_ROUNDING);
+    v.hi = rounded_up(r8_sub(r8_load(r.hi), at), INTERVAL_ROUNDING);
+    return v;
+}
+
+LANES_INLINE struct real8 least_size(struct real8 lo, struct real8 hi)
+{
+    return r8_max(r8_max(lo, r8_neg(hi)), r8_set(0));
+}
+
+LANES_INLINE unsigned not_positive(struct real8 f)
+{
+    return m8_bits(r8_le(f, r8_set(0)));
+}
+
+// ---- brackets ---------------------------------------------------------------------------
+
+LANES_INLINE void keep(double *to, struct mask8 m, struct real8 v)
+{
+    r8_store(to, r8_select(m, v, r8_load(to)));
+}
+
+static void bracket(struct walk8 *w, unsigned lanes, struct real8 a, struct real8 fa,
+                    struct real8 b, struct real8 fb, struct real8 slope)
+{
+    const struct mask8 m = m8_of(lanes);
+    keep(w->a, m, a);
+    keep(w->fa, m, fa);
+    keep(w->b, m, b);
+    keep(w->fb, m, fb);
+    keep(w->slope, m, slope);
+    w->found |= lanes;
+    w->alive &= ~lanes;
+}
+
+struct piece {
+    double a, fa, b, fb, lo, hi; // lo, hi: the derivative along the ray
+};
+
+static void bracket_1(struct walk8 *w, int lane, const struct piece *s, double slope)
+{
+    w->a[lane] = s->a;
+    w->fa[lane] = s->fa;
+    w->b[lane] = s->b;
+    w->fb[lane] = s->fb;
+    w->slope[lane] = slope;
+    w->found |= 1u << lane;
+    w->alive &= ~(1u << lane);
+}
+
+// As is_excluded of isosurface_walk.c.
+LANES_INLINE struct mask8 excluded(struct real8 a, struct real8 fa, struct real8 b,
+                                   struct real8 fb, struct real8 lo, struct real8 hi)
+{
+    const struct real8 zero = r8_set(0);
+    const struct mask8 above = r8_lt(zero, fa);
+    const struct real8 up = r8_max(r8_select(above, hi, r8_neg(lo)), zero);
+    const struct real8 down = r8_max(r8_select(above, r8_neg(lo), hi), zero);
+    const struct real8 room = r8_add(r8_mul(r8_abs(fa), up), r8_mul(r8_abs(fb), down));
+    const struct real8 most =
+        r8_mul(r8_mul(r8_mul(up, down), r8_sub(b, a)), r8_set(1 + GAMMA(16)));
+    return m8_and(r8_lt(most, room), r8_lt(r8_add(up, down), r8_set(INFINITY)));
+}
+
+// ---- one stretch in eight -----------------------------------------------------------------
+
+struct eighths {
+    double t[9], f[9], lo[8], hi[8], slope_lo[8], slope_hi[8];
+};
+
+static void look_at_eighths(struct walk8 *w, int lane, const struct piece *s,
+                            struct eighths *e)
+{
+    double x[3][8], d[3][8];
+    r8_store(x[0], w->o.x);
+    r8_store(x[1], w->o.y);
+    r8_store(x[2], w->o.z);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 8; k++)
+            d[i][k] = w->dirs[i][lane];
+    for (int k = 0; k < 8; k++)
+        e->t[k] = s->a + (s->b - s->a) * (k * 0.125);
+    e->t[8] = s->b;
+    const struct vec8 o = {r8_set(x[0][lane]), r8_set(x[1][lane]), r8_set(x[2][lane])};
+    const struct vec8 dir = {r8_load(d[0]), r8_load(d[1]), r8_load(d[2])};
+    const struct real8 from = r8_load(e->t), to = r8_load(e->t + 1);
+    struct tape_boxes box;
+    stretch_box(o, dir, from, to, r8_set(0), 255, &box);
+    const struct over8 v = over(w, &box, (const double(*)[8])d, 255);
+    r8_store(e->f, value_at_points(w, v8_mad(o, from, dir)));
+    e->f[0] = s->fa;
+    e->f[8] = s->fb;
+    r8_store(e->lo, v.lo);
+    r8_store(e->hi, v.hi);
+    r8_store(e->slope_lo, r8_max(v.slope_lo, r8_set(s->lo)));
+    r8_store(e->slope_hi, r8_min(v.slope_hi, r8_set(s->hi)));
+    w->evaluations += 8;
+    w->spent[lane] += 16;
+}
+
+static bool is_excluded_1(const struct piece *s)
+{
+    const double up = fmax(s->fa > 0 ? s->hi : -s->lo, 0);
+    const double down = fmax(s->fa > 0 ? -s->lo : s->hi, 0);
+    const double room = fabs(s->fa) * up + fabs(s->fb) * down;
+    return room > up * down * (s->b - s->a) * (1 + GAMMA(16)) && up + down < INFINITY;
+}
+
+// The bounds of f are no wider than its own rounding.
+static bool is_rounding(struct walk8 *w, int lane, const struct piece *s, double width)
+{
+    double o[3][8];
+    r8_store(o[0], w->o.x);
+    r8_store(o[1], w->o.y);
+    r8_store(o[2], w->o.z);
+    struct interval in[3];
+    const struct interval t = interval_point(0.5 * (s->a + s->b));
+    for (int i = 0; i < 3; i++)
+        in[i] = interval_add(interval_point(o[i][lane]),
+                             interval_multiply(t, interval_point(w->dirs[i][lane])));
+    w->evaluations++;
+    return width <= 4 * interval_width(tape_bounds(w->s->f, in));
+}
+
+static double chord_of(const struct walk8 *w, int lane)
+{
+    double chord[8];
+    r8_store(chord, w->chord);
+    return chord[lane];
+}
+
+// Whether an eighth is done with; a root that it may have is in its bracket then.
+static bool is_settled(struct walk8 *w, int lane, const struct piece *s, double lo,
+                       double hi)
+{
+    const bool changes = (s->fa <= 0) != (s->fb <= 0);
+    if (lo > 0 || hi < 0 || (!changes && is_excluded_1(s)))
+        return true;
+    const double slope = s->lo > 0 ? s->lo : s->hi < 0 ? -s->hi : 0;
+    const double chord = chord_of(w, lane), length = s->b - s->a;
+    const bool bounded = s->hi - s->lo < INFINITY;
+    const double least = fmax((bounded ? ISO_SHORTEST : ISO_SHORTEST_JUMP) * chord,
+                              8 * ROUNDOFF * fabs(s->b));
+    if (!(slope > 0 || length <= least || w->spent[lane] > ISO_EVALUATIONS_MAX ||
+          (length < 0x1p-12 * chord && is_rounding(w, lane, s, hi - lo))))
+        return false;
+    if (changes)
+        bracket_1(w, lane, s, slope);
+    return true;
+}
+
+// The first root in a stretch of one ray, its bracket.
+static void isolate(struct walk8 *w, int lane, const struct piece *all)
+{
+    struct eighths e;
+    look_at_eighths(w, lane, all, &e);
+    for (int i = 0; i < 8 && !(w->found >> lane & 1); i++) {
+        const struct piece s = {e.t[i],     e.f[i],        e.t[i + 1],
+                                e.f[i + 1], e.slope_lo[i], e.slope_hi[i]};
+        if (!is_settled(w, lane, &s, e.lo[i], e.hi[i]))
+            isolate(w, lane, &s);
+    }
+}
+
+// ---- leaves -------------------------------------------------------------------------------
+
+struct stretch8 {
+    struct real8 a, fa, b, fb, lo, hi;
+};
+
+// The derivative along the rays by the bounds of the cell's gradient.
+LANES_INLINE void add_slope(struct real8 d, const float slope[2], struct real8 *lo,
+                            struct real8 *hi, struct real8 *size)
+{
+    const struct mask8 still = r8_eq(d, r8_set(0));
+    const struct real8 p = r8_mul(d, r8_set(slope[0])), q = r8_mul(d, r8_set(slope[1]));
+    const struct real8 low = r8_select(still, r8_set(0), r8_min(p, q));
+    const struct real8 high = r8_select(still, r8_set(0), r8_max(p, q));
+    *lo = r8_add(*lo, low);
+    *hi = r8_add(*hi, high);
+    *size = r8_add(*size, r8_add(r8_abs(low), r8_abs(high)));
+}
+
+LANES_INLINE void slope_in(const struct walk8 *w, const struct iso_cell *c,
+                           struct stretch8 *s)
+{
+    struct real8 size = r8_set(0);
+    s->lo = s->hi = size;
+    add_slope(w->d.x, c->slope[0], &s->lo, &s->hi, &size);
+    add_slope(w->d.y, c->slope[1], &s->lo, &s->hi, &size);
+    add_slope(w->d.z, c->slope[2], &s->lo, &s->hi, &size);
+    const struct real8 slack = r8_mul(size, r8_set(GAMMA(8)));
+    const struct real8 lo = r8_sub(s->lo, slack), hi = r8_add(s->hi, slack);
+    const struct mask8 good = r8_le(lo, hi);
+    s->lo = r8_select(good, lo, r8_set(-INFINITY));
+    s->hi = r8_select(good, hi, r8_set(INFINITY));
+}
+
+// What neither signs nor the cell's slopes decide: by bounds over what the slopes leave.
+static void look_closer(struct walk8 *w, unsigned lanes, unsigned changes,
+                        struct stretch8 *s)
+{
+    const struct real8 zero = r8_set(0), margin = r8_set(0.999);
+    const struct mask8 above = r8_lt(zero, s->fa), beyond = r8_lt(zero, s->fb);
+    const struct real8 from =
+        r8_div(r8_abs(s->fa), r8_select(above, r8_neg(s->lo), s->hi));
+    const struct real8 to =
+        r8_div(r8_abs(s->fb), r8_select(beyond, s->hi, r8_neg(s->lo)));
+    struct real8 a = r8_add(s->a, r8_mul(margin, from));
+    struct real8 b = r8_sub(s->b, r8_mul(margin, to));
+    const struct mask8 good = m8_and(m8_and(r8_le(s->a, a), r8_le(b, s->b)), r8_lt(a, b));
+    a = r8_select(good, a, s->a);
+    b = r8_select(good, b, s->b);
+    struct tape_boxes box;
+    stretch_box(w->o, w->d, a, b, zero, lanes, &box);
+    const struct over8 v = over(w, &box, (const double(*)[8])w->dirs, lanes);
+    lanes &= ~m8_bits(m8_or(r8_lt(zero, v.lo), r8_lt(v.hi, zero)));
+    const struct real8 slope =
+        least_size(r8_max(s->lo, v.slope_lo), r8_min(s->hi, v.slope_hi));
+    const unsigned one = lanes & m8_bits(r8_lt(zero, slope));
+    bracket(w, one & changes, s->a, s->fa, s->b, s->fb, slope);
+    lanes &= ~one;
+    if (!lanes)
+        return;
+    double v8[6][8];
+    r8_store(v8[0], s->a);
+    r8_store(v8[1], s->fa);
+    r8_store(v8[2], s->b);
+    r8_store(v8[3], s->fb);
+    r8_store(v8[4], s->lo);
+    r8_store(v8[5], s->hi);
+    for (; lanes; lanes &= lanes - 1) {
+        const int l = __builtin_ctz(lanes);
+        const struct piece p = {v8[0][l], v8[1][l], v8[2][l],
+                                v8[3][l], v8[4][l], v8[5][l]};
+        isolate(w, l, &p);
+    }
+}
+
+// Lanes whose state is not known yet begin so.
+LANES_INLINE void begin(struct walk8 *w, unsigned lanes, unsigned inside)
+{
+    lanes &= ~w->started;
+    w->started |= lanes;
+    w->inside |= lanes & inside;
+    if (!w->s->open) {
+        const unsigned face = lanes & inside & ~w->late;
+        w->face |= face;
+        w->alive &= ~face;
+    }
+}
+
+// Lanes whose state is other than was followed so far: a root was lost in rounding.
+LANES_INLINE void check(struct walk8 *w, unsigned lanes, unsigned inside)
+{
+    const unsigned odd = lanes & w->alive & (w->inside ^ inside);
+    w->odd |= odd;
+    w->alive &= ~odd;
+}
+
+static void leaf(struct walk8 *w, const struct iso_cell *c, unsigned lanes,
+                 struct real8 a, struct real8 b)
+{
+    const unsigned fresh = lanes & ~m8_bits(r8_eq(a, w->last_t));
+    struct stretch8 s = {.a = a, .b = b, .fa = w->last_f};
+    if (fresh)
+        s.fa = r8_select(m8_of(fresh), value(w, a, fresh), s.fa);
+    const unsigned in = not_positive(s.fa);
+    begin(w, lanes, in);
+    check(w, lanes, in);
+    lanes &= w->alive;
+    if (!lanes)
+        return;
+    s.fb = value(w, b, lanes);
+    const struct mask8 here = m8_of(lanes);
+    w->last_t = r8_select(here, b, w->last_t);
+    w->last_f = r8_select(here, s.fb, w->last_f);
+    const unsigned changes = lanes & (in ^ not_positive(s.fb));
+    slope_in(w, c, &s);
+    const struct real8 slope = least_size(s.lo, s.hi);
+    const unsigned monotone = lanes & m8_bits(r8_lt(r8_set(0), slope));
+    if (monotone & changes)
+        bracket(w, monotone & changes, s.a, s.fa, s.b, s.fb, slope);
+    lanes &= ~monotone;
+    if (lanes)
+        lanes &= changes | ~m8_bits(excluded(s.a, s.fa, s.b, s.fb, s.lo, s.hi));
+    if (lanes)
+        look_closer(w, lanes, changes, &s);
+}
+
+// ---- cells ----------------------------------------------------------------------------------
+
+static void visit_children(struct walk8 *w, struct iso_cell *c, const struct aabb *box,
+                           int depth, unsigned lanes, struct real8 a, struct real8 b)
+{
+    uint32_t made = 0;
+    struct iso_cell *child = iso_children(w->s, c, box, depth, &made);
+    w->evaluations += made;
+    const struct vec3 m = vec3_scale(0.5, vec3_add(box->min, box->max));
+    const struct real8 x = r8_mul(r8_sub(r8_set(m.x), w->o.x), w->inverse.x);
+    const struct real8 y = r8_mul(r8_sub(r8_set(m.y), w->o.y), w->inverse.y);
+    const struct real8 z = r8_mul(r8_sub(r8_set(m.z), w->o.z), w->inverse.z);
+    for (unsigned k = 0; k < 8; k++) {
+        struct iso_cell *at = &child[k ^ w->mirror];
+        if (at->kind == CELL_OUTSIDE)
+            continue;
+        struct real8 from = k & 1 ? r8_max(x, a) : a, to = k & 1 ? b : r8_min(x, b);
+        from = k & 2 ? r8_max(y, from) : from;
+        to = k & 2 ? to : r8_min(y, to);
+        from = k & 4 ? r8_max(z, from) : from;
+        to = k & 4 ? to : r8_min(z, to);
+        const unsigned bits =
+            lanes & w->alive & m8_bits(m8_and(r8_lt(from, to), r8_le(from, w->limit)));
+        if (!bits)
+            continue;
+        if (at->kind == CELL_LEAF) {
+            leaf(w, at, bits, from, to);
+        } else if (at->kind == CELL_INSIDE) {
+            begin(w, bits, bits);
+            check(w, bits, bits);
+        } else {
+            const struct aabb part = iso_child_box(box, &m, (int)(k ^ w->mirror));
+            visit_children(w, at, &part, depth + 1, bits, from, to);
+        }
+    }
+}
+
+// ---- the container ----------------------------------------------------------------------
+
+LANES_INLINE void slab(struct real8 o, struct real8 d, double min, double max,
+                       struct real8 *enter, struct real8 *leave)
+{
+    const struct real8 inverse = r8_div(r8_set(1), d);
+    const struct real8 p = r8_mul(r8_sub(r8_set(min), o), inverse);
+    const struct real8 q = r8_mul(r8_sub(r8_set(max), o), inverse);
+    const struct mask8 back = r8_lt(d, r8_set(0));
+    // NaN, of a ray in a face, changes nothing.
+    *enter = r8_max(r8_select(back, q, p), *enter);
+    *leave = r8_min(r8_select(back, p, q), *leave);
+}
+
+// Where the rays, their origins nearest to the middle, are in the container.
+static void contain(const struct walk8 *w, struct real8 *enter, struct real8 *leave)
+{
+    const struct container *c = &w->s->container;
+    if (c->ops == &box_ops) {
+        const struct box *b = &c->shape.box;
+        *enter = r8_set(-INFINITY);
+        *leave = r8_set(INFINITY);
+        slab(w->o.x, w->d.x, b->min.x, b->max.x, enter, leave);
+        slab(w->o.y, w->d.y, b->min.y, b->max.y, enter, leave);
+        slab(w->o.z, w->d.z, b->min.z, b->max.z, enter, leave);
+        return;
+    }
+    const struct sphere *s = &c->shape.sphere;
+    const struct vec8 oc = v8_sub(w->o, V8_SET(s->centre));
+    const struct real8 dd = v8_dot(w->d, w->d), at = r8_div(v8_dot(w->d, oc), dd);
+    const struct vec8 near = v8_mad(oc, r8_neg(at), w->d);
+    const struct real8 rest = r8_sub(r8_set(s->radius * s->radius), v8_dot(near, near));
+    const struct real8 reach = r8_sqrt(r8_div(r8_max(rest, r8_set(0)), dd));
+    *enter = r8_sub(r8_neg(at), reach);
+    *leave = r8_sub(reach, at);
+}
+
+// The container's crossing that a lane enters or leaves by.
+static unsigned face_of(const struct walk8 *w, const struct shape_rays *rays, int lane,
+                        bool leaves, struct shape_hits *out)
+{
+    struct boundary room[8];
+    struct boundary_list list = {.at = room, .capacity = 8};
+    const struct ray ray = {
+        .o = vec3(rays->o[0][lane], rays->o[1][lane], rays->o[2][lane]),
+        .d = vec3(rays->d[0][lane], rays->d[1][lane], rays->d[2][lane]),
+        .t_min = rays->t_min[lane],
+        .t_max = rays->t_max[lane]};
+    w->s->container.ops->intersect(&w->s->container.shape, &ray, &list);
+    if (list.count != 2)
+        return 0;
+    const struct boundary *b = &list.at[leaves];
+    out->t[lane] = b->t;
+    out->dt[lane] = b->dt;
+    out->u[lane] = b->u;
+    out->v[lane] = b->v;
+    out->part[lane] = ISO_CONTAINER + b->part;
+    out->crossing[lane] = b->crossing;
+    return b->t > ray.t_min && b->t <= ray.t_max ? 1u << lane : 0;
+}
+
+// ---- roots --------------------------------------------------------------------------------
+
+struct roots8 {
+    struct real8 t, a, b; // the root is between a and b
+};
+
+// Chandrupatla's method (1997) in all lanes, from the secant's first guess.
+static struct roots8 refine(struct walk8 *w, unsigned lanes)
+{
+    struct real8 x1 = r8_load(w->a), f1 = r8_load(w->fa), x0 = r8_load(w->b),
+                 f0 = r8_load(w->fb);
+    struct real8 u = r8_div(f0, r8_sub(f0, f1)), x2, f2;
+    struct roots8 r = {x0, r8_min(x0, x1), r8_max(x0, x1)};
+    u = r8_max(r8_min(u, r8_set(63. / 64)), r8_set(1. / 64));
+    const struct real8 zero = r8_set(0), one = r8_set(1), half = r8_set(0.5);
+    for (int i = 0; i < ISO_REFINE_MAX && lanes; i++) {
+        const struct real8 x = r8_add(x0, r8_mul(u, r8_sub(x1, x0)));
+        const struct real8 f = value(w, x, lanes);
+        const unsigned in = not_positive(f);
+        const struct mask8 same = m8_of(~(in ^ not_positive(f0)) & 255);
+        x2 = r8_select(same, x0, x1);
+        f2 = r8_select(same, f0, f1);
+        x1 = r8_select(same, x1, x0);
+        f1 = r8_select(same, f1, f0);
+        x0 = x;
+        f0 = f;
+        const struct real8 best = r8_select(r8_lt(r8_abs(f1), r8_abs(f0)), x1, x0);
+        const struct real8 near = r8_add(r8_mul(r8_set(2 * ROUNDOFF), r8_abs(best)),
+                                         r8_mul(r8_set(0x1p-56), w->chord));
+        const struct real8 left = r8_div(near, r8_abs(r8_sub(x1, x0)));
+        const struct mask8 exact = r8_eq(f0, zero), here = m8_of(lanes);
+        r.t = r8_select(here, r8_select(exact, x0, best), r.t);
+        r.a = r8_select(here, r8_select(exact, x0, r8_min(x0, x1)), r.a);
+        r.b = r8_select(here, r8_select(exact, x0, r8_max(x0, x1)), r.b);
+        lanes &= ~m8_bits(m8_or(m8_or(exact, r8_eq(f1, zero)), r8_lt(half, left)));
+        const struct real8 xi = r8_div(r8_sub(x0, x1), r8_sub(x2, x1));
+        const struct real8 phi = r8_div(r8_sub(f0, f1), r8_sub(f2, f1));
+        const struct real8 p = r8_sub(one, phi);
+        const struct mask8 quadratic =
+            m8_and(r8_lt(r8_mul(phi, phi), xi), r8_lt(r8_mul(p, p), r8_sub(one, xi)));
+        const struct real8 by_f1 =
+            r8_mul(r8_div(f0, r8_sub(f1, f0)), r8_div(f2, r8_sub(f1, f2)));
+        const struct real8 by_x =
+            r8_mul(r8_div(r8_sub(x2, x0), r8_sub(x1, x0)), r8_div(f0, r8_sub(f2, f0)));
+        const struct real8 by_f2 = r8_mul(by_x, r8_div(f1, r8_sub(f2, f1)));
+        u = r8_select(quadratic, r8_add(by_f1, by_f2), half);
+        u = r8_max(r8_min(u, r8_sub(one, left)), left);
+    }
+    return r;
+}
+
+// The largest |f| at points of the rays, with the rounding of their origins' place.
+static struct real8 size_at(struct walk8 *w, const struct shape_rays *rays,
+                            struct real8 t, unsigned lanes)
+{
+    const struct vec8 o = {r8_load(rays->o[0]), r8_load(rays->o[1]), r8_load(rays->o[2])};
+    const struct real8 slack =
+        r8_mul(r8_set(GAMMA(6)),
+               r8_add(v8_max_abs(o), r8_mul(r8_abs(w->shift), v8_max_abs(w->d))));
+    struct tape_boxes box;
+    struct tape_slopes r;
+    stretch_box(w->o, w->d, t, t, slack, lanes, &box);
+    TAPE.bounds(w->s->f, &box, false, &r);
+    w->evaluations += (unsigned)__builtin_popcount(lanes);
+    const struct real8 at = r8_set(w->s->threshold), e = r8_set(1 + INTERVAL_ROUNDING);
+    return r8_mul(
+        e, r8_max(r8_abs(r8_sub(r8_load(r.lo), at)), r8_abs(r8_sub(r8_load(r.hi), at))));
+}
+
+// As error_of of isosurface_walk.c.
+static struct real8 error_of(struct walk8 *w, const struct shape_rays *rays,
+                             const struct roots8 *root, unsigned lanes)
+{
+    const struct real8 t = root->t;
+    struct real8 r =
+        r8_add(r8_sub(root->b, root->a), r8_mul(r8_set(8 * ROUNDOFF), r8_abs(t)));
+    const struct real8 f = size_at(w, rays, t, lanes);
+    const struct real8 first = r8_add(r, r8_div(f, r8_load(w->slope)));
+    const struct mask8 good = r8_lt(first, r8_mul(r8_set(ISO_ERROR_GOOD), w->chord));
+    r = r8_select(good, first, r);
+    lanes &= ~m8_bits(good);
+    for (int i = 0; i < ISO_ERROR_TRIES && lanes; i++) {
+        struct tape_boxes box;
+        stretch_box(w->o, w->d, r8_sub(t, r), r8_add(t, r), r8_set(0), lanes, &box);
+        const struct over8 v = over(w, &box, (const double(*)[8])w->dirs, lanes);
+        const struct real8 slope = least_size(v.slope_lo, v.slope_hi);
+        const struct real8 reach = r8_div(f, slope);
+        const struct mask8 sloped = r8_lt(r8_set(0), slope);
+        lanes &= ~m8_bits(m8_and(sloped, r8_le(reach, r)));
+        const struct real8 next =
+            r8_select(sloped, r8_add(reach, reach), r8_mul(r8_set(16), r));
+        r = r8_select(m8_of(lanes), next, r);
+    }
+    return r;
+}
+
+static unsigned settle_roots(struct walk8 *w, const struct shape_rays *rays,
+                             unsigned lanes, struct shape_hits *out)
+{
+    const struct roots8 root = refine(w, lanes);
+    const struct real8 t = r8_add(root.t, w->shift);
+    const struct real8 dt =
+        r8_add(error_of(w, rays, &root, lanes),
+               r8_mul(r8_set(GAMMA(4)), r8_add(r8_abs(w->shift), r8_abs(root.t))));
+    const struct mask8 m = m8_of(lanes);
+    keep(out->t, m, t);
+    keep(out->dt, m, dt);
+    const unsigned before = lanes & m8_bits(r8_le(t, r8_load(rays->t_min)));
+    w->odd |= before;
+    return lanes & ~before & m8_bits(r8_le(t, r8_load(rays->t_max)));
+}
+
+// Brackets that lie in the wanted range tell enough.
+static unsigned settle_any(const struct walk8 *w, const struct shape_rays *rays,
+                           struct shape_hits *out)
+{
+    const struct real8 a = r8_add(r8_load(w->a), w->shift);
+    const struct real8 b = r8_add(r8_load(w->b), w->shift);
+    const unsigned in = w->found & m8_bits(m8_and(r8_lt(r8_load(rays->t_min), a),
+                                                  r8_lt(b, r8_load(rays->t_max))));
+    keep(out->t, m8_of(in), b);
+    keep(out->dt, m8_of(in), r8_sub(b, a));
+    return in;
+}
+
+static unsigned walk_1(const struct isosurface *s, const struct shape_rays *rays, int l,
+                       struct shape_hits *out)
+{
+    const struct ray ray = {.o = vec3(rays->o[0][l], rays->o[1][l], rays->o[2][l]),
+                            .d = vec3(rays->d[0][l], rays->d[1][l], rays->d[2][l]),
+                            .t_min = rays->t_min[l],
+                            .t_max = rays->t_max[l]};
+    struct boundary_list list = {.first_only = true};
+    unsigned found = 0;
+    iso_walk(s, &ray, &list);
+    for (uint32_t i = 0; i < list.count && !found; i++) {
+        const struct boundary *b = &list.at[i];
+        if (!b->drawn || !(b->t > ray.t_min && b->t <= ray.t_max))
+            continue;
+        out->t[l] = b->t;
+        out->dt[l] = b->dt;
+        out->u[l] = b->u;
+        out->v[l] = b->v;
+        out->part[l] = b->part;
+        out->crossing[l] = b->crossing;
+        found = 1u << l;
+    }
+    out->evaluations += list.evaluations;
+    boundary_list_free(&list);
+    return found;
+}
+
+// ---- eight rays -----------------------------------------------------------------------------
+
+LANES_INLINE struct real8 steep(struct real8 d)
+{
+    const struct real8 most = r8_set(STEEPEST), least = r8_set(-STEEPEST);
+    const struct real8 v = r8_max(r8_min(r8_div(r8_set(1), d), most), least);
+    return r8_select(r8_eq(d, r8_set(0)), most, v);
+}
+
+// Rays whose directions have the same signs, together.
+static void walk_all(struct walk8 *w, struct real8 a, struct real8 b)
+{
+    const struct real8 zero = r8_set(0);
+    const unsigned x = m8_bits(r8_lt(w->d.x, zero)), y = m8_bits(r8_lt(w->d.y, zero));
+    const unsigned z = m8_bits(r8_lt(w->d.z, zero));
+    for (unsigned left = w->alive; left;) {
+        const int l = __builtin_ctz(left);
+        unsigned same = left;
+        same &= x >> l & 1 ? x : ~x;
+        same &= y >> l & 1 ? y : ~y;
+        same &= z >> l & 1 ? z : ~z;
+        w->mirror = (x >> l & 1) | (y >> l & 1) << 1 | (z >> l & 1) << 2;
+        visit_children(w, w->s->root, &w->s->bounds, 0, same, a, b);
+        left &= ~same;
+    }
+}
+
+static void set_up(struct walk8 *w, const struct isosurface *s,
+                   const struct shape_rays *rays)
+{
+    const struct vec3 middle = vec3_scale(0.5, vec3_add(s->bounds.min, s->bounds.max));
+    const struct vec8 o = {r8_load(rays->o[0]), r8_load(rays->o[1]), r8_load(rays->o[2])};
+    w->s = s;
+    w->d = (struct vec8){r8_load(rays->d[0]), r8_load(rays->d[1]), r8_load(rays->d[2])};
+    w->shift = r8_div(v8_dot(v8_sub(V8_SET(middle), o), w->d), v8_dot(w->d, w->d));
+    w->o = v8_mad(o, w->shift, w->d);
+    w->inverse = (struct vec8){steep(w->d.x), steep(w->d.y), steep(w->d.z)};
+    w->limit = r8_sub(r8_load(rays->t_max), w->shift);
+    w->last_t = r8_set(NAN);
+    w->last_f = r8_set(0);
+    r8_store(w->dirs[0], w->d.x);
+    r8_store(w->dirs[1], w->d.y);
+    r8_store(w->dirs[2], w->d.z);
+    w->started = w->inside = w->face = w->found = w->odd = 0;
+    w->evaluations = 0;
+    for (int l = 0; l < 8; l++) {
+        w->spent[l] = 0;
+        w->a[l] = w->fa[l] = w->b[l] = w->fb[l] = w->slope[l] = 0;
+    }
+}
+
+static unsigned faces(const struct walk8 *w, const struct shape_rays *rays,
+                      struct shape_hits *out)
+{
+    unsigned hit = 0;
+    for (unsigned m = w->face; m; m &= m - 1)
+        hit |= face_of(w, rays, __builtin_ctz(m), false, out);
+    // Inside to the end.
+    for (unsigned m = w->s->open ? 0 : w->alive & w->inside; m; m &= m - 1)
+        hit |= face_of(w, rays, __builtin_ctz(m), true, out);
+    return hit;
+}
+
+static unsigned closest(const struct isosurface *s, const struct shape_rays *rays,
+                        unsigned lanes, bool any, struct shape_hits *out)
+{
+    struct walk8 w;
+    struct real8 enter, leave;
+    set_up(&w, s, rays);
+    contain(&w, &enter, &leave);
+    const struct real8 t_min = r8_sub(r8_load(rays->t_min), w.shift);
+    w.chord = r8_sub(leave, enter);
+    w.late = m8_bits(r8_lt(enter, t_min));
+    const struct real8 from = r8_max(t_min, enter);
+    w.alive = lanes & m8_bits(m8_and(m8_and(r8_lt(enter, leave), r8_lt(from, leave)),
+                                     r8_le(from, w.limit)));
+    if (!w.alive)
+        return 0;
+    walk_all(&w, from, leave);
+    for (unsigned m = w.found; m; m &= m - 1) {
+        const int l = __builtin_ctz(m);
+        out->part[l] = ISO_SURFACE;
+        out->crossing[l] = w.inside >> l & 1 ? CROSS_EXIT : CROSS_ENTER;
+        out->u[l] = out->v[l] = 0;
+    }
+    unsigned hit = faces(&w, rays, out);
+    if (any && getenv("DBG"))
+        for (int q = 0; q < 8; q++)
+            fprintf(stderr, "lane %d found %d a %g b %g fa %g fb %g\n", q,
+                    w.found >> q & 1, w.a[q], w.b[q], w.fa[q], w.fb[q]);
+    const unsigned told = any ? settle_any(&w, rays, out) : 0;
+    if (w.found & ~told)
+        hit |= settle_roots(&w, rays, w.found & ~told, out);
+    out->evaluations += w.evaluations;
+    for (unsigned m = w.odd; m; m &= m - 1)
+        hit |= walk_1(s, rays, __builtin_ctz(m), out);
+    return hit | told;
+}
+
+unsigned PASTE(iso_closest8_, ISA)(const struct isosurface *s,
+                                   const struct shape_rays *rays, unsigned lanes,
+                                   bool any, struct shape_hits *out)
+{
+    return closest(s, rays, lanes, any, out);
+}

@@ -1,0 +1,181 @@
+// Shapes that take eight rays at once against their own crossings of one line, and the
+// instruction sets against each other.
+#include "test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "loaded.h"
+#include "scene/shape_kernels.h"
+#include "trace/packet.h"
+
+static const char *const shapes[] = {
+    "isosurface { function { x*x + y*y + z*z - 0.81 } }",
+    "isosurface { function { sqrt(pow(sqrt(x*x + z*z) - 0.7, 2) + y*y) - 0.2 } }",
+    "isosurface { function { sin(9*x)*cos(9*y) + sin(9*y)*cos(9*z) + sin(9*z)*cos(9*x) } "
+    "}",
+    "isosurface { function { sin(6*x)*cos(6*y) + sin(6*y)*cos(6*z) + sin(6*z)*cos(6*x) } "
+    "contained_by { sphere { 0, 1.3 } } }",
+    "isosurface { function { y - 0.25*sin(4*x) } open }",
+    "isosurface { function { sqrt(x*x + y*y + z*z) - 0.7 + 0.1*sin(12*atan2(x, z)) } }",
+    "#declare N = function { internal(76) } isosurface { function { sqrt(x*x + y*y + "
+    "z*z) - "
+    "0.8 + 0.4*N(4*x, 4*y, 4*z) } }",
+    "#declare H = function { internal(25) } isosurface { function { H(x, y, z, 2, 8, "
+    "0.15, "
+    "0.5, 1, 1, 0) } }",
+    "isosurface { function { max(abs(x) - 0.5, abs(y) - 0.6, abs(z) - 0.7) } }",
+    "isosurface { function { abs(sqrt(x*x + y*y + z*z) - 0.8) - 0.5e-5 } }",
+    "isosurface { function { floor(3*x) + 3*y } }",
+    "isosurface { function { y - sqrt(x) } }",
+    "isosurface { function { exp(-4*(x*x + y*y + z*z)) + 0.3*cos(20*x) - 0.5 } threshold "
+    ".1 "
+    "}",
+    "isosurface { function { sum(k, 1, 4, sin(k*5*x)/k) + 2*y } contained_by { sphere { "
+    "0, 1 "
+    "} } }",
+};
+
+enum { SHAPES = sizeof shapes / sizeof *shapes, PACKETS = 400 };
+
+static double unit(uint64_t *s)
+{
+    *s = *s * 6364136223846793005u + 1442695040888963407u;
+    return ((double)(*s >> 33) + .5) / 2147483648.;
+}
+
+// Side by side or in all directions, from outside or inside, some along an axis, some
+// through the middle.
+static void random_rays(uint64_t *s, struct shape_rays *r)
+{
+    double p[3], d[3];
+    const bool together = unit(s) < .6, inside = unit(s) < .3, axis = unit(s) < .15;
+    const int along = (int)(3 * unit(s));
+    for (int l = 0; l < 8; l++) {
+        for (int k = 0; k < 3; k++)
+            if (l == 0 || !together) {
+                p[k] = unit(s) < .05 ? 0 : 2 * unit(s) - 1;
+                d[k] = axis ? k == along : 2 * unit(s) - 1;
+            } else {
+                p[k] += .02 * unit(s);
+                d[k] += axis ? 0 : .02 * unit(s);
+            }
+        for (int k = 0; k < 3; k++) {
+            r->o[k][l] = p[k] - (inside ? 0 : 3 * d[k]);
+            r->d[k][l] = d[k];
+        }
+        r->t_min[l] = unit(s) < .5 ? 0 : 3 * unit(s);
+        r->t_max[l] = unit(s) < .5 ? HUGE_VAL : r->t_min[l] + 3 * unit(s);
+    }
+}
+
+static struct ray lane(const struct shape_rays *r, int l)
+{
+    return (struct ray){vec3(r->o[0][l], r->o[1][l], r->o[2][l]),
+                        vec3(r->d[0][l], r->d[1][l], r->d[2][l]), r->t_min[l],
+                        r->t_max[l]};
+}
+
+// What the lane may have met: a crossing as near as the first that is wanted, unless that
+// or what comes before is a graze or at the very ends of the range.
+static bool is_right(const struct boundary_list *all, const struct ray *r, bool met,
+                     double t, double dt, unsigned crossing, uint32_t part, bool any)
+{
+    const double close = 1e-7;
+    for (uint32_t i = 0; i < all->count; i++) {
+        const struct boundary *b = &all->at[i];
+        const bool unsure = (i + 1 < all->count && all->at[i + 1].t - b->t < close) ||
+                            (i > 0 && b->t - all->at[i - 1].t < close) ||
+                            fabs(b->t - r->t_min) < close ||
+                            fabs(b->t - r->t_max) < close;
+        const bool wanted = b->drawn && b->t > r->t_min && b->t < r->t_max;
+        // Where the surface leaves the container either may be told.
+        const bool same = met && crossing == b->crossing &&
+                          fabs(t - b->t) <= dt + b->dt &&
+                          (part == b->part || (part == 0) != (b->part == 0));
+        if (same || (any && met && wanted))
+            return true;
+        if (wanted && !unsure)
+            return false;
+    }
+    if (!met)
+        return true;
+    // A graze that the one line did not report.
+    for (uint32_t i = 0; i < all->count; i++)
+        if (fabs(t - all->at[i].t) < close)
+            return true;
+    return false;
+}
+
+static void look(const struct loaded *l, const char *text, bool any)
+{
+    static const struct shape_kernels *kernels[3] = {&shape_kernels_base};
+    const struct leaf *leaf = &l->world->leaf[0];
+    const struct packet_kernels *best = packet_kernels_choose();
+    kernels[1] = kernels[2] = best->shapes;
+    struct boundary_list all = {0};
+    uint64_t s = 3 + (uint64_t)any;
+    int hits = 0;
+    for (int n = 0; n < PACKETS; n++) {
+        struct shape_rays rays;
+        struct shape_hits first, other, alone;
+        random_rays(&s, &rays);
+        memset(&first, 0, sizeof first);
+        memset(&other, 0, sizeof other);
+        memset(&alone, 0, sizeof alone);
+        const unsigned met =
+            leaf->ops->closest8(kernels[0], leaf->shape, &rays, 255, any, &first);
+        assert_int_equal(
+            met, leaf->ops->closest8(kernels[1], leaf->shape, &rays, 255, any, &other));
+        unsigned one_by_one = 0;
+        for (int i = 0; i < 8; i++)
+            one_by_one |=
+                leaf->ops->closest8(kernels[1], leaf->shape, &rays, 1u << i, any, &alone);
+        assert_int_equal(met, one_by_one);
+        for (int i = 0; i < 8; i++) {
+            const struct ray r = lane(&rays, i);
+            const bool in = met >> i & 1;
+            all.count = 0;
+            leaf->ops->intersect(leaf->shape, &r, &all);
+            if (!is_right(&all, &r, in, first.t[i], first.dt[i], first.crossing[i],
+                          first.part[i], any))
+                fail_msg(
+                    "%s: packet %d lane %d any %d: %d at %.17g +- %g, %u crossings from "
+                    "%.17g in %.17g .. %.17g",
+                    text, n, i, any, in, first.t[i], first.dt[i], all.count,
+                    all.count ? all.at[0].t : 0, r.t_min, r.t_max);
+            if (!in)
+                continue;
+            hits++;
+            assert_memory_equal(&first.t[i], &other.t[i], sizeof *first.t);
+            assert_memory_equal(&first.dt[i], &other.dt[i], sizeof *first.dt);
+            assert_memory_equal(&first.t[i], &alone.t[i], sizeof *first.t);
+            assert_memory_equal(&first.dt[i], &alone.dt[i], sizeof *first.dt);
+            assert_int_equal(first.part[i], other.part[i]);
+            assert_int_equal(first.crossing[i], other.crossing[i]);
+        }
+    }
+    assert_true(hits > PACKETS);
+    boundary_list_free(&all);
+}
+
+static void eight_rays_meet_what_one_line_does(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SHAPES; i++)
+        for (int any = 0; any < 2; any++) {
+            struct loaded l;
+            load(&l, "%s", shapes[i]);
+            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            look(&l, shapes[i], any != 0);
+            unload(&l);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eight_rays_meet_what_one_line_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
