@@ -4,8 +4,12 @@
 // value.
 
 #include "eval/internal.h"
+
+#include <string.h>
+
 #include "math/elementary.h"
 #include "scene/noise.h"
+#include "scene/noise_kernel.h"
 
 enum {
     OCTAVES_MAX = 1000,  // more change nothing that fits a double
@@ -53,11 +57,47 @@ static void noise3d_bounds(const void *data, const struct interval *in,
     plain_bounds(default_generator(data), in, out, partial);
 }
 
+static void noise3d_8(const struct noise_kernels *kernels, const void *data,
+                      const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
+{
+    kernels->value(in, 1, default_generator(data), *out);
+}
+
+static void plain_bounds8(const struct noise_kernels *kernels, int generator,
+                          const struct tape_range8 *in, struct tape_range8 *out,
+                          struct tape_range8 *partial)
+{
+    double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
+    struct noise_bounds8 b;
+    for (int i = 0; i < 3; i++) {
+        memcpy(lo[i], in[i].lo, sizeof *lo);
+        memcpy(hi[i], in[i].hi, sizeof *hi);
+    }
+    kernels->bounds((const double(*)[TAPE_LANES])lo, (const double(*)[TAPE_LANES])hi,
+                    generator, &b);
+    memcpy(out->lo, b.lo, sizeof b.lo);
+    memcpy(out->hi, b.hi, sizeof b.hi);
+    for (int i = 0; i < 3; i++) {
+        memcpy(partial[i].lo, b.slope_lo[i], sizeof *b.slope_lo);
+        memcpy(partial[i].hi, b.slope_hi[i], sizeof *b.slope_hi);
+    }
+}
+
+static bool noise3d_bounds8(const struct noise_kernels *kernels, const void *data,
+                            const struct tape_range8 *in, struct tape_range8 *out,
+                            struct tape_range8 *partial)
+{
+    plain_bounds8(kernels, default_generator(data), in, out, partial);
+    return true;
+}
+
 const struct tape_extern internal_noise3d = {.name = "noise3d",
                                              .arguments = 3,
                                              .width = 1,
                                              .value = noise3d,
-                                             .bounds = noise3d_bounds};
+                                             .values = noise3d_8,
+                                             .bounds = noise3d_bounds,
+                                             .bounds8 = noise3d_bounds8};
 
 static void noise_generator(const void *data, const double *in, double *out)
 {
@@ -80,11 +120,49 @@ static void noise_generator_bounds(const void *data, const struct interval *in,
         partial[i] = interval_whole();
 }
 
+// Whether all lanes have one value.
+static bool is_one(const double *v)
+{
+    for (int l = 1; l < TAPE_LANES; l++)
+        if (v[l] != v[0])
+            return false;
+    return true;
+}
+
+static void noise_generator8(const struct noise_kernels *kernels, const void *data,
+                             const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
+{
+    (void)data;
+    if (is_one(in[3])) {
+        kernels->value(in, 1, generator_of(in[3][0]), *out);
+        return;
+    }
+    for (int l = 0; l < TAPE_LANES; l++)
+        out[0][l] = noise_in(vec3(in[0][l], in[1][l], in[2][l]), in[3][l]);
+}
+
+static bool noise_generator_bounds8(const struct noise_kernels *kernels, const void *data,
+                                    const struct tape_range8 *in, struct tape_range8 *out,
+                                    struct tape_range8 *partial)
+{
+    (void)data;
+    if (!is_one(in[3].lo) || !is_one(in[3].hi) || in[3].lo[0] != in[3].hi[0])
+        return false;
+    plain_bounds8(kernels, generator_of(in[3].lo[0]), in, out, partial);
+    for (int l = 0; l < TAPE_LANES; l++) {
+        partial[3].lo[l] = -INFINITY;
+        partial[3].hi[l] = INFINITY;
+    }
+    return true;
+}
+
 const struct tape_extern internal_noise_generator = {.name = "noise_generator",
                                                      .arguments = 4,
                                                      .width = 1,
                                                      .value = noise_generator,
-                                                     .bounds = noise_generator_bounds};
+                                                     .values = noise_generator8,
+                                                     .bounds = noise_generator_bounds,
+                                                     .bounds8 = noise_generator_bounds8};
 
 // ---- steps --------------------------------------------------------------------------
 

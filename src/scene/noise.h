@@ -13,8 +13,14 @@ enum noise_generator { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERL
 // What noise_value and noise_turbulence make of a generator that is out of range: 1.
 double noise_value(struct vec3 p, int generator);
 struct vec3 noise_vector(struct vec3 p);
-// Bounds of noise_value and of its partial derivatives over a box.
+// A few dozen roundings of numbers below four. Slopes also differ where coordinates within
+// 1e-10 below a whole number belong to the cell above, and where generator 3 adds 1e7 to
+// them before they are split.
+#define NOISE_VALUE_SLACK 1e-13
+#define NOISE_SLOPE_SLACK 1e-6
 
+// Bounds of noise_value and of its partial derivatives over a box, with these slacks for
+// roundings.
 void noise_bounds(const struct interval box[3], int generator, struct interval *v,
                   struct interval slope[3]);
 double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,

@@ -14,11 +14,6 @@ enum { CELLS_MAX = 8 };
 // one, so a corner's function is at most 3.5 in its cell and two differ by 7; the smooth
 // step rises by at most 1.5, and a corner's own slope adds one.
 #define SLOPE_MAX 12.0
-// A few dozen roundings of numbers below four. Slopes also differ where coordinates within
-// 1e-10 below a whole number belong to the cell above, and where generator 3 adds 1e7 to
-// them before they are split.
-#define VALUE_SLACK 1e-13
-#define SLOPE_SLACK 1e-6
 
 struct corners {
     double k[2][2][2], slope[2][2][2][3];
@@ -226,11 +221,11 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
     const double add = gradient                             ? 0.4925
                        : generator == NOISE_RANGE_CORRECTED ? 1.05242 * 0.48985582
                                                             : 0.5;
-    *v = interval(v->lo * scale + add - VALUE_SLACK, v->hi * scale + add + VALUE_SLACK);
+    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK, v->hi * scale + add + NOISE_VALUE_SLACK);
     const bool cut = v->lo < 0 || v->hi > 1;
     for (int k = 0; k < 3; k++) {
-        slope[k] = interval(slope[k].lo * scale - SLOPE_SLACK,
-                            slope[k].hi * scale + SLOPE_SLACK);
+        slope[k] = interval(slope[k].lo * scale - NOISE_SLOPE_SLACK,
+                            slope[k].hi * scale + NOISE_SLOPE_SLACK);
         if (cut)
             slope[k] = interval_hull(slope[k], interval_point(0));
     }

@@ -342,4 +342,5 @@ static void nearest(const double p[3][8], const double cell[3], unsigned lanes,
 }
 
 const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA), value,   vector,
-                                                         values,    vectors, nearest};
+                                                         values,    vectors, nearest,
+                                                         PASTE(noise_bounds_, ISA)};

@@ -15,6 +15,14 @@ struct noise_octaves {
     } kind;
 };
 
+// Bounds over eight boxes lo..hi, as noise_bounds but for roundings.
+struct noise_bounds8 {
+    double lo[8], hi[8], slope_lo[3][8], slope_hi[3][8];
+};
+typedef void noise_bounds_kernel(const double lo[3][8], const double hi[3][8],
+                                 int generator, struct noise_bounds8 *out);
+noise_bounds_kernel noise_bounds_base, noise_bounds_avx2, noise_bounds_avx512;
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -30,6 +38,7 @@ struct noise_kernels {
     // (scene/patterns/cellular.h). Those after the first `count` may be too large.
     void (*nearest)(const double p[3][8], const double cell[3], unsigned lanes,
                     int metric, int count, double sum[3][8]);
+    noise_bounds_kernel *bounds;
 };
 
 extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,

@@ -69,6 +69,11 @@ double tape_at(const void *tape, struct vec3 p); // of x, y, z; as pattern.funct
 // As an expression of the scene language.
 void tape_print(const struct tape *t, FILE *out);
 
+struct noise_kernels; // scene/noise_kernel.h
+struct tape_range8 {
+    double lo[TAPE_LANES], hi[TAPE_LANES];
+};
+
 // A function in C that a tape calls. `bounds` fills out and, if partial is not NULL,
 // partial[i * arguments + k] = d out[i] / d in[k]; NULL: nothing is known. `expand`
 // writes it in steps instead, for arguments of which enough are constant (tape_build.h).
@@ -77,9 +82,13 @@ struct tape_extern {
     const char *name;
     int arguments, width;
     void (*value)(const void *data, const double *in, double *out);
-    // The same bits at eight points; NULL: one by one.
-    void (*values)(const void *data, const double (*in)[TAPE_LANES],
-                   double (*out)[TAPE_LANES]);
+    // The same bits at eight points, and the same bounds but for roundings over eight
+    // boxes, with the kernels of an instruction set; NULL, or false for these: one by one.
+    void (*values)(const struct noise_kernels *k, const void *data,
+                   const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES]);
+    bool (*bounds8)(const struct noise_kernels *k, const void *data,
+                    const struct tape_range8 *in, struct tape_range8 *out,
+                    struct tape_range8 *partial);
     void (*bounds)(const void *data, const struct interval *in, struct interval *out,
                    struct interval *partial);
     bool (*expand)(struct tape_builder *b, const void *data, const uint32_t *in,

@@ -6,6 +6,7 @@
 
 #include "math/lanes.h"
 #include "math/quick_lanes.h"
+#include "scene/noise_kernel.h"
 #include "scene/tape_steps.h"
 
 #define PASTE_(a, b) a##b
@@ -285,6 +286,49 @@ static void operation_by_lanes(const struct tape_step *s, const struct reg *r, i
     set(to, n, out);
 }
 
+static bool call_in_lanes(const struct tape *t, const struct tape_step *s, struct reg *r,
+                          int n)
+{
+    const struct tape_extern *f = s->op == TAPE_EXTERN ? s->callee : NULL;
+    if (!f || !f->bounds8)
+        return false;
+    struct tape_range8 in[TAPE_EXTERN_ARGUMENTS], out[TAPE_WIDTH_MAX],
+        partial[TAPE_WIDTH_MAX * TAPE_EXTERN_ARGUMENTS];
+    for (uint32_t i = 0; i < s->count; i++) {
+        const struct reg *a = &r[t->list[s->list + i]];
+        if (m8_bits(r8_lt(size_of(a->v), r8_set(INFINITY))) != 255)
+            return false;
+        r8_store(in[i].lo, a->v.lo);
+        r8_store(in[i].hi, a->v.hi);
+    }
+    if (!f->bounds8(&PASTE(noise_kernels_, ISA), s->data, in, out, partial))
+        return false;
+    struct reg v[TAPE_WIDTH_MAX];
+    for (int i = 0; i < f->width; i++) {
+        v[i].v = range_of(r8_load(out[i].lo), r8_load(out[i].hi));
+        for (int k = 0; k < n; k++) {
+            v[i].d[k] = range_of(r8_set(0), r8_set(0));
+            for (uint32_t j = 0; j < s->count; j++) {
+                const struct range d = r[t->list[s->list + j]].d[k];
+                const struct tape_range8 *by = &partial[(uint32_t)i * s->count + j];
+                const struct range p = range_of(r8_load(by->lo), r8_load(by->hi));
+                const struct mask8 still =
+                    m8_and(r8_eq(d.lo, r8_set(0)), r8_eq(d.hi, r8_set(0)));
+                struct range m = multiply(p, d);
+                m.lo = r8_select(still, r8_set(0), m.lo);
+                m.hi = r8_select(still, r8_set(0), m.hi);
+                v[i].d[k] = add(v[i].d[k], m);
+            }
+        }
+    }
+    for (int i = 0; i < f->width; i++) {
+        r[s->to + i].v = v[i].v;
+        for (int k = 0; k < n; k++)
+            r[s->to + i].d[k] = v[i].d[k];
+    }
+    return true;
+}
+
 static void call_by_lanes(const struct tape *t, const struct tape_step *s, struct reg *r,
                           int n, int moving)
 {
@@ -388,6 +432,8 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
     case TAPE_MIN: extreme(false, a, b, n, &v); break;
     case TAPE_MAX: extreme(true, a, b, n, &v); break;
     default:
+        if (is_call(s) && call_in_lanes(t, s, r, n))
+            return;
         if (is_call(s))
             call_by_lanes(t, s, r, n, all ? n : 0);
         else
@@ -464,7 +510,7 @@ static void values_call(const struct tape *t, const struct tape_step *s, struct 
     double in[TAPE_LIST_MAX][8], out[TAPE_WIDTH_MAX][8];
     for (uint32_t i = 0; i < s->count; i++)
         r8_store(in[i], r[t->list[s->list + i]]);
-    tape_call_packet(s, (const double(*)[8])in, out);
+    tape_call_packet(&PASTE(noise_kernels_, ISA), s, (const double(*)[8])in, out);
     for (int i = 0; i < width_of(s); i++)
         r[s->to + i] = r8_load(out[i]);
 }

@@ -100,12 +100,12 @@ double tape_at(const void *tape, struct vec3 p)
 
 typedef double lanes[TAPE_LANES];
 
-void tape_call_packet(const struct tape_step *s, const double (*in)[TAPE_LANES],
-                      double (*out)[TAPE_LANES])
+void tape_call_packet(const struct noise_kernels *k, const struct tape_step *s,
+                      const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
 {
     const struct tape_extern *f = s->op == TAPE_EXTERN ? s->callee : NULL;
-    if (f && f->values) {
-        f->values(s->data, in, out);
+    if (f && f->values && k) {
+        f->values(k, s->data, in, out);
         return;
     }
     for (int l = 0; l < TAPE_LANES; l++) {
@@ -132,7 +132,7 @@ static void called_packet(const struct tape *t, const struct tape_step *s, lanes
         s->op == TAPE_EXTERN ? ((const struct tape_extern *)s->callee)->width : 1;
     for (uint32_t i = 0; i < s->count; i++)
         memcpy(in[i], r[t->list[s->list + i]], sizeof *in);
-    tape_call_packet(s, (const double(*)[TAPE_LANES])in, out);
+    tape_call_packet(NULL, s, (const double(*)[TAPE_LANES])in, out);
     for (int i = 0; i < width; i++)
         memcpy(r[s->to + i], out[i], sizeof *r);
 }

@@ -74,8 +74,9 @@ void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
 void tape_bounds_call(const struct tape_step *s, const struct tape_slope *in, int n,
                       struct tape_slope *to);
 // A call of eight points.
-void tape_call_packet(const struct tape_step *s, const double (*in)[TAPE_LANES],
-                      double (*out)[TAPE_LANES]);
+// NULL for k: without kernels.
+void tape_call_packet(const struct noise_kernels *k, const struct tape_step *s,
+                      const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES]);
 
 // Truncated; out of 32 bits: -2147483648.
 static inline double tape_integer(double v)

@@ -15,7 +15,7 @@ liblambert_a_SOURCES += \
 	%D%/wave.c %D%/wave.h
 
 # What is compiled once per instruction set.
-packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h \
+packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_bounds_kernel.c \
 	src/scene/shape_kernels.c src/scene/tape_kernel.c src/scene/tape_kernel.h \
 	src/scene/shapes/isosurface_lanes.c src/scene/shapes/isosurface_lanes.h \
 	%D%/packet_kernel.c %D%/packet_product.h \
