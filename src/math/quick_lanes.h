@@ -2,6 +2,7 @@
 #define MATH_QUICK_LANES_H
 
 // Elementary functions of math/quick.h in lanes.
+#include "math/elementary.h"
 #include "math/lanes.h"
 
 // sin and cos for |x| < 10^5, operation by operation as quick_sincos: |error| <= 2 units
@@ -39,6 +40,79 @@ LANES_INLINE void quick_sincos8(struct real8 x, struct real8 *sine, struct real8
     *cosine = r8_select(left, r8_neg(b), b);
 #undef C
 #undef MAD
+}
+
+// det_atan2 to 4 units of ROUNDOFF, relative: atan(c) for c the quarter next to the ratio,
+// and the series of the rest, which is at most 1/8.
+static inline struct real8 quick_atan2_8(struct real8 y, struct real8 x)
+{
+    static const double term[] = {1. / 21,  -1. / 19, 1. / 17, -1. / 15, 1. / 13,
+                                  -1. / 11, 1. / 9,   -1. / 7, 1. / 5,   -1. / 3};
+    const struct real8 ax = r8_abs(x), ay = r8_abs(y), zero = r8_set(0);
+    const struct mask8 steep = r8_lt(ax, ay);
+    const struct real8 num = r8_select(steep, ax, ay), den = r8_select(steep, ay, ax);
+    const struct real8 k =
+        r8_floor(r8_add(r8_mul(r8_set(4), r8_div(num, den)), r8_set(0.5)));
+    const struct real8 c = r8_mul(k, r8_set(0.25));
+    const struct real8 t =
+        r8_div(r8_sub(num, r8_mul(c, den)), r8_add(den, r8_mul(c, num)));
+    struct real8 base = zero; // atan(k/4)
+    base = r8_select(r8_eq(k, r8_set(1)), r8_set(0x1.f5b75f92c80ddp-3), base);
+    base = r8_select(r8_eq(k, r8_set(2)), r8_set(0x1.dac670561bb4fp-2), base);
+    base = r8_select(r8_eq(k, r8_set(3)), r8_set(0x1.4978fa3269ee1p-1), base);
+    base = r8_select(r8_eq(k, r8_set(4)), r8_set(0x1.921fb54442d18p-1), base);
+    const struct real8 t2 = r8_mul(t, t);
+    struct real8 p = r8_set(term[0]);
+    for (int i = 1; i < 10; i++)
+        p = r8_add(r8_mul(p, t2), r8_set(term[i]));
+    struct real8 a = r8_add(base, r8_add(t, r8_mul(r8_mul(t, t2), p)));
+    a = r8_select(steep, r8_sub(r8_set(0x1.921fb54442d18p+0), a), a);
+    a = r8_select(r8_lt(x, zero), r8_sub(r8_set(0x1.921fb54442d18p+1), a), a);
+    a = r8_copysign(a, y);
+    const unsigned plain =
+        m8_bits(m8_and(r8_lt(r8_set(0x1p-900), den), r8_lt(den, r8_set(INFINITY))));
+    if (plain != 255) {
+        double x8[8], y8[8], v[8];
+        r8_store(x8, x);
+        r8_store(y8, y);
+        for (int l = 0; l < 8; l++)
+            v[l] = det_atan2(y8[l], x8[l]);
+        a = r8_select(m8_of(plain), a, r8_load(v));
+    }
+    return a;
+}
+
+// C's fmod, exact.
+static inline struct real8 quick_fmod8(struct real8 a, struct real8 b)
+{
+    const struct real8 x = r8_abs(a), y = r8_abs(b), zero = r8_set(0);
+    const struct real8 q = r8_floor(r8_div(x, y));
+    // q y in two parts (Dekker).
+    const struct real8 split = r8_set(134217729.0), cq = r8_mul(split, q),
+                       cy = r8_mul(split, y);
+    const struct real8 qh = r8_sub(cq, r8_sub(cq, q)), ql = r8_sub(q, qh);
+    const struct real8 yh = r8_sub(cy, r8_sub(cy, y)), yl = r8_sub(y, yh);
+    const struct real8 p = r8_mul(q, y);
+    struct real8 low = r8_sub(r8_mul(qh, yh), p);
+    low = r8_add(low, r8_mul(qh, yl));
+    low = r8_add(low, r8_mul(ql, yh));
+    low = r8_add(low, r8_mul(ql, yl));
+    struct real8 r = r8_sub(r8_sub(x, p), low);
+    r = r8_select(r8_lt(r, zero), r8_add(r, y), r); // q was rounded up
+    r = r8_select(r8_le(y, r), r8_sub(r, y), r);
+    r = r8_copysign(r, a);
+    const unsigned plain =
+        m8_bits(m8_and(m8_and(r8_lt(q, r8_set(0x1p50)), r8_lt(x, r8_set(0x1p900))),
+                       m8_and(r8_lt(r8_set(0x1p-900), y), r8_lt(y, r8_set(0x1p900)))));
+    if (plain != 255) {
+        double a8[8], b8[8], v[8];
+        r8_store(a8, a);
+        r8_store(b8, b);
+        for (int l = 0; l < 8; l++)
+            v[l] = fmod(a8[l], b8[l]);
+        r = r8_select(m8_of(plain), r, r8_load(v));
+    }
+    return r;
 }
 
 #endif

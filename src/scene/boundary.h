@@ -32,7 +32,18 @@ struct boundary_list {
     bool first_only; // by the caller: what lies beyond the first drawn crossing with
                      // t_min < t < t_max of the ray need not be found
     uint64_t evaluations; // of functions, added up by shapes that are made of them
+    const volatile bool *cancel; // once set, shapes whose search may take long give it up;
+                                 // NULL: they never do
+    bool cut;                    // one did: what it found is worth nothing
 };
+
+// Asked by searches that may take long, now and then.
+static inline bool boundary_list_gives_up(struct boundary_list *l)
+{
+    if (!l->cancel || !*l->cancel)
+        return false;
+    return l->cut = true;
+}
 
 // The new entry, zeroed but for drawn = 1.
 struct boundary *boundary_list_add(struct boundary_list *l, double t, double dt,

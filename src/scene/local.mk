@@ -18,7 +18,7 @@ liblambert_a_SOURCES += \
 # functions
 liblambert_a_SOURCES += \
 	%D%/tape.def %D%/tape.h %D%/tape_bounds.c %D%/tape_build.c %D%/tape_build.h \
-	%D%/tape_packet.c %D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
+	%D%/tape_packet.c %D%/range_lanes.h %D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \
 	%D%/finish.c %D%/interior.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \

@@ -14,7 +14,16 @@ struct shape_hits {
     uint32_t part[8];
     uint8_t crossing[8];  // enum crossing
     uint64_t evaluations; // added to, as those of a boundary_list
+    const volatile bool *cancel; // these two as well
+    bool cut;
 };
+
+static inline bool shape_hits_give_up(struct shape_hits *h)
+{
+    if (!h->cancel || !*h->cancel)
+        return false;
+    return h->cut = true;
+}
 
 // What shapes have compiled once per instruction set, with the same results.
 struct isosurface;

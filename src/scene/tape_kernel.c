@@ -5,154 +5,16 @@
 #include <string.h>
 
 #include "math/lanes.h"
-#include "math/quick_lanes.h"
 #include "scene/noise_kernel.h"
+#include "scene/range_lanes.h"
 #include "scene/tape_steps.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
 
-struct range {
-    struct real8 lo, hi;
-};
-
 struct reg {
     struct range v, d[3];
 };
-
-LANES_INLINE struct range range_of(struct real8 lo, struct real8 hi)
-{
-    return (struct range){lo, hi};
-}
-
-LANES_INLINE struct range whole_unless(struct mask8 good, struct range r)
-{
-    return range_of(r8_select(good, r.lo, r8_set(-INFINITY)),
-                    r8_select(good, r.hi, r8_set(INFINITY)));
-}
-
-// As interval_widened.
-LANES_INLINE struct range widen(struct range r)
-{
-    const struct real8 e = r8_set(INTERVAL_ROUNDING);
-    r.lo = r8_sub(r.lo, r8_mul(r8_abs(r.lo), e));
-    r.hi = r8_add(r.hi, r8_mul(r8_abs(r.hi), e));
-    return whole_unless(r8_le(r.lo, r.hi), r);
-}
-
-LANES_INLINE struct range add(struct range a, struct range b)
-{
-    return widen(range_of(r8_add(a.lo, b.lo), r8_add(a.hi, b.hi)));
-}
-
-LANES_INLINE struct range negate(struct range a)
-{
-    return range_of(r8_neg(a.hi), r8_neg(a.lo));
-}
-
-// Ends among four products; a 0 * infinity, or infinities of both signs, are the whole.
-LANES_INLINE struct range ends(struct real8 p, struct real8 q, struct real8 r,
-                               struct real8 s)
-{
-    const struct real8 sum = r8_add(r8_add(p, q), r8_add(r, s));
-    const struct range out = widen(
-        range_of(r8_min(r8_min(p, q), r8_min(r, s)), r8_max(r8_max(p, q), r8_max(r, s))));
-    return whole_unless(r8_eq(sum, sum), out);
-}
-
-LANES_INLINE struct range multiply(struct range a, struct range b)
-{
-    return ends(r8_mul(a.lo, b.lo), r8_mul(a.lo, b.hi), r8_mul(a.hi, b.lo),
-                r8_mul(a.hi, b.hi));
-}
-
-LANES_INLINE struct mask8 never_zero(struct range a)
-{
-    return m8_or(r8_lt(r8_set(0), a.lo), r8_lt(a.hi, r8_set(0)));
-}
-
-LANES_INLINE struct mask8 not_whole(struct range a)
-{
-    return m8_or(r8_lt(r8_set(-INFINITY), a.lo), r8_lt(a.hi, r8_set(INFINITY)));
-}
-
-LANES_INLINE struct range divide(struct range a, struct range b)
-{
-    return whole_unless(never_zero(b), ends(r8_div(a.lo, b.lo), r8_div(a.lo, b.hi),
-                                            r8_div(a.hi, b.lo), r8_div(a.hi, b.hi)));
-}
-
-LANES_INLINE struct range square(struct range a)
-{
-    const struct real8 p = r8_mul(a.lo, a.lo), q = r8_mul(a.hi, a.hi);
-    const struct real8 lo = r8_select(never_zero(a), r8_min(p, q), r8_set(0));
-    return whole_unless(not_whole(a), widen(range_of(lo, r8_max(p, q))));
-}
-
-LANES_INLINE struct range absolute(struct range a)
-{
-    const struct real8 p = r8_abs(a.lo), q = r8_abs(a.hi);
-    const struct real8 lo = r8_select(never_zero(a), r8_min(p, q), r8_set(0));
-    return whole_unless(not_whole(a), range_of(lo, r8_max(p, q)));
-}
-
-LANES_INLINE struct range root(struct range a)
-{
-    const struct real8 zero = r8_set(0);
-    const struct range r =
-        range_of(r8_sqrt(r8_max(a.lo, zero)), r8_sqrt(r8_max(a.hi, zero)));
-    return whole_unless(r8_le(zero, a.lo), widen(r));
-}
-
-LANES_INLINE struct real8 size_of(struct range a)
-{
-    return r8_max(r8_abs(a.lo), r8_abs(a.hi));
-}
-
-// ---- waves ----------------------------------------------------------------------------
-
-// Beyond this the lanes go one by one. quick_sincos8 is off by less than WAVE_ERROR.
-#define WAVE_MAX   1e5
-#define WAVE_ERROR 0x1p-48
-#define PI_2       1.57079632679489661923
-
-// Where `a` may reach a quarter turn q = first (mod 4), as reaches_quarter of interval.c.
-LANES_INLINE struct mask8 reaches_quarter(struct real8 from, struct real8 to, int first)
-{
-    const struct real8 slack = r8_set(1e-13), four = r8_set(4), q = r8_set(first);
-    const struct real8 low = r8_sub(r8_sub(from, r8_mul(r8_abs(from), slack)), slack);
-    const struct real8 high = r8_add(r8_add(to, r8_mul(r8_abs(to), slack)), slack);
-    const struct real8 n = r8_neg(r8_floor(r8_mul(r8_sub(q, low), r8_set(0.25))));
-    return r8_le(r8_add(r8_mul(four, n), q), high);
-}
-
-LANES_INLINE struct range wave_between(struct real8 p, struct real8 q, struct mask8 rises,
-                                       struct mask8 falls)
-{
-    const struct real8 e = r8_set(WAVE_ERROR), one = r8_set(1), less = r8_set(-1);
-    const struct real8 lo = r8_max(r8_sub(r8_min(p, q), e), less);
-    const struct real8 hi = r8_min(r8_add(r8_max(p, q), e), one);
-    return range_of(r8_select(falls, less, lo), r8_select(rises, one, hi));
-}
-
-// Both waves of a.
-LANES_INLINE void waves(struct range a, struct range *sine, struct range *cosine)
-{
-    struct real8 s0, c0, s1, c1;
-    quick_sincos8(a.lo, &s0, &c0);
-    quick_sincos8(a.hi, &s1, &c1);
-    const struct real8 turn = r8_set(1 / PI_2);
-    const struct real8 from = r8_mul(a.lo, turn), to = r8_mul(a.hi, turn);
-    *sine =
-        wave_between(s0, s1, reaches_quarter(from, to, 1), reaches_quarter(from, to, 3));
-    *cosine =
-        wave_between(c0, c1, reaches_quarter(from, to, 0), reaches_quarter(from, to, 2));
-}
-
-LANES_INLINE unsigned large_lanes(struct range a)
-{
-    return 255 & ~m8_bits(r8_lt(size_of(a), r8_set(WAVE_MAX)));
-}
 
 // ---- slopes ---------------------------------------------------------------------------
 
@@ -215,6 +77,88 @@ LANES_INLINE void extreme(bool max, const struct reg *a, const struct reg *b, in
     out->v = whole_unless(
         good, max ? range_of(r8_max(a->v.lo, b->v.lo), r8_max(a->v.hi, b->v.hi))
                   : range_of(r8_min(a->v.lo, b->v.lo), r8_min(a->v.hi, b->v.hi)));
+}
+
+// A function of steps: slope 0 on each, unknown where the box holds two.
+LANES_INLINE void flat(struct range v, const struct range *d, unsigned moving, int n,
+                       struct range *out)
+{
+    const struct range none = {r8_set(0), r8_set(0)};
+    const struct range whole = {r8_set(-INFINITY), r8_set(INFINITY)};
+    for (int i = 0; i < n; i++)
+        if (moving >> i & 1)
+            out[i] = either(m8_or(r8_eq(v.lo, v.hi), is_zero(d[i])), none, whole);
+}
+
+LANES_INLINE void flat_of_two(const struct reg *a, unsigned moving_a, const struct reg *b,
+                              unsigned moving_b, int n, struct reg *v)
+{
+    struct range other[3];
+    flat(v->v, a->d, moving_a, n, v->d);
+    flat(v->v, b->d, moving_b, n, other);
+    for (int i = 0; i < n; i++)
+        if (moving_b >> i & 1)
+            v->d[i] = moving_a >> i & 1 ? hull(v->d[i], other[i]) : other[i];
+}
+
+// The slope is that of the first operand in one branch, less the turns times that of the
+// second.
+LANES_INLINE void modulo_slopes(const struct reg *a, unsigned ma, const struct reg *b,
+                                unsigned mb, int n, struct reg *v)
+{
+    struct real8 turns;
+    const struct real8 slack = r8_mul(size_of(a->v), r8_set(4 * INTERVAL_ROUNDING));
+    const struct real8 room = r8_add(r8_sub(a->v.hi, a->v.lo), slack);
+    const struct mask8 one =
+        m8_and(one_branch(a->v, b->v, &turns), r8_le(r8_sub(v->v.hi, v->v.lo), room));
+    const struct range whole = {r8_set(-INFINITY), r8_set(INFINITY)};
+    const struct range by_a = either(one, range_of(r8_set(1), r8_set(1)), whole);
+    const struct range by_b = either(one, range_of(r8_neg(turns), r8_neg(turns)), whole);
+    scale_twice(by_a, a, ma, by_b, b, mb, n, v->d);
+    for (int i = 0; i < n; i++) { // 0 times the whole
+        const struct mask8 still = m8_and(ma >> i & 1 ? is_zero(a->d[i]) : m8_of(255),
+                                          mb >> i & 1 ? is_zero(b->d[i]) : m8_of(255));
+        v->d[i] = either(still, range_of(r8_set(0), r8_set(0)), v->d[i]);
+    }
+}
+
+LANES_INLINE void angle_slopes(const struct reg *y, unsigned my, const struct reg *x,
+                               unsigned mx, int n, struct reg *v)
+{
+    if (!(my | mx))
+        return;
+    const struct range rr = add(square(y->v), square(x->v));
+    const struct mask8 good = m8_without(m8_of(255), angle_jumps(y->v, x->v));
+    scale_twice(whole_unless(good, divide(x->v, rr)), y, my,
+                whole_unless(good, negate(divide(y->v, rr))), x, mx, n, v->d);
+}
+
+// A choice whose condition is not settled jumps.
+LANES_INLINE void choose(const struct reg *a, const struct reg *below,
+                         const struct reg *at, const struct reg *above, unsigned moving_a,
+                         int n, struct reg *v)
+{
+    const struct real8 zero = r8_set(0);
+    const struct mask8 less = r8_lt(a->v.hi, zero), more = r8_lt(zero, a->v.lo);
+    const struct mask8 null = is_zero(a->v), holds = holds_zero(a->v);
+    const struct mask8 some = r8_lt(a->v.lo, zero), reach = r8_lt(zero, a->v.hi);
+    const struct mask8 settled = m8_or(m8_or(less, more), null);
+    const struct range none = {r8_set(INFINITY), r8_set(-INFINITY)};
+    v->v = hull(hull(either(some, below->v, none), either(holds, at->v, none)),
+                either(m8_or(reach, m8_without(m8_of(255), holds)), above->v, none));
+    v->v = either(less, below->v, either(more, above->v, either(null, at->v, v->v)));
+    for (int i = 0; i < n; i++) {
+        struct range d = either(less, below->d[i], either(more, above->d[i], at->d[i]));
+        struct mask8 still =
+            m8_and(is_zero(above->d[i]),
+                   m8_or(m8_without(m8_of(255), some), is_zero(below->d[i])));
+        still = m8_and(still, m8_or(m8_without(m8_of(255), holds), is_zero(at->d[i])));
+        if (moving_a >> i & 1)
+            still = m8_and(still, is_zero(a->d[i]));
+        const struct range zeros = {zero, zero};
+        const struct range whole = {r8_set(-INFINITY), r8_set(INFINITY)};
+        v->d[i] = either(settled, d, either(still, zeros, whole));
+    }
 }
 
 // ---- lane by lane -------------------------------------------------------------------
@@ -429,6 +373,35 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
             scale_twice(by, a, ma, other, b, mb, n, v.d);
         }
         break;
+    case TAPE_ATAN2:
+        v.v = angle(a->v, b->v);
+        angle_slopes(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_MOD:
+        v.v = modulo(a->v, b->v);
+        modulo_slopes(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_FLOOR:
+        v.v = range_of(r8_floor(a->v.lo), r8_floor(a->v.hi));
+        flat(v.v, a->d, ma, n, v.d);
+        break;
+    case TAPE_LESS:
+        v.v = is_less(a->v, b->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_GREATER:
+        v.v = is_less(b->v, a->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_LESS_EQUAL:
+        v.v = is_less_equal(a->v, b->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_GREATER_EQUAL:
+        v.v = is_less_equal(b->v, a->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_SELECT: choose(a, b, &r[s->c], &r[s->d], ma, n, &v); break;
     case TAPE_MIN: extreme(false, a, b, n, &v); break;
     case TAPE_MAX: extreme(true, a, b, n, &v); break;
     default:
@@ -547,6 +520,11 @@ LANES_INLINE struct real8 wave_value(enum tape_op op, struct real8 a)
     return m8_bits(small) == 255 ? v : r8_select(small, v, value_by_lanes(op, a, a));
 }
 
+LANES_INLINE struct real8 one_where(struct mask8 m)
+{
+    return r8_select(m, r8_set(1), r8_set(0));
+}
+
 LANES_INLINE struct real8 chosen(struct real8 a, struct real8 b, struct real8 c,
                                  struct real8 d)
 {
@@ -575,6 +553,14 @@ static void values(const struct tape *t, const double at[3][8], double out[8])
         case TAPE_SUBTRACT: r[s->to] = r8_sub(a, b); break;
         case TAPE_MULTIPLY: r[s->to] = r8_mul(a, b); break;
         case TAPE_DIVIDE: r[s->to] = r8_div(a, b); break;
+        case TAPE_ATAN2: r[s->to] = quick_atan2_8(a, b); break;
+        case TAPE_MOD: r[s->to] = quick_fmod8(a, b); break;
+        case TAPE_FLOOR: r[s->to] = r8_floor(a); break;
+        case TAPE_LESS: r[s->to] = one_where(r8_lt(a, b)); break;
+        case TAPE_GREATER: r[s->to] = one_where(r8_lt(b, a)); break;
+        case TAPE_LESS_EQUAL: r[s->to] = one_where(r8_le(a, b)); break;
+        case TAPE_GREATER_EQUAL: r[s->to] = one_where(r8_le(b, a)); break;
+        case TAPE_EQUAL: r[s->to] = one_where(r8_eq(a, b)); break;
         case TAPE_MIN: r[s->to] = r8_min(b, a); break;
         case TAPE_MAX: r[s->to] = r8_max(b, a); break;
         case TAPE_SELECT: r[s->to] = chosen(a, b, r[s->c], r[s->d]); break;

@@ -129,6 +129,8 @@ static bool lone_lane(const struct world *w, struct trace_scratch *s, uint32_t l
     struct shape_rays rays;
     struct shape_hits hits;
     hits.evaluations = 0;
+    hits.cancel = s->crossings.cancel;
+    hits.cut = false;
     for (int i = 0; i < 8; i++) {
         for (int k = 0; k < 3; k++) {
             rays.o[k][i] = vec3_axis(local.o, k);
@@ -140,6 +142,7 @@ static bool lone_lane(const struct world *w, struct trace_scratch *s, uint32_t l
     const bool met =
         l->ops->closest8(w->accel->kernels->shapes, l->shape, &rays, 1, any, &hits);
     s->crossings.evaluations += hits.evaluations;
+    s->crossings.cut |= hits.cut;
     if (!met || !(hits.t[0] < ray->t_max))
         return false;
     *out = (struct boundary){

@@ -23,10 +23,13 @@ static unsigned lanes8(struct eight *e, unsigned bits, uint32_t object)
     r8_store(rays.t_min, e->t_min);
     r8_store(rays.t_max, r8_min(e->t_max, r8_load(p->t)));
     hits.evaluations = 0;
+    hits.cancel = p->s->crossings.cancel;
+    hits.cut = false;
     p->s->stats.leaf_tests += (unsigned)__builtin_popcount(bits);
     const unsigned met = l->ops->closest8(p->w->accel->kernels->shapes, l->shape, &rays,
                                           bits, p->mode == SWEEP_OPAQUE, &hits);
     p->s->crossings.evaluations += hits.evaluations;
+    p->s->crossings.cut |= hits.cut;
     const unsigned won = met ? take(e, met, r8_load(hits.t), object, leaf) : 0;
     p->whole |= won;
     for (unsigned m = won; m; m &= m - 1) {

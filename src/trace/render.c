@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "base/stack.h"
 #include "trace/photons.h"
+#include "trace/scratch.h"
 #include "trace/tile.h"
 
 const struct render_settings render_settings_default = {
@@ -89,10 +90,19 @@ static void tile_done(struct render *r, const struct render_tile *tile)
         p->tile(p->user, r->stats.tiles_done, r->tiles_total);
 }
 
+// A tile that a cancel broke off is as one that was never begun.
+static void drop(const struct image *out, const struct tile *tile)
+{
+    const size_t row = (size_t)(tile->x1 - tile->x0) * (size_t)out->channels;
+    for (int y = tile->y0; y < tile->y1; y++)
+        memset(image_at(out, tile->x0, y), 0, row * sizeof *out->pixel);
+}
+
 static void work(void *user)
 {
     struct render *r = user;
     struct tracer *t = tracer_new(r->job);
+    t->scratch->crossings.cancel = r->progress ? r->progress->cancel : NULL;
     while (!cancelled(r)) {
         const uint32_t i = (uint32_t)atomic_fetch_add(&r->next, 1);
         if (i >= r->tiles_total)
@@ -102,6 +112,10 @@ static void work(void *user)
         const struct render_tile at = tile_at(&r->job->settings, i);
         const struct tile tile = {at.x0, at.y0, at.x1, at.y1};
         tile_render(t, &r->tables, &tile, r->out);
+        if (t->scratch->crossings.cut) {
+            drop(r->out, &tile);
+            break;
+        }
         pthread_mutex_lock(&r->lock);
         tile_done(r, &at);
         pthread_mutex_unlock(&r->lock);

@@ -48,7 +48,8 @@ struct render_tile render_tile_at(const struct render_settings *settings, uint32
 struct render_progress {
     void (*tile)(void *user, uint32_t done, uint32_t total);
     void *user;
-    const volatile bool *cancel; // set to stop after the current tiles; may be NULL
+    const volatile bool *cancel; // set to stop after the current tiles, or in them where
+                                 // one ray may take long; may be NULL
     // For renders that are continued: by tile, whether it is in the picture already, and
     // who is told of each that is new. NULL: neither.
     const uint8_t *have;

@@ -27,6 +27,12 @@ static const char *const shapes[] = {
     "isosurface { function { max(abs(x) - 0.5, abs(y) - 0.6, abs(z) - 0.7) } }",
     "isosurface { function { abs(sqrt(x*x + y*y + z*z) - 0.8) - 0.5e-5 } }",
     "isosurface { function { floor(3*x) + 3*y } }",
+    "isosurface { function { mod(abs(x) + 0.1, 0.4) - 0.2 + y } }",
+    "isosurface { function { select(x*x - z*z, y - 0.2, y, y + 0.3*x) } }",
+    "isosurface { function { y - (x < z)*0.3 + (x >= 0.2)*z - (y > 0.4)*x } }",
+    "#declare R = function { internal(59) } isosurface { function { y - 0.4*R(x + 5, 0, "
+    "z, "
+    "0.3, 2.5, 5, 0.8, 0.9, 3) } }",
     "isosurface { function { y - sqrt(x) } }",
     "isosurface { function { exp(-4*(x*x + y*y + z*z)) + 0.3*cos(20*x) - 0.5 } threshold "
     ".1 "
@@ -79,7 +85,8 @@ static struct ray lane(const struct shape_rays *r, int l)
 // What the lane may have met: a crossing as near as the first that is wanted, unless that
 // or what comes before is a graze or at the very ends of the range.
 static bool is_right(const struct boundary_list *all, const struct ray *r, bool met,
-                     double t, double dt, unsigned crossing, uint32_t part, bool any)
+                     double t, double dt, unsigned crossing, uint32_t part, bool any,
+                     double slack)
 {
     const double close = 1e-7;
     for (uint32_t i = 0; i < all->count; i++) {
@@ -91,7 +98,7 @@ static bool is_right(const struct boundary_list *all, const struct ray *r, bool 
         const bool wanted = b->drawn && b->t > r->t_min && b->t < r->t_max;
         // Where the surface leaves the container either may be told.
         const bool same = met && crossing == b->crossing &&
-                          fabs(t - b->t) <= dt + b->dt &&
+                          fabs(t - b->t) <= dt + b->dt + slack &&
                           (part == b->part || (part == 0) != (b->part == 0));
         if (same || (any && met && wanted))
             return true;
@@ -109,6 +116,8 @@ static bool is_right(const struct boundary_list *all, const struct ray *r, bool 
 
 static void look(const struct loaded *l, const char *text, bool any)
 {
+    // Noise jumps by some 1e-10 where its lattice has planes.
+    const double slack = strstr(text, "internal") ? 1e-7 : 0;
     static const struct shape_kernels *kernels[3] = {&shape_kernels_base};
     const struct leaf *leaf = &l->world->leaf[0];
     const struct packet_kernels *best = packet_kernels_choose();
@@ -138,7 +147,7 @@ static void look(const struct loaded *l, const char *text, bool any)
             all.count = 0;
             leaf->ops->intersect(leaf->shape, &r, &all);
             if (!is_right(&all, &r, in, first.t[i], first.dt[i], first.crossing[i],
-                          first.part[i], any))
+                          first.part[i], any, slack))
                 fail_msg(
                     "%s: packet %d lane %d any %d: %d at %.17g +- %g, %u crossings from "
                     "%.17g in %.17g .. %.17g",

@@ -22,6 +22,7 @@
 
 struct walk8 {
     const struct isosurface *s;
+    struct shape_hits *out;
     struct vec8 o, d, inverse; // o nearest to the middle of the container
     struct real8 shift, chord; // t of o; length of the stretch in the container
     struct real8 limit;        // no crossing beyond is wanted
@@ -279,6 +280,8 @@ static void isolate(struct walk8 *w, int lane, const struct piece *all)
     struct eighths e;
     look_at_eighths(w, lane, all, &e);
     for (int i = 0; i < 8 && !(w->found >> lane & 1); i++) {
+        if (shape_hits_give_up(w->out))
+            return;
         const struct piece s = {e.t[i],     e.f[i],        e.t[i + 1],
                                 e.f[i + 1], e.slope_lo[i], e.slope_hi[i]};
         if (!is_settled(w, lane, &s, e.lo[i], e.hi[i]))
@@ -437,6 +440,8 @@ static void visit_children(struct walk8 *w, struct iso_cell *c, const struct aab
             lanes & w->alive & m8_bits(m8_and(r8_lt(from, to), r8_le(from, w->limit)));
         if (!bits)
             continue;
+        if (shape_hits_give_up(w->out))
+            return;
         if (at->kind == CELL_LEAF) {
             leaf(w, at, bits, from, to);
         } else if (at->kind == CELL_INSIDE) {
@@ -525,7 +530,7 @@ static struct roots8 refine(struct walk8 *w, unsigned lanes)
     struct roots8 r = {x0, r8_min(x0, x1), r8_max(x0, x1)};
     u = r8_max(r8_min(u, r8_set(63. / 64)), r8_set(1. / 64));
     const struct real8 zero = r8_set(0), one = r8_set(1), half = r8_set(0.5);
-    for (int i = 0; i < ISO_REFINE_MAX && lanes; i++) {
+    for (int i = 0; i < ISO_REFINE_MAX && lanes && !shape_hits_give_up(w->out); i++) {
         const struct real8 x = r8_add(x0, r8_mul(u, r8_sub(x1, x0)));
         const struct real8 f = value(w, x, lanes);
         const unsigned in = not_positive(f);
@@ -584,13 +589,17 @@ static struct real8 error_of(struct walk8 *w, const struct shape_rays *rays,
                              const struct roots8 *root, unsigned lanes)
 {
     const struct real8 t = root->t;
-    struct real8 r =
+    const struct real8 endless = r8_set(INFINITY);
+    const struct real8 bracket =
         r8_add(r8_sub(root->b, root->a), r8_mul(r8_set(8 * ROUNDOFF), r8_abs(t)));
+    struct real8 r = bracket;
     const struct real8 f = size_at(w, rays, t, lanes);
     const struct real8 first = r8_add(r, r8_div(f, r8_load(w->slope)));
     const struct mask8 good = r8_lt(first, r8_mul(r8_set(ISO_ERROR_GOOD), w->chord));
-    r = r8_select(good, first, r);
-    lanes &= ~m8_bits(good);
+    // Else unknown, or a jump at a pole.
+    const struct mask8 known = m8_and(r8_lt(r8_set(0), f), r8_lt(f, endless));
+    r = r8_select(m8_and(good, known), first, r);
+    lanes &= m8_bits(m8_without(known, good));
     for (int i = 0; i < ISO_ERROR_TRIES && lanes; i++) {
         struct tape_boxes box;
         stretch_box(w->o, w->d, r8_sub(t, r), r8_add(t, r), r8_set(0), lanes, &box);
@@ -603,7 +612,7 @@ static struct real8 error_of(struct walk8 *w, const struct shape_rays *rays,
             r8_select(sloped, r8_add(reach, reach), r8_mul(r8_set(16), r));
         r = r8_select(m8_of(lanes), next, r);
     }
-    return r;
+    return r8_select(r8_lt(r, endless), r, bracket);
 }
 
 static unsigned settle_roots(struct walk8 *w, const struct shape_rays *rays,
@@ -642,7 +651,7 @@ static unsigned walk_1(const struct isosurface *s, const struct shape_rays *rays
                             .d = vec3(rays->d[0][l], rays->d[1][l], rays->d[2][l]),
                             .t_min = rays->t_min[l],
                             .t_max = rays->t_max[l]};
-    struct boundary_list list = {.first_only = true};
+    struct boundary_list list = {.first_only = true, .cancel = out->cancel};
     unsigned found = 0;
     iso_walk(s, &ray, &list);
     for (uint32_t i = 0; i < list.count && !found; i++) {
@@ -658,6 +667,7 @@ static unsigned walk_1(const struct isosurface *s, const struct shape_rays *rays
         found = 1u << l;
     }
     out->evaluations += list.evaluations;
+    out->cut |= list.cut;
     boundary_list_free(&list);
     return found;
 }
@@ -730,6 +740,7 @@ static unsigned closest(const struct isosurface *s, const struct shape_rays *ray
 {
     struct walk8 w;
     struct real8 enter, leave;
+    w.out = out;
     set_up(&w, s, rays);
     contain(&w, &enter, &leave);
     const struct real8 t_min = r8_sub(r8_load(rays->t_min), w.shift);

@@ -254,6 +254,7 @@ static void isolate(struct walk *w, struct stretch all)
     open[0] = all;
     while (n && !w->done) {
         struct stretch s = open[--n];
+        w->done = boundary_list_gives_up(w->out);
         if (n + 2 > STRETCHES_MAX) {
             decide(w, s.a, s.fa, s.b, s.fb, 0);
             continue;
@@ -275,6 +276,7 @@ static void sampled(struct walk *w, struct stretch all, double steepest)
     open[0] = all;
     while (n && !w->done) {
         const struct stretch s = open[--n];
+        w->done = boundary_list_gives_up(w->out);
         const double length = s.b - s.a;
         const bool changes = (s.fa <= 0) != (s.fb <= 0);
         if (!changes && fabs(s.fa) + fabs(s.fb) >= steepest * w->scale * length)
@@ -369,7 +371,7 @@ static void visit_children(struct walk *w, struct iso_cell *c, const struct aabb
 static void visit(struct walk *w, struct iso_cell *c, const struct aabb *box, int depth,
                   double a, double b)
 {
-    if (w->first_only && a + w->shift > w->t_max) {
+    if ((w->first_only && a + w->shift > w->t_max) || boundary_list_gives_up(w->out)) {
         w->done = true;
         return;
     }

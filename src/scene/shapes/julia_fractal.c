@@ -231,7 +231,7 @@ static void march(const struct julia *j, const struct ray *ray, uint32_t limit,
         return;
     struct sample here = sample_at(&m, t, true);
     here.in = here.in && t > -end;
-    while (t < end && limit > 0) {
+    while (t < end && limit > 0 && !boundary_list_gives_up(out)) {
         const double next = fmin(end, t + fmax(here.in ? 0 : here.step, least));
         struct sample now = sample_at(&m, next, true);
         const bool leaves = next == end; // the ball, whatever the iterates say
@@ -253,20 +253,7 @@ static void march(const struct julia *j, const struct ray *ray, uint32_t limit,
 
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
-    march(shape, ray, UINT32_MAX, out);
-}
-
-static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
-{
-    struct boundary room[2];
-    struct boundary_list l = {.at = room, .capacity = 2};
-    march(shape, ray, 1, &l);
-    if (l.count == 0 || !(room[0].t > ray->t_min && room[0].t < ray->t_max))
-        return false;
-    const uint32_t leaf = out->leaf;
-    *out = room[0];
-    out->leaf = leaf;
-    return true;
+    march(shape, ray, out->first_only ? 1 : UINT32_MAX, out);
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
@@ -320,7 +307,6 @@ const struct shape_ops julia_fractal_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
-    .closest = closest,
     .surface = surface,
     .print = print,
 };

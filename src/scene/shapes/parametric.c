@@ -208,7 +208,8 @@ static bool box_misses(const struct line *l, float box[3][2])
 
 static void visit(struct line *l, struct uv_cell *c, int depth)
 {
-    if (l->out->evaluations > l->last_evaluation || box_misses(l, c->box))
+    if (l->out->evaluations > l->last_evaluation || boundary_list_gives_up(l->out) ||
+        box_misses(l, c->box))
         return;
     if (c->leaf) {
         leaf(l, c, depth);
