@@ -42,7 +42,7 @@ static const char *const shapes[] = {
     "} } }",
 };
 
-enum { SHAPES = sizeof shapes / sizeof *shapes, PACKETS = 400 };
+enum { SHAPES = sizeof shapes / sizeof *shapes, PACKETS = 50 };
 
 static double unit(uint64_t *s)
 {
