@@ -203,6 +203,19 @@ double factor_analytic(struct factor_state *s, uint32_t small, uint32_t big)
     return pieces_factor(s, small, big, distance);
 }
 
+double factor_from_point(struct factor_state *s, const struct element_point *from,
+                         uint32_t to)
+{
+    const struct element *e = &s->enclosure->element[to];
+    if (is_plain(e)) {
+        const struct target t = {&e->corner, 1, e->corner_count, (double)e->coverage};
+        return target_factor(&t, from);
+    }
+    const struct element_pieces *p = pieces_of(s, to);
+    const struct target t = {(const struct vec3(*)[4])p->corner, p->count, 4, p->scale};
+    return target_factor(&t, from);
+}
+
 double point_kernel(const struct element_point *a, const struct element_point *b)
 {
     const struct vec3 d = vec3_sub(b->p, a->p);

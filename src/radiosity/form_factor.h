@@ -62,6 +62,9 @@ struct vec3 cosine_direction(struct vec3 n, double u, double v);
 // of both, weighted by the kernel of the form factor; the larger the factor with nothing
 // between, the more rays.
 double pair_visibility(struct factor_state *s, uint32_t a, uint32_t b, double factor);
+// F from a point to an element with nothing between.
+double factor_from_point(struct factor_state *s, const struct element_point *from,
+                         uint32_t to);
 // F from a curved element to itself.
 double factor_self(struct factor_state *s, uint32_t element);
 // The kernel cos cos / (pi r^2) of two points; 0 when one does not see the other.

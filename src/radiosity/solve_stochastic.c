@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
-#include "radiosity/solver.h"
+#include "radiosity/solve_gather.h"
 
 enum { SHOT_BATCH = 1024, SHOT_TRIES = 64 };
 
@@ -296,47 +296,128 @@ static void finish(struct radiosity_solution *out, const struct radiosity_system
     out->defect = right > 0 ? left / right - 1 : 0;
 }
 
+// ---- the whole ---------------------------------------------------------------------
+struct halves {
+    const struct radiosity_system *s;
+    const struct solver_settings *settings;
+    struct radiosity_solution *out;
+    struct shots shots[2];
+    double (*h[2])[3];
+    double done; // rays of the mean so far
+};
+
+// Adds passes of `weight` rays each to the means of the halves.
+static void halves_add(struct halves *w, double (*h[2])[3], double (*h_emitted[2])[3],
+                       double weight)
+{
+    const uint32_t n = w->out->count;
+    const double share = weight / (w->done + weight);
+    for (int k = 0; k < 2; k++)
+        mix(w->h[k], h[k], n, share);
+    mix(h_emitted[0], h_emitted[1], n, 0.5);
+    mix(w->out->h_emitted, h_emitted[0], n, share);
+    w->done += weight;
+    w->out->steps++;
+    w->out->error = halves_error(w->s, w->h[0], w->h[1]);
+    w->out->converged = w->settings->rays || w->out->error <= w->settings->tolerance;
+    // Four times the rays halve the error.
+    const double left = w->out->error / w->settings->tolerance;
+    watch_tell(w->settings->watch, w->out->converged ? 1 : 1 / (left * left));
+}
+
+static void shoot(struct halves *w, double rays)
+{
+    for (int k = 0; k < 2; k++)
+        shots_pass(&w->shots[k], rays);
+    double(*h[2])[3] = {w->shots[0].h, w->shots[1].h};
+    double(*h_emitted[2])[3] = {w->shots[0].h_emitted, w->shots[1].h_emitted};
+    halves_add(w, h, h_emitted, rays);
+}
+
+// From what was shot, elements gather until the error is met, each half by itself.
+static void gather(struct halves *w, uint32_t most)
+{
+    enum { FIRST_RAYS = 32 };
+    const uint32_t n = w->out->count;
+    struct gather g[2];
+    double(*b)[3] = solver_alloc(n, sizeof *b);
+    double(*source)[3] = solver_alloc(n, sizeof *source);
+    system_source(w->s, source);
+    for (uint32_t k = 0; k < 2; k++)
+        gather_init(&g[k], w->s, w->settings, k);
+    uint32_t first = 0, count = FIRST_RAYS;
+    w->done = 0; // what was shot is but the beginning
+    while (w->out->steps < most && !w->out->converged &&
+           !watch_cancelled(w->settings->watch)) {
+        double(*h[2])[3] = {w->shots[0].h, w->shots[1].h};
+        double(*h_emitted[2])[3] = {w->shots[0].h_emitted, w->shots[1].h_emitted};
+        for (int k = 0; k < 2; k++) {
+            for (uint32_t i = 0; i < n; i++) {
+                double rho[3];
+                element_reflectance(&w->s->e->element[i], rho);
+                for (int c = 0; c < 3; c++)
+                    b[i][c] = source[i][c] + rho[c] * w->h[k][i][c];
+            }
+            w->out->rays += gather_pass(&g[k], b, first, count, h[k], h_emitted[k]);
+        }
+        halves_add(w, h, h_emitted, count);
+        first += count;
+        count = first; // as many again
+    }
+    for (int k = 0; k < 2; k++)
+        gather_free(&g[k]);
+    free(b);
+    free(source);
+}
+
+// In a closed scene all that is sent is absorbed. What was gathered meets that up to a
+// factor, the error of everything at once, in which noise of single elements does not
+// cancel. A factor leaves what is dark dark.
+static void balance(struct radiosity_solution *out, const struct radiosity_system *s)
+{
+    double(*source)[3] = solver_alloc(out->count, sizeof *source);
+    double sent[3] = {0, 0, 0}, absorbed[3] = {0, 0, 0};
+    system_source(s, source);
+    for (uint32_t i = 0; i < out->count; i++) {
+        double rho[3];
+        element_reflectance(&s->e->element[i], rho);
+        for (int c = 0; c < 3; c++) {
+            sent[c] += s->e->element[i].area * source[i][c];
+            absorbed[c] += s->e->element[i].area * (1 - rho[c]) * out->h[i][c];
+        }
+    }
+    for (uint32_t i = 0; i < out->count; i++)
+        for (int c = 0; c < 3; c++)
+            out->h[i][c] *= absorbed[c] > 0 ? sent[c] / absorbed[c] : 1;
+    free(source);
+}
+
 void solve_stochastic(struct radiosity_solution *out, const struct radiosity_system *s,
                       const struct solver_settings *settings)
 {
-    static const double start = 64; // rays an element
+    static const double start = 16; // rays an element
     const uint32_t n = s->e->count;
     const uint32_t most = settings->steps_max ? settings->steps_max : 12;
-    struct shots w[2];
-    double(*half[2])[3];
-    double rays = settings->rays ? (double)settings->rays / 2 : fmax(start * n, 4096);
-    double done = 0;
+    struct halves w = {.s = s, .settings = settings, .out = out};
     for (uint32_t k = 0; k < 2; k++) {
-        shots_init(&w[k], s, settings, k);
-        half[k] = solver_alloc(n, sizeof *half[k]);
+        shots_init(&w.shots[k], s, settings, k);
+        w.h[k] = solver_alloc(n, sizeof *w.h[k]);
     }
-    while (out->steps < most && !out->converged && n &&
-           !watch_cancelled(settings->watch)) {
-        const double weight = rays / (done + rays);
-        for (int k = 0; k < 2; k++) {
-            shots_pass(&w[k], rays);
-            mix(half[k], w[k].h, n, weight);
-        }
-        mix(w[0].h_emitted, w[1].h_emitted, n, 0.5);
-        mix(out->h_emitted, w[0].h_emitted, n, weight);
-        done += rays;
-        rays = done; // as many again
-        out->steps++;
-        out->error = halves_error(s, half[0], half[1]);
-        out->converged = settings->rays || out->error <= settings->tolerance;
-        // Four times the rays halve the error.
-        const double left = out->error / settings->tolerance;
-        watch_tell(settings->watch, out->converged ? 1 : 1 / (left * left));
-    }
+    if (n && !watch_cancelled(settings->watch))
+        shoot(&w, settings->rays ? (double)settings->rays / 2 : fmax(start * n, 4096));
+    const bool gathers = n && !out->converged;
+    if (gathers)
+        gather(&w, most);
     for (uint32_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++)
-            out->h[i][c] = (half[0][i][c] + half[1][i][c]) / 2;
-    finish(out, s, w);
-    out->rays = w[0].rays + w[1].rays;
-    out->bytes =
-        (double)n * (2 * (2 * sizeof *w[0].h + 2 * sizeof *w[0].power + 40) + 24);
+            out->h[i][c] = (w.h[0][i][c] + w.h[1][i][c]) / 2;
+    if (gathers && s->closed)
+        balance(out, s);
+    finish(out, s, w.shots);
+    out->rays += w.shots[0].rays + w.shots[1].rays;
+    out->bytes = (double)n * (2 * (2 * sizeof *w.h[0] + 2 * sizeof *w.h[0] + 60) + 72);
     for (int k = 0; k < 2; k++) {
-        shots_free(&w[k]);
-        free(half[k]);
+        shots_free(&w.shots[k]);
+        free(w.h[k]);
     }
 }

@@ -227,7 +227,7 @@ static void solvers_agree(void **state)
         assert_true(off <= allowed[k]);
         if (k == SOLVER_stochastic) {
             assert_true(off < 3 * r.s.error && off > r.s.error / 3);
-            assert_true(fabs(r.s.defect) < 1e-3);
+            assert_true(fabs(r.s.defect) < 5e-3);
         }
         double emitted = 0, emitted_truth = 0;
         for (uint32_t i = 0; i < r.s.count; i++) {

@@ -1,0 +1,225 @@
+// A last gathering for the stochastic solver: every element looks around. What rays find
+// is the mean of many elements, so that the noise of single ones does not matter, and
+// spread evenly over the hemisphere they err far less than rays that arrive by chance.
+#include "radiosity/solve_gather.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "radiosity/factor_nodes.h"
+#include "radiosity/parallel.h"
+#include "radiosity/ray_put.h"
+#include "radiosity/sequence.h"
+
+enum { GATHER_BATCH = 1024, GATHER_TRIES = 64 };
+
+void gather_init(struct gather *g, const struct radiosity_system *s,
+                 const struct solver_settings *settings, uint32_t half)
+{
+    // Emitters that few rays would find by themselves are looked at instead.
+    static const double few = .05; // of the area
+    const uint32_t n = s->e->count;
+    double area = 0, glowing = 0;
+    *g = (struct gather){
+        .s = s, .settings = settings, .seed = sequence_seed(settings->seed, 2 + half)};
+    g->emitter = solver_alloc(n, sizeof *g->emitter);
+    g->up_to = solver_alloc(n, sizeof *g->up_to);
+    g->rays = solver_alloc(n, sizeof *g->rays);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct element *e = &s->e->element[i];
+        double own[3];
+        element_emission(e, own);
+        area += e->area;
+        if (own[0] + own[1] + own[2] <= 0)
+            continue;
+        glowing += e->area;
+        g->power += e->area * (own[0] + own[1] + own[2]);
+        g->up_to[g->emitter_count] = g->power;
+        g->emitter[g->emitter_count++] = i;
+    }
+    g->direct = glowing < few * area;
+}
+
+void gather_free(struct gather *g)
+{
+    free(g->emitter);
+    free(g->up_to);
+    free(g->rays);
+}
+
+static bool point_of(const struct factor_state *s, uint32_t element, uint32_t seed,
+                     uint32_t index, double x[4], struct element_point *out)
+{
+    sobol_point(index, seed, x);
+    const double u = x[2], v = x[3];
+    bool found = element_at(s, element, x[0], x[1], out);
+    // Where an element does not exist another point is drawn.
+    for (uint32_t k = 0; k < GATHER_TRIES && !found; k++) {
+        random_point(index, sequence_seed(seed, k + 1), x);
+        found = element_at(s, element, x[0], x[1], out);
+    }
+    x[2] = u;
+    x[3] = v;
+    return found;
+}
+
+static void *begin(void *user)
+{
+    const struct gather *g = user;
+    return factor_state_new(g->s->e, g->s->factors);
+}
+
+static void end(void *user, void *state)
+{
+    (void)user;
+    factor_state_free(state);
+}
+
+// ---- what rays find ----------------------------------------------------------------
+static void found(const struct gather *g, struct factor_state *s, const uint32_t *sender)
+{
+    g->s->e->closest(s->of_enclosure, s->rays, s->met);
+    for (uint32_t r = 0; r < s->rays->count; r++) {
+        const uint32_t i = sender[r], j = s->met[r];
+        if (j == ELEMENT_NONE)
+            continue;
+        double own[3];
+        element_emission(&g->s->e->element[j], own);
+        for (int c = 0; c < 3; c++) {
+            g->h[i][c] += g->b[j][c] - (g->direct ? own[c] : 0);
+            if (!g->direct)
+                g->h_emitted[i][c] += own[c];
+        }
+    }
+    s->rays->count = 0;
+}
+
+static void around(void *user, void *state, uint32_t from, uint32_t to)
+{
+    const struct gather *g = user;
+    struct factor_state *s = state;
+    uint32_t sender[GATHER_BATCH];
+    s->rays->count = 0;
+    for (uint32_t i = from; i < to; i++) {
+        const uint32_t seed = sequence_seed(i, g->seed);
+        g->rays[i] = 0;
+        for (uint32_t k = 0; k < g->count; k++) {
+            struct element_point at;
+            double x[4];
+            if (!point_of(s, i, seed, g->first + k, x, &at))
+                continue;
+            sender[s->rays->count] = i;
+            ray_put(s->rays, &at, cosine_direction(at.normal, x[2], x[3]), INFINITY);
+            g->rays[i]++;
+            if (s->rays->count == GATHER_BATCH)
+                found(g, s, sender);
+        }
+    }
+    if (s->rays->count)
+        found(g, s, sender);
+    for (uint32_t i = from; i < to; i++) {
+        for (int c = 0; c < 3; c++) {
+            g->h[i][c] /= fmax(g->rays[i], 1);
+            g->h_emitted[i][c] /= fmax(g->rays[i], 1);
+        }
+    }
+}
+
+// ---- what emitters give ------------------------------------------------------------
+static uint32_t emitter_at(const struct gather *g, double power)
+{
+    uint32_t low = 0, high = g->emitter_count - 1;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (g->up_to[middle] > power)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+struct look {
+    uint32_t sender;
+    double light[3];
+};
+
+static void arrived(const struct gather *g, struct factor_state *s, const struct look *l)
+{
+    if (g->s->e->occluded)
+        g->s->e->occluded(s->of_enclosure, s->rays, s->hidden);
+    for (uint32_t r = 0; r < s->rays->count; r++)
+        for (int c = 0; c < 3 && !(g->s->e->occluded && s->hidden[r]); c++)
+            g->h_emitted[l[r].sender][c] += l[r].light[c] / g->count;
+    s->rays->count = 0;
+}
+
+// Points of the element look at points of emitters, drawn by power: Lambert's formula of
+// the emitter, and whether the way is free.
+static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
+{
+    const struct gather *g = user;
+    struct factor_state *s = state;
+    struct look look[GATHER_BATCH];
+    s->rays->count = 0;
+    for (uint32_t i = from; i < to; i++) {
+        const uint32_t seed = sequence_seed(i, ~g->seed);
+        double offset[4];
+        random_point(g->first, seed, offset);
+        for (uint32_t k = 0; k < g->count; k++) {
+            struct element_point at, of;
+            double x[4], own[3];
+            const uint32_t n = emitter_at(g, (k + offset[0]) / g->count * g->power);
+            const uint32_t e = g->emitter[n];
+            if (e == i || !point_of(s, i, seed, g->first + k, x, &at))
+                continue;
+            const double seen = factor_from_point(s, &at, e);
+            double y[4];
+            if (seen <= 0 ||
+                !point_of(s, e, sequence_seed(seed, g->first + k), 0, y, &of))
+                continue;
+            const double chance = (g->up_to[n] - (n ? g->up_to[n - 1] : 0)) / g->power;
+            element_emission(&g->s->e->element[e], own);
+            struct look *l = &look[s->rays->count];
+            l->sender = i;
+            for (int c = 0; c < 3; c++)
+                l->light[c] = own[c] * seen / chance;
+            ray_put_between(s->rays, &at, &of);
+            if (s->rays->count == GATHER_BATCH)
+                arrived(g, s, look);
+        }
+    }
+    if (s->rays->count)
+        arrived(g, s, look);
+    for (uint32_t i = from; i < to; i++)
+        for (int c = 0; c < 3; c++)
+            g->h[i][c] += g->h_emitted[i][c];
+}
+
+uint64_t gather_pass(struct gather *g, double (*b)[3], uint32_t first, uint32_t count,
+                     double (*h)[3], double (*h_emitted)[3])
+{
+    const uint32_t n = g->s->e->count;
+    g->b = b;
+    g->h = h;
+    g->h_emitted = h_emitted;
+    g->first = first;
+    g->count = count;
+    memset(h, 0, n * sizeof *h);
+    memset(h_emitted, 0, n * sizeof *h_emitted);
+    struct parallel run = {.threads = g->settings->threads,
+                           .piece = 16,
+                           .watch = g->settings->watch,
+                           .user = g,
+                           .begin = begin,
+                           .end = end,
+                           .work = around};
+    parallel_run(&run, n);
+    if (!g->direct || !g->emitter_count)
+        return (uint64_t)n * count;
+    g->count = count / 2 > 0 ? count / 2 : 1;
+    run.work = at_emitters;
+    parallel_run(&run, n);
+    return (uint64_t)n * (count + g->count);
+}
