@@ -11,6 +11,7 @@
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
 #include "scene/shapes/triangle.h"
+#include "tess/map.h"
 
 static const double pi = 3.14159265358979323846;
 enum { CROSSINGS_MOST = 8 };
@@ -83,6 +84,13 @@ static bool point_in_shape(const struct chart *c, const struct leaf *l, double u
         *n = vec3_normalize(vec3_mad(out, -slope, c->n));
         break;
     }
+    case CHART_MAPPED: {
+        struct map_point at;
+        c->map->at(l->shape, c->part, u, v, &at);
+        *p = at.p;
+        *n = at.n;
+        break;
+    }
     case CHART_PROJECTED:
         return crossing_at(c, l, vec3_mad(vec3_mad(c->o, u, c->a), v, c->b), p, n);
     }
@@ -112,13 +120,14 @@ static double radial(const struct chart *c, double r)
     return ring == 0 ? 0 : (r * r - c->r0 * c->r0) / ring;
 }
 
-void chart_locate(const struct chart *c, const struct leaf *l, struct vec3 p, double *u,
-                  double *v)
+void chart_locate(const struct chart *c, const struct leaf *l, const struct boundary *b,
+                  struct vec3 p, double *u, double *v)
 {
     if (!l->transform->identity)
         p = transform_inverse_point(l->transform, p);
     const struct vec3 r = vec3_sub(p, c->o);
     switch (c->kind) {
+    case CHART_MAPPED: c->map->locate(l->shape, b, p, u, v); break;
     case CHART_FLAT:
     case CHART_PROJECTED:
         *u = along(r, c->a);
@@ -318,6 +327,23 @@ static void mesh_charts(struct charts *list, const struct mesh *m)
     }
 }
 
+// One chart a piece of the shape's map. False: it has none.
+static bool mapped_charts(struct charts *list)
+{
+    const struct leaf *l = list->leaf;
+    const struct tess_map *map = tess_map_find(l->ops);
+    const uint32_t count = map ? map->count(l->shape) : 0;
+    for (uint32_t k = 0; k < count; k++) {
+        struct chart *c = add(list, CHART_MAPPED, k);
+        if (!c)
+            continue;
+        c->map = map;
+        c->wrap = (map->wraps & MAP_WRAPS_U) != 0;
+        c->curved = true;
+    }
+    return count > 0;
+}
+
 static struct aabb in_shape_space(const struct leaf *l, const struct aabb *world)
 {
     struct aabb b = aabb_empty();
@@ -376,7 +402,7 @@ uint32_t leaf_charts(const struct world *w, uint32_t leaf, const struct aabb *li
         add_triangle(&list, 0, ((const struct triangle *)l->shape)->p);
     else if (l->ops == &mesh_ops || l->ops == &mesh2_ops)
         mesh_charts(&list, l->shape);
-    else
+    else if (!mapped_charts(&list))
         projected_charts(&list, limit);
     return list.count;
 }
@@ -409,6 +435,12 @@ uint32_t leaf_chart_of(const struct world *w, const struct chart *chart, uint32_
     if (count == 0)
         return count;
     const struct leaf *l = &w->leaf[b->leaf];
+    if (chart[0].kind == CHART_MAPPED) {
+        double u, v;
+        if (!l->transform->identity)
+            p = transform_inverse_point(l->transform, p);
+        return chart[0].map->locate(l->shape, b, p, &u, &v);
+    }
     if (chart[0].kind != CHART_PROJECTED) {
         // Parts are numbered as charts are, but for caps that are missing.
         if (b->part < count && chart[b->part].part == b->part)

@@ -6,24 +6,26 @@
 
 #include "trace/world.h"
 
-struct trace_scratch;
+struct tess_map;
 
 // A piece of a leaf's surface as the image of the unit square, in shape space. All but
-// CHART_PROJECTED keep ratios of areas.
+// CHART_MAPPED and CHART_PROJECTED keep ratios of areas.
 enum chart_kind {
     CHART_FLAT,      // o + u a + v b
     CHART_TRIANGLE,  // corners o, o + a, o + b
     CHART_RING,      // a circle or ring in the frame, u round, v outwards
     CHART_SPHERE,    // u round, v from pole to pole
     CHART_CONE,      // the side of a cylinder or cone, u round, v along
+    CHART_MAPPED,    // a piece of the shape's map (tess/maps)
     CHART_PROJECTED, // any shape: where lines along an axis cross it
 };
 
 struct chart {
     enum chart_kind kind;
     uint32_t leaf;
-    uint32_t part; // boundary.part it belongs to; projected: number of the crossing
-    struct vec3 o, a, b, n; // frame; n: outwards where it is constant
+    uint32_t part; // boundary.part it belongs to; mapped: piece; projected: crossing
+    const struct tess_map *map; // mapped
+    struct vec3 o, a, b, n;     // frame; n: outwards where it is constant
     double r0, r1, length;
     int axis;            // projected
     uint32_t nu, nv;     // cells
@@ -35,9 +37,9 @@ struct chart {
 // nothing is there.
 bool chart_point(const struct chart *c, const struct leaf *l, double u, double v,
                  struct vec3 *p, struct vec3 *n);
-// Where a point of the surface lies in its chart.
-void chart_locate(const struct chart *c, const struct leaf *l, struct vec3 p, double *u,
-                  double *v);
+// Where a point of the surface, on boundary b, lies in its chart.
+void chart_locate(const struct chart *c, const struct leaf *l, const struct boundary *b,
+                  struct vec3 p, double *u, double *v);
 // World area for an area 1 of the square, near (u, v); h: a step in u and v that is small
 // for the chart.
 double chart_density(const struct chart *c, const struct leaf *l, double u, double v,

@@ -94,7 +94,7 @@ static bool place_of(const struct patches *p, const struct ray *ray,
     out->chart = &p->chart[first + k];
     if (!out->chart->nu)
         return false;
-    chart_locate(out->chart, &w->leaf[leaf], at.p, &out->u, &out->v);
+    chart_locate(out->chart, &w->leaf[leaf], &hit->b, at.p, &out->u, &out->v);
     out->side = vec3_dot(at.ng, ray->d) > 0;
     out->p = at.p;
     return true;

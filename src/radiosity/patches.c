@@ -169,8 +169,8 @@ static void chart_grid(const struct patches *p, struct chart *c)
     }
     // 1e-9: a side of exactly n sizes is n cells.
     c->nu = (uint32_t)fmax(c->wrap ? 8 : 1, ceil(side[0] / p->size - 1e-9));
-    c->nv =
-        (uint32_t)fmax(c->kind == CHART_SPHERE ? 4 : 1, ceil(side[1] / p->size - 1e-9));
+    const bool ends = c->kind == CHART_SPHERE || c->kind == CHART_MAPPED;
+    c->nv = (uint32_t)fmax(ends ? 4 : 1, ceil(side[1] / p->size - 1e-9));
 }
 
 static void chart_cells(struct patches *p, uint32_t index)

@@ -81,6 +81,53 @@ static void furnace(void **state)
     }
 }
 
+// Shapes with a map of their own have its charts: torus, ellipsoid, lathe, sor, patch.
+static void mapped_shapes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *solid;
+        double area;
+    } cases[] = {
+        {"torus { .6, .2 M(.4, .6) rotate 30*x }", 4 * 9.8696044 * .6 * .2},
+        {"quadric { <1, 4, 4>, 0, 0, -.36 M(.4, .6) }", 1.9330592},
+        {"lathe { linear_spline 5, <.2, -.5>, <.6, 0>, <.2, .5>, <.1, 0>, <.2, -.5> "
+         "M(.4, .6) }",
+         0},
+        {"sor { 5, <.3, -.7>, <.3, -.5>, <.5, 0>, <.2, .5>, <.2, .7> M(.4, .6) }", 0},
+        {"bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
+         " <-.6, -.6, 0>, <-.2, -.6, .3>, <.2, -.6, .3>, <.6, -.6, 0>"
+         " <-.6, -.2, .3>, <-.2, -.2, .5>, <.2, -.2, .5>, <.6, -.2, .3>"
+         " <-.6, .2, .3>, <-.2, .2, .5>, <.2, .2, .5>, <.6, .2, .3>"
+         " <-.6, .6, 0>, <-.2, .6, .3>, <.2, .6, .3>, <.6, .6, 0> M(.4, .6) }",
+         0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 HEAD
+                 "camera { location <.85, -.8, .9> look_at 0 }\n"
+                 "difference { box { -2, 2 } box { -1, 1 M(.7, .3) } M(.5, .5) } %s\n",
+                 cases[i].solid);
+        struct radiosity_options o = with(150, "stochastic");
+        o.solver.rays = 40000;
+        struct scene_run s = solve(text, &o);
+        const struct mean all = mean_of(&s, NULL), m = mean_of(&s, curved);
+        uint32_t others = 0;
+        for (uint32_t k = 0; k < s.r->patches->chart_count; k++)
+            others += s.r->patches->chart[k].kind == CHART_PROJECTED;
+        print_message("mapped %zu: %u patches, area %.4f, B %.4f, all %.4f\n", i,
+                      s.r->report.elements, m.area, m.b, all.b);
+        assert_int_equal(others, 0);
+        if (cases[i].area > 0)
+            assert_near(m.area / cases[i].area, 1, 2e-3);
+        assert_true(m.area > .5);
+        assert_near(m.b, 1, .02);
+        assert_near(all.b, 1, .01);
+        run_free(&s);
+    }
+}
+
 // Quadrics without end, cut by other solids: the drawn area, and B = 1 in the furnace.
 static void cut_quadrics(void **state)
 {
@@ -456,6 +503,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace),
+        cmocka_unit_test(mapped_shapes),
         cmocka_unit_test(cut_quadrics),
         cmocka_unit_test(caps),
         cmocka_unit_test(every_patch),
@@ -469,5 +517,7 @@ int main(void)
         cmocka_unit_test(memory_is_predicted),
         cmocka_unit_test(cancelled),
     };
+    if (getenv("LAMBERT_TEST")) // a pattern of names
+        cmocka_set_test_filter(getenv("LAMBERT_TEST"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
