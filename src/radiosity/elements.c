@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "radiosity/polygon.h"
+#include "radiosity/sequence.h"
 #include "trace/tracer.h"
 
 // Along a side of a cell; the latter where a cell exists in part.
@@ -16,6 +17,7 @@ struct found {
     struct rgb reflectance, emission;
     uint32_t members, tried;
     struct vec3 normal, centre;
+    bool rim;     // nothing but something at the rim
     bool crossed; // a wall stands on it: the anchor does not see all of it
     struct vec3 anchor;
 };
@@ -40,7 +42,7 @@ struct cell *cells_add(struct patches *p, uint32_t count)
     return &p->cell[p->cell_count - count];
 }
 
-static void cell_split(struct patches *p, uint32_t index)
+void cell_split(struct patches *p, uint32_t index)
 {
     const uint32_t child = p->cell_count;
     struct cell *s = cells_add(p, 4), *c = &p->cell[index];
@@ -95,7 +97,10 @@ static void cell_part(struct patches *p, uint32_t index, const struct found f[2]
 }
 
 // ---- elements ----------------------------------------------------------------------
-static bool mixed(const struct found *f) { return f->members && f->members < f->tried; }
+static bool mixed(const struct found *f)
+{
+    return f->rim || (f->members && f->members < f->tried);
+}
 
 struct sampling {
     struct patches *p;
@@ -174,7 +179,14 @@ static void sample_cell(const struct patches *p, struct tracer *t, uint32_t inde
     x.count = 0;
     *f = (struct found){.tried = (uint32_t)(n * n)};
     for (int i = 0; i < n * n; i++) {
-        const double u = (i % n + .5) / n, v = (i / n + .5) / n;
+        double u = (i % n + .5) / n, v = (i / n + .5) / n;
+        if (n == SAMPLES_PART) {
+            // A grid sees an edge along it no better than by a whole row.
+            double x4[4];
+            sobol_point((uint32_t)i, index, x4);
+            u = x4[0];
+            v = x4[1];
+        }
         struct element_point at;
         struct hit hit;
         struct ray ray;
@@ -193,8 +205,11 @@ static void sample_cell(const struct patches *p, struct tracer *t, uint32_t inde
         f->members++;
         points_add(&x, at.p, u, v);
     }
-    if (f->members == f->tried)
+    if (f->members == f->tried || f->members == 0)
         sample_rim(p, t, c, side, f, &x);
+    f->rim = f->members == 0 && x.count;
+    if (f->members == 0)
+        return;
     if (!c->anchor && x.count > 1)
         find_crossed(p, t, &x, f);
 }
@@ -217,6 +232,8 @@ static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
     for (uint32_t i = begin; i < end; i++) {
         for (int side = 0; side < 2; side++) {
             struct found *f = &s->found[i][side];
+            if ((s->p->cell[s->first + i].dead >> side) & 1)
+                continue;
             sample_cell(s->p, state, s->first + i, side, s->samples, f);
             // A quarter of a cell that exists in part: what little may be there counts.
             if (s->last && s->first && !f->members)
@@ -334,3 +351,5 @@ static void cells_sample(struct patches *p, uint32_t first, int depth)
 }
 
 void elements_find(struct patches *p) { cells_sample(p, 0, p->settings.depth); }
+
+void elements_add(struct patches *p, uint32_t first) { cells_sample(p, first, 0); }

@@ -59,18 +59,22 @@ void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit
 }
 
 // ---- lookups -----------------------------------------------------------------------
+static uint32_t smallest(const struct patches *p, uint32_t i, double u, double v)
+{
+    while (p->cell[i].child) {
+        const struct cell *x = &p->cell[i];
+        i = x->child + (u >= x->u + x->du / 2 ? 1 : 0) + (v >= x->v + x->dv / 2 ? 2 : 0);
+    }
+    return i;
+}
+
 static uint32_t cell_at(const struct patches *p, const struct chart *c, double u,
                         double v)
 {
     uint32_t iu = (uint32_t)(u * c->nu), iv = (uint32_t)(v * c->nv);
     iu = iu < c->nu ? iu : c->nu - 1;
     iv = iv < c->nv ? iv : c->nv - 1;
-    uint32_t i = c->first_cell + iv * c->nu + iu;
-    while (p->cell[i].child) {
-        const struct cell *x = &p->cell[i];
-        i = x->child + (u >= x->u + x->du / 2 ? 1 : 0) + (v >= x->v + x->dv / 2 ? 2 : 0);
-    }
-    return i;
+    return smallest(p, c->first_cell + iv * c->nu + iu, u, v);
 }
 
 struct place {
@@ -105,14 +109,14 @@ static const int steps[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
                                 {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
 
 static uint32_t element_of(const struct patches *p, struct trace_scratch *scratch,
-                           uint32_t cell, const struct place *at)
+                           uint32_t cell, const struct place *at, double u, double v)
 {
     const struct cell *c = &p->cell[cell];
     if (!c->part)
         return c->element[at->side];
-    c = &p->cell[c->part];
-    return c[anchor_sees(p, scratch, c->anchor, at->side, at->p) ? 0 : 1]
-        .element[at->side];
+    const uint32_t anchor = p->cell[c->part].anchor;
+    const uint32_t part = c->part + !anchor_sees(p, scratch, anchor, at->side, at->p);
+    return p->cell[smallest(p, part, u, v)].element[at->side];
 }
 
 // The element at a place; where sampling missed a sliver of surface, one beside it.
@@ -121,7 +125,7 @@ static uint32_t element_near(const struct patches *p, struct trace_scratch *scra
 {
     const uint32_t cell = cell_at(p, at->chart, at->u, at->v);
     const struct cell *c = &p->cell[cell];
-    const uint32_t own = element_of(p, scratch, cell, at);
+    const uint32_t own = element_of(p, scratch, cell, at, at->u, at->v);
     if (own != ELEMENT_NONE)
         return own;
     for (int k = 0; k < 8; k++) {
@@ -130,7 +134,7 @@ static uint32_t element_near(const struct patches *p, struct trace_scratch *scra
             u -= floor(u);
         if (u < 0 || u > 1 || v < 0 || v > 1)
             continue;
-        const uint32_t e = element_of(p, scratch, cell_at(p, at->chart, u, v), at);
+        const uint32_t e = element_of(p, scratch, cell_at(p, at->chart, u, v), at, u, v);
         if (e != ELEMENT_NONE)
             return e;
     }
@@ -163,7 +167,8 @@ static uint32_t neighbour(const struct patches *p, uint32_t element, int su, int
     if (u < 0 || u > 1 || v < 0 || v > 1)
         return ELEMENT_NONE;
     const uint32_t at = cell_at(p, chart, u, v);
-    const struct cell *to = &p->cell[p->cell[at].part ? p->cell[at].part + part : at];
+    const uint32_t first = p->cell[at].part;
+    const struct cell *to = &p->cell[first ? smallest(p, first + part, u, v) : at];
     return to->element[p->element_cell[element] & 1];
 }
 

@@ -314,6 +314,15 @@ static struct patches *build(const struct job *job, const struct patch_settings 
     return p;
 }
 
+void patches_connect(struct patches *p)
+{
+    free(p->neighbours);
+    free(p->shaft);
+    p->shaft = NULL;
+    patches_neighbours(p);
+    patches_shafts(p);
+}
+
 struct patches *patches_build(const struct job *job, const struct patch_settings *s)
 {
     enum { TRIAL = 400, RETRIES = 3 };
@@ -345,8 +354,7 @@ struct patches *patches_build(const struct job *job, const struct patch_settings
     }
     if (!p)
         return NULL;
-    patches_neighbours(p);
-    patches_shafts(p);
+    patches_connect(p);
     return p;
 }
 

@@ -28,7 +28,9 @@ struct cell {
     uint32_t child;      // first of four; 0: none
     uint32_t part;       // first of two of the same place, a wall between; 0: none
     uint32_t anchor;     // of such a part; 0: none
+    uint32_t from;       // while elements are refined: which of the quartered cells
     bool twin;           // what the anchor does not see
+    uint8_t dead;        // bit: no element may be on this side
     uint32_t element[2]; // on the outer and inner side; ELEMENT_NONE: none
 };
 
@@ -71,6 +73,11 @@ struct patches {
 struct patches *patches_build(const struct job *job, const struct patch_settings *s);
 void patches_free(struct patches *p);
 
+// Quarters the cells of elements; both sides of a cell go together. Elements change their
+// numbers: returns of each the number of the one that was there before. The caller frees
+// it.
+uint32_t *patches_refine(struct patches *p, const bool *split);
+
 // The element a ray ran into; ELEMENT_NONE: none.
 uint32_t patch_of_hit(const struct patches *p, struct trace_scratch *scratch,
                       const struct ray *ray, const struct hit *hit);
@@ -102,8 +109,13 @@ struct cell *cells_add(struct patches *p, uint32_t count);
 // Whether the anchor sees a point of its cell.
 bool anchor_sees(const struct patches *p, struct trace_scratch *scratch, uint32_t anchor,
                  int side, struct vec3 at);
-// Makes elements of the cells, and quarters and parts cells where that is needed.
+// Makes elements of the cells, and quarters and parts cells where that is needed; of
+// those from `first` on.
 void elements_find(struct patches *p);
+void elements_add(struct patches *p, uint32_t first);
+void cell_split(struct patches *p, uint32_t index);
+// What elements have of each other; anew after their number has changed.
+void patches_connect(struct patches *p);
 // Reflectance and emission at a hit, as the picture has them.
 void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
                   struct rgb *reflectance, struct rgb *emission);

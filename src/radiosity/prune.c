@@ -287,8 +287,10 @@ static void keep_reached(struct patches *p, const bool *reached)
         struct cell *c = &p->cell[p->element_cell[i] / 2];
         const int side = p->element_cell[i] & 1;
         c->element[side] = reached[i] ? kept : ELEMENT_NONE;
-        if (!reached[i])
+        if (!reached[i]) {
+            c->dead |= (uint8_t)(1u << side);
             continue;
+        }
         p->element[kept] = p->element[i];
         p->element_cell[kept++] = p->element_cell[i];
     }

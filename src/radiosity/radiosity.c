@@ -177,7 +177,6 @@ static void find_shown(struct radiosity *r)
     static const double small = .5; // of a whole cell
     const struct patches *p = r->patches;
     const uint32_t n = p->element_count;
-    const double cell = p->size * p->size;
     double(*h)[3] = solver_alloc(n, sizeof *h);
     r->shown = solver_alloc(n, sizeof *r->shown);
     for (uint32_t i = 0; i < n; i++)
@@ -188,7 +187,7 @@ static void find_shown(struct radiosity *r)
         double area = p->element[i].area, sum[3];
         for (int c = 0; c < 3; c++)
             sum[c] = area * h[i][c];
-        for (int k = 0; k < 8 && p->element[i].area < small * cell; k++) {
+        for (int k = 0; k < 8 && (double)p->element[i].coverage < small; k++) {
             const uint32_t j = patch_neighbour(p, i, k);
             if (j == ELEMENT_NONE)
                 continue;

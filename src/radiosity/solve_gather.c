@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "radiosity/factor_nodes.h"
-#include "radiosity/parallel.h"
+#include "base/parallel.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 
