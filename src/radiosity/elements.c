@@ -2,6 +2,7 @@
 #include "radiosity/patches.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "radiosity/polygon.h"
@@ -106,6 +107,7 @@ struct sampling {
     struct patches *p;
     uint32_t first; // cell
     int samples;    // along a side; more in the first round, which must find all there is
+    bool part;      // the cells are parts of others
     bool last;      // cells that exist in part are measured closely, not quartered
     struct found (*found)[2];
 };
@@ -236,7 +238,7 @@ static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
                 continue;
             sample_cell(s->p, state, s->first + i, side, s->samples, f);
             // A quarter of a cell that exists in part: what little may be there counts.
-            if (s->last && s->first && !f->members)
+            if (s->last && s->part && !f->members)
                 sample_cell(s->p, state, s->first + i, side, SAMPLES_MOST, f);
             if ((s->last || s->p->cell[s->first + i].anchor) && mixed(f))
                 sample_cell(s->p, state, s->first + i, side, SAMPLES_PART, f);
@@ -308,42 +310,52 @@ static void element_add(struct patches *p, uint32_t index, int side,
     p->element_cell[i] = 2 * index + (uint32_t)side;
 }
 
+// What became of one cell: quarters, parts or elements.
+static void cell_settle(struct patches *p, uint32_t index, int depth,
+                        const struct found f[2])
+{
+    const bool part = mixed(&f[0]) || mixed(&f[1]);
+    const bool crossed = f[0].crossed || f[1].crossed;
+    if (!p->cell[index].anchor && ((depth > 0 && part) || (depth > 1 && crossed))) {
+        cell_split(p, index);
+        return;
+    }
+    if (crossed) {
+        cell_part(p, index, f);
+        return;
+    }
+    for (int side = 0; side < 2; side++)
+        if (f[side].area > 0)
+            element_add(p, index, side, &f[side]);
+}
+
 // Samples cells [first, end of list) and makes elements of them; those that exist in part
 // or have a wall on them are quartered instead, to a depth.
 static void cells_sample(struct patches *p, uint32_t first, int depth)
 {
+    enum { CHUNK = 1 << 16 }; // what was found of cells takes more room than they do
     const uint32_t end = p->cell_count;
     const int wanted = p->settings.samples;
     const int few = wanted < 1 ? 1 : wanted < SAMPLES_MOST ? wanted : SAMPLES_MOST;
     const int samples = first ? few : 2 * few < SAMPLES_MOST ? 2 * few : SAMPLES_MOST;
-    struct sampling s = {p, first, samples, depth <= 0,
-                         calloc(end - first + 1, sizeof *s.found)};
+    struct sampling s = {p, first, samples, first > 0, depth <= 0, NULL};
+    s.found = malloc(CHUNK * sizeof *s.found);
     if (!s.found)
         abort();
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 64,
                                  .watch = p->settings.watch,
-                                 .tells = true,
+                                 .tells = end - first <= CHUNK,
                                  .user = &s,
                                  .begin = sampling_begin,
                                  .end = sampling_end,
                                  .work = sampling_work};
-    parallel_run(&run, end - first);
-    for (uint32_t i = first; i < end; i++) {
-        const struct found *f = s.found[i - first];
-        const bool part = mixed(&f[0]) || mixed(&f[1]);
-        const bool crossed = f[0].crossed || f[1].crossed;
-        if (!p->cell[i].anchor && ((depth > 0 && part) || (depth > 1 && crossed))) {
-            cell_split(p, i);
-            continue;
-        }
-        if (crossed) {
-            cell_part(p, i, f);
-            continue;
-        }
-        for (int side = 0; side < 2; side++)
-            if (f[side].area > 0)
-                element_add(p, i, side, &f[side]);
+    for (; s.first < end && !watch_cancelled(p->settings.watch); s.first += CHUNK) {
+        const uint32_t count = end - s.first < CHUNK ? end - s.first : CHUNK;
+        memset(s.found, 0, count * sizeof *s.found);
+        parallel_run(&run, count);
+        for (uint32_t i = 0; i < count; i++)
+            cell_settle(p, s.first + i, depth, s.found[i]);
     }
     free(s.found);
     if (p->cell_count > end)
