@@ -50,6 +50,9 @@ const struct normal *build_normal_body(struct args *a, const struct normal *star
     pattern_finish(a, &n.pattern);
     if (!a->failed && n.kind == NORMAL_AVERAGE && !n.map)
         args_error(a, args_span(a), "average needs a map");
+    const bool kept = n.kind == NORMAL_PATTERN || n.kind == NORMAL_MAP || n.kind == NORMAL_SLOPES;
+    if (!a->failed && kept && !n.pattern.ops)
+        args_error(a, a->owner ? a->owner->where : args_span(a), "no pattern is given");
     if (a->failed)
         return NULL;
     struct normal *out = arena_new_struct(a->b->arena, struct normal);

@@ -27,6 +27,15 @@ static void modifiers(struct args *a, struct body *body)
     }
 }
 
+// A map without a pattern to give it a place: POV-Ray warns and takes black.
+static void without_pattern(struct args *a, struct pigment *p)
+{
+    const struct span where = a->owner ? a->owner->where : args_span(a);
+    args_warning(a, where, "no pattern stands before the map, the pigment is black");
+    p->kind = PIGMENT_SOLID;
+    p->color = (struct rgbft){0};
+}
+
 const struct pigment *build_pigment_body(struct args *a, const struct pigment *start)
 {
     bool density = args_at_value(a, VALUE_DENSITY) != NULL;
@@ -53,6 +62,8 @@ const struct pigment *build_pigment_body(struct args *a, const struct pigment *s
     pattern_finish(a, &pattern);
     if (p.kind == PIGMENT_AVERAGE && !p.map)
         args_error(a, args_span(a), "average needs a map");
+    if ((p.kind == PIGMENT_COLORS || p.kind == PIGMENT_MAP) && !pattern.ops)
+        without_pattern(a, &p);
     if (p.kind == PIGMENT_COLORS && !p.colors)
         p.colors = color_map_default(&pattern);
     if (a->failed)

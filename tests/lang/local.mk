@@ -187,6 +187,8 @@ lang_scenes = \
 	%D%/317-strings-that-change.scn \
 	%D%/318-error-mesh-camera.scn \
 	%D%/319-error-media.scn \
+	%D%/318-pigment-without-pattern.scn \
+	%D%/319-error-normal-kind.scn \
 	%D%/311-error-cone-equal.scn \
 	%D%/312-error-undefined-macro.scn \
 	%D%/314-error-array-access.scn \
