@@ -36,9 +36,11 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
     for (size_t i = 0; i < len; i++)
         f->line_count += text[i] == '\n';
     f->line_start = arena_alloc(m->arena, f->line_count * sizeof *f->line_start);
-    for (uint32_t i = 0, line = 1; i < f->len; i++)
-        if (text[i] == '\n' && line < f->line_count)
-            f->line_start[line++] = i + 1;
+    const char *at = text;
+    for (uint32_t line = 1; line < f->line_count; line++) {
+        at = (const char *)memchr(at, '\n', f->len - (size_t)(at - text)) + 1;
+        f->line_start[line] = (uint32_t)(at - text);
+    }
     m->file = grow(m->arena, m->file, m->count, &m->capacity, sizeof(struct source_file *));
     m->file[m->count] = f;
     return m->count++;

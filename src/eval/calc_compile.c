@@ -5,13 +5,14 @@
 #include <string.h>
 
 #include "eval/functions.h"
-#include "parser.h"
+#include "lang/lexeme.h"
 
 enum { NEST_MAX = 40 };
 
 struct compile {
     struct eval *e;
-    const struct token *t;
+    const struct lexeme *t;
+    const char *text; // of the file
     uint32_t count, at;
     struct calc *out;
     int depth; // values on the stack
@@ -46,17 +47,17 @@ static struct calc_op *emit(struct compile *c, enum calc_code code, int pops,
     struct calc_op *op = &c->out->op[c->out->count++];
     *op = (struct calc_op){0};
     op->code = (uint8_t)code;
-    op->begin = c->t[from].where.begin;
-    op->end = c->t[c->at - 1].where.end;
+    op->begin = c->t[from].begin;
+    op->end = c->t[c->at - 1].begin + lexeme_len(&c->t[c->at - 1]);
     return op;
 }
 
 static bool arith(struct compile *c);
 static bool full(struct compile *c);
 
-static struct name *name_of(struct compile *c, const struct token *t)
+static struct name *name_of(struct compile *c, const struct lexeme *t)
 {
-    return symbols_name(c->e->symbols, t->text, t->len);
+    return symbols_name(c->e->symbols, c->text + t->begin, t->len);
 }
 
 static bool subscripts(struct compile *c, int *count)
@@ -179,7 +180,7 @@ static bool atom(struct compile *c)
     case TOK_VECTOR3:
         c->at++;
         if ((op = emit(c, CALC_VECTOR3, 0, from)))
-            op->vector = c->t[from].vector;
+            op->vector = c->t[from].vector->v;
         return op;
     case '(': c->at++; return full(c) && take(c, ')');
     default: return false;
@@ -326,7 +327,7 @@ static bool assignment(struct compile *c)
 
 bool calc_compile(struct eval *e, const struct calc_place *at, struct calc *out)
 {
-    struct compile c = {.e = e, .t = at->tokens, .count = at->count, .out = out};
+    struct compile c = {.e = e, .t = at->tokens, .text = at->text, .count = at->count, .out = out};
     bool ok = false;
     *out = (struct calc){0};
     switch (at->kind) {

@@ -8,7 +8,7 @@
 
 enum { KIND_END = 256, KIND_NUMBER, KIND_STRING }; // or a character
 
-struct lexeme {
+struct datum_text {
     int kind;
     double number;
     const char *text; // of a string, between the quotes
@@ -53,12 +53,12 @@ static void skip_blank(struct file_data *d)
     }
 }
 
-static struct lexeme string_lexeme(struct file_data *d)
+static struct datum_text string_lexeme(struct file_data *d)
 {
     size_t begin = ++d->at;
     while (d->at < d->len && here(d) != '"')
         d->at += here(d) == '\\' && d->at + 1 < d->len ? 2 : 1;
-    struct lexeme l = {.kind = KIND_STRING, .text = d->text + begin, .len = d->at - begin};
+    struct datum_text l = {.kind = KIND_STRING, .text = d->text + begin, .len = d->at - begin};
     d->at++;
     return l;
 }
@@ -88,10 +88,10 @@ static void pass_number(struct file_data *d)
     pass_digits(d);
 }
 
-static struct lexeme next_lexeme(struct file_data *d)
+static struct datum_text next_lexeme(struct file_data *d)
 {
     skip_blank(d);
-    struct lexeme l = {.kind = KIND_END};
+    struct datum_text l = {.kind = KIND_END};
     char c = here(d);
     if (d->at >= d->len)
         return l;
@@ -111,7 +111,7 @@ static struct lexeme next_lexeme(struct file_data *d)
     return l;
 }
 
-static bool signed_number(struct file_data *d, struct lexeme l, double *out)
+static bool signed_number(struct file_data *d, struct datum_text l, double *out)
 {
     bool minus = l.kind == '-';
     if (minus || l.kind == '+')
@@ -124,7 +124,7 @@ static bool vector(struct file_data *d, struct value *out)
 {
     double n[5];
     int width = 0;
-    struct lexeme l = next_lexeme(d);
+    struct datum_text l = next_lexeme(d);
     for (; l.kind != '>'; l = next_lexeme(d)) {
         if (width == 5 || !signed_number(d, l, &n[width++]))
             return false;
@@ -136,7 +136,7 @@ static bool vector(struct file_data *d, struct value *out)
     return width >= 2;
 }
 
-static bool string(struct arena *a, struct lexeme l, struct value *out)
+static bool string(struct arena *a, struct datum_text l, struct value *out)
 {
     struct text_buffer b = {.arena = a};
     if (text_unescape(&b, l.text, l.len, false))
@@ -151,7 +151,7 @@ enum file_item file_data_next(struct file_data *d, struct arena *a, struct value
 {
     double n;
     bool ok;
-    struct lexeme l = next_lexeme(d);
+    struct datum_text l = next_lexeme(d);
     switch (l.kind) {
     case KIND_END: return FILE_ITEM_END;
     case KIND_STRING: ok = string(a, l, out); break;

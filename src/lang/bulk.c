@@ -29,12 +29,6 @@ static bool mark(struct scan *s, char c)
     return true;
 }
 
-static void digits(struct scan *s)
-{
-    while (is_digit(next(s)))
-        s->at++;
-}
-
 // Nothing that would make the number before it another token.
 static bool number_ends(const struct scan *s)
 {
@@ -45,28 +39,39 @@ static bool number_ends(const struct scan *s)
     }
 }
 
+// The digits at s->at, added to *mantissa, which may overflow: then there are too many.
+static uint32_t digits(struct scan *s, uint64_t *mantissa)
+{
+    const char *from = s->at;
+    uint64_t m = *mantissa;
+    for (; is_digit(next(s)); s->at++)
+        m = 10 * m + (uint64_t)(*s->at - '0');
+    *mantissa = m;
+    return (uint32_t)(s->at - from);
+}
+
 static bool number(struct scan *s, double *out)
 {
     const bool minus = next(s) == '-';
     s->at += minus;
     const char *from = s->at;
-    if (!is_digit(next(s)) && next(s) != '.')
-        return false;
-    digits(s);
+    uint64_t mantissa = 0;
+    uint32_t count = digits(s, &mantissa), places = 0;
     if (next(s) == '.') {
         s->at++;
-        if (s->at - from == 1 && !is_digit(next(s)))
-            return false;
-        digits(s);
+        places = digits(s, &mantissa);
     }
+    if (!count && !places)
+        return false;
+    bool plain = count + places <= NUMBER_DIGITS;
     if (next(s) == 'e' || next(s) == 'E') {
+        plain = false;
         s->at++;
         s->at += next(s) == '-' || next(s) == '+';
-        if (!is_digit(next(s)))
+        if (!digits(s, &mantissa))
             return false;
-        digits(s);
     }
-    *out = number_parse(from, (size_t)(s->at - from));
+    *out = plain ? number_scaled(mantissa, places) : number_parse(from, (size_t)(s->at - from));
     if (minus)
         *out = -*out;
     return number_ends(s);
@@ -127,8 +132,25 @@ size_t bulk_scan(struct arena *a, enum word w, const char *text, size_t len,
     uint32_t *indices = is_index ? arena_new_array(a, uint32_t, n) : NULL;
     out->number = numbers;
     out->index = indices;
-    if (vectors(&s, out, numbers, indices))
-        return (size_t)(s.at - text);
+    if (vectors(&s, out, numbers, indices)) {
+        out->len = (uint32_t)(s.at - text);
+        return out->len;
+    }
     arena_rewind(a, before);
     return 0;
+}
+
+size_t bulk_vector(const char *text, size_t len, double out[3])
+{
+    struct scan s = {text, text + len};
+    for (int i = 0; i < 3; i++) {
+        blanks(&s);
+        if (!number(&s, &out[i]))
+            return 0;
+        blanks(&s);
+        if (next(&s) != (i < 2 ? ',' : '>'))
+            return 0;
+        s.at++;
+    }
+    return (size_t)(s.at - text);
 }

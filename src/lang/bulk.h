@@ -15,6 +15,7 @@ struct arena;
 // give the same mesh and the errors.
 struct bulk {
     uint32_t count, width; // vectors, components of each
+    uint32_t len;          // bytes of the text
     const double *number;  // count*width; NULL: whole numbers
     const uint32_t *index; // likewise, for lists of indices
 };
@@ -22,5 +23,9 @@ struct bulk {
 // text: what follows the '{' of block `w`. The bytes before its '}' and *out, or 0.
 size_t bulk_scan(struct arena *a, enum word w, const char *text, size_t len,
                  struct bulk *out);
+
+// text: what follows a '<'. The bytes up to and with the '>' when three numbers are written
+// out there, and the numbers; or 0.
+size_t bulk_vector(const char *text, size_t len, double out[3]);
 
 #endif

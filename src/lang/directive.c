@@ -21,12 +21,11 @@ bool directive_skip(struct stream *s, uint32_t depth, bool stop_at_else,
 {
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     while (c->at < c->count) {
-        const struct token *t = &c->tokens[c->at++];
+        const struct lexeme *t = &c->tokens[c->at++];
         s->steps++;
         if (t->kind != '#' || c->at >= c->count)
             continue;
-        *stop = c->tokens[c->at++];
-        stop->where.expansion = c->expansion;
+        cursor_token(c, c->at++, stop);
         enum word w = (enum word)stop->word;
         if (opens(w))
             depth++;
@@ -205,14 +204,13 @@ static struct lvalue for_variable(const struct token *t)
                            .local = true};
 }
 
-static bool for_head(struct stream *s, const struct token **variable, double bound[3])
+static bool for_head(struct stream *s, struct lvalue *variable, double bound[3])
 {
     struct token name;
     bool ok = raw_expect(s, '(', "'('", "#for");
-    const struct cursor *c = &s->cursors[s->cursor_count - 1];
-    *variable = &c->tokens[c->at];
     if (!ok || !raw_expect_name(s, &name, "#for"))
         return false;
+    *variable = for_variable(&name);
     raw_take_if(s, ',');
     const struct ast *n = parse_run(s, TOK_START_LIST, &ok);
     int count = 0;
@@ -234,28 +232,26 @@ static bool for_goes_on(double v, double end, double step)
 static void run_for(struct stream *s, struct token word)
 {
     double bound[3] = {0, 0, 1};
-    const struct token *variable = NULL;
+    struct lvalue variable = {0};
     bool ok = for_head(s, &variable, bound);
     struct frame *f = stream_push_frame(s, FRAME_FOR, &word);
     f->back = s->cursors[s->cursor_count - 1].at;
     f->variable = variable;
     f->end = bound[1];
     f->step = bound[2];
-    if (ok) {
-        struct lvalue to = for_variable(variable);
-        ok = s->host.declare_number(s->host.user, &to, bound[0]);
-    }
+    if (ok)
+        ok = s->host.declare_number(s->host.user, &variable, bound[0]);
     if (!ok || !for_goes_on(bound[0], bound[1], bound[2]))
         skip_rest(s, 1);
 }
 
 static bool for_step(struct stream *s, const struct frame *f)
 {
-    struct lvalue to = for_variable(f->variable);
+    const struct lvalue to = f->variable;
     struct name_info info = s->host.lookup(s->host.user, to.name, to.len);
     struct ast *n = ast_new(s->nodes, info.value ? AST_VALUE : AST_UNDECLARED, to.where);
     n->text = to.name;
-    n->len = f->variable->len;
+    n->len = (uint16_t)to.len;
     n->value = info.value;
     double v;
     if (!s->host.number(s->host.user, n, &v))

@@ -3,14 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lang/lexeme.h"
 #include "lang/lexer.h"
-#include "parser.h"
 
 enum { DEPTH_MAX = 60 }; // deeper lines are indented no further
 
 struct format {
     const struct source_file *file;
-    const struct token *tokens;
+    const struct lexeme *tokens;
     uint32_t count, at; // the next token
     int depth;          // open braces, brackets and directives
     int *frame;         // `depth` inside each open directive when it began
@@ -35,7 +35,7 @@ static bool middle(enum word w)
 static enum word directive_at(const struct format *f, uint32_t i)
 {
     bool is = i + 1 < f->count && f->tokens[i].kind == '#';
-    return is ? (enum word)f->tokens[i + 1].word : WORD_NONE;
+    return is ? lexeme_word(&f->tokens[i + 1]) : WORD_NONE;
 }
 
 static bool is_opener(int kind) { return kind == '{' || kind == '(' || kind == '['; }
@@ -106,9 +106,9 @@ static void take_line(struct format *f, uint32_t begin, uint32_t end)
     uint32_t i = begin > f->opaque ? begin : f->opaque;
     while (i < end) {
         uint32_t comment = comment_end(f->file->text, i, f->file->len);
-        if (f->at < f->count && f->tokens[f->at].where.begin == i) {
+        if (f->at < f->count && f->tokens[f->at].begin == i) {
             pass(f, f->at);
-            i = f->tokens[f->at++].where.end;
+            i += lexeme_len(&f->tokens[f->at++]);
         } else {
             i = comment > i ? comment : i + 1;
         }
@@ -128,7 +128,7 @@ static int indent_of(const struct format *f, uint32_t end)
 {
     int depth = f->depth;
     uint32_t i = f->at;
-    bool first = i < f->count && f->tokens[i].where.begin < end;
+    bool first = i < f->count && f->tokens[i].begin < end;
     enum word w = first ? directive_at(f, i) : WORD_NONE;
     if (first && middle(w) && f->frames)
         depth = f->frame[f->frames - 1] - 1;
@@ -136,7 +136,7 @@ static int indent_of(const struct format *f, uint32_t end)
         depth--;
     else if (continues_after(f->last) && first && f->tokens[i].kind != '{')
         depth++;
-    for (; i < f->count && f->tokens[i].where.begin < end && is_closer(f->tokens[i].kind);
+    for (; i < f->count && f->tokens[i].begin < end && is_closer(f->tokens[i].kind);
          i++)
         depth--;
     return depth < 0 ? 0 : depth > DEPTH_MAX ? DEPTH_MAX : depth;
@@ -173,7 +173,7 @@ bool format_source(struct source_map *sources, uint32_t file, struct diag_sink *
 {
     struct format f = {.file = sources->file[file], .width = width, .out = out};
     unsigned errors = diags->errors;
-    struct token *tokens = lex_file(sources, file, diags, NULL, &f.count);
+    struct lexeme *tokens = lex_file(sources, file, diags, NULL, &f.count);
     f.tokens = tokens;
     const struct source_file *s = f.file;
     for (uint32_t at = 0; at < s->len && diags->errors == errors;) {

@@ -11,16 +11,16 @@ void macro_define(struct stream *s, struct token word)
     struct macro *m = arena_new_struct(s->arena, struct macro);
     bool ok = raw_expect_name(s, &name, "#macro") && raw_expect(s, '(', "'('", "#macro");
     while (ok && raw_kind(s) != ')') {
-        const struct cursor *c = &s->cursors[s->cursor_count - 1];
-        const struct token *parameter = &c->tokens[c->at];
         struct token t;
         ok = raw_expect_name(s, &t, "#macro");
         if (ok && m->parameter_count == PARAMETERS_MAX) {
             diag_at(s->diags, DIAG_TOO_MANY_PARAMETERS, t.where, PARAMETERS_MAX);
             ok = false;
         }
-        if (ok)
-            m->parameter[m->parameter_count++] = parameter;
+        if (ok) {
+            m->parameter[m->parameter_count].text = t.text;
+            m->parameter[m->parameter_count++].len = t.len;
+        }
         raw_take_if(s, ',');
     }
     ok = ok && raw_expect(s, ')', "')'", "#macro");
@@ -35,6 +35,8 @@ void macro_define(struct stream *s, struct token word)
         return;
     m->name = arena_strndup(s->arena, name.text, name.len);
     m->where = name.where;
+    m->file = c->file;
+    m->text = c->text;
     m->body = c->tokens + from;
     m->slots = c->slots + from;
     m->count = c->at - 2 - from; // without '#' and `end`
@@ -69,7 +71,7 @@ static bool is_reference(const struct stream *s)
     if (i >= c->count || c->tokens[i].kind != TOK_NAME)
         return false;
     struct name_info info =
-        s->host.lookup(s->host.user, c->tokens[i].text, c->tokens[i].len);
+        s->host.lookup(s->host.user, c->text + c->tokens[i].begin, c->tokens[i].len);
     if (info.class == NAME_FUNCTION || info.class == NAME_MACRO)
         return false;
     i++;
@@ -182,12 +184,13 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
     if (count >= 0 && s->host.enter_scope(s->host.user, name.where)) {
         bool ok = true;
         for (int i = 0; i < count; i++)
-            ok &= s->host.bind_argument(s->host.user, m->parameter[i]->text,
-                                        m->parameter[i]->len, &args[i]);
+            ok &= s->host.bind_argument(s->host.user, m->parameter[i].text,
+                                        m->parameter[i].len, &args[i]);
         s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
                                  sizeof *s->cursors);
         s->cursors[s->cursor_count++] = (struct cursor){
-            .tokens = m->body, .slots = m->slots, .count = m->count, .macro = m, .frames = s->frame_count,
+            .tokens = m->body, .slots = m->slots, .count = m->count, .file = m->file,
+            .text = m->text, .macro = m, .frames = s->frame_count,
             .at = ok ? 0 : m->count,
             .expansion = source_expand(s->sources, m->name, name.where)};
         s->calls++;

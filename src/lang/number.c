@@ -6,13 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+double number_scaled(uint64_t mantissa, uint32_t places)
+{
+    return (double)mantissa / power[places];
+}
+
 // Numbers of up to 15 digits with a small power of ten are exact in one operation:
 // both factors are doubles without error (Clinger, PLDI 1990, section 3).
 static bool parse_short(const char *text, size_t len, double *out)
 {
-    static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     uint64_t mantissa = 0;
     int digits = 0, scale = 0;
     bool point = false;
@@ -25,7 +31,7 @@ static bool parse_short(const char *text, size_t len, double *out)
         mantissa = 10 * mantissa + (uint64_t)(text[i] - '0');
         digits += mantissa != 0;
         scale -= point;
-        if (digits > 15)
+        if (digits > NUMBER_DIGITS)
             return false;
     }
     if (i + 1 < len) {

@@ -86,7 +86,9 @@ void stream_push_file(struct stream *s, uint32_t file)
     s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
                              sizeof *s->cursors);
     s->cursors[s->cursor_count++] =
-        (struct cursor){.tokens = l->tokens, .slots = l->slots, .count = l->count, .frames = s->frame_count};
+        (struct cursor){.tokens = l->tokens, .slots = l->slots, .count = l->count,
+                        .file = l->file, .text = s->sources->file[l->file]->text,
+                        .frames = s->frame_count};
     s->includes++;
 }
 
@@ -137,27 +139,10 @@ static void pop_finished(struct stream *s)
     }
 }
 
-// Written where it is wanted: tokens are large, and copies of what was just written in
-// parts are slow.
-static inline void put(const struct cursor *c, uint32_t i, struct token *out)
-{
-    const struct token *t = &c->tokens[i];
-    out->kind = i >= c->count ? TOK_END : t->kind;
-    out->where.file = t->where.file;
-    out->where.begin = t->where.begin;
-    out->where.end = t->where.end;
-    out->where.expansion = c->expansion;
-    out->word = t->word;
-    out->len = t->len;
-    out->text = t->text;
-    out->number = t->number;
-    out->value = NULL;
-}
-
 static struct token at(const struct cursor *c, uint32_t i)
 {
     struct token t;
-    put(c, i, &t);
+    cursor_token(c, i, &t);
     return t;
 }
 
@@ -213,7 +198,7 @@ enum word raw_word(struct stream *s)
 {
     const struct cursor *c = &s->cursors[s->cursor_count - 1];
     if (!s->pending_set && c->at < c->count)
-        return (enum word)c->tokens[c->at].word;
+        return lexeme_word(&c->tokens[c->at]);
     return (enum word)raw_peek(s).word;
 }
 
@@ -234,7 +219,7 @@ static void take(struct stream *s, struct token *out)
     uint32_t i = c->at;
     s->steps++;
     c->at += i < c->count;
-    put(c, i, out);
+    cursor_token(c, i, out);
 }
 
 struct token raw_take(struct stream *s)
@@ -267,11 +252,11 @@ enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool l
                             .goes_on = kind == CALC_ITEM && may_go_on_after(s, c),
                             .tokens = c->tokens + c->at,
                             .count = c->count - c->at,
-                            .slot = c->slots + c->at};
+                            .text = c->text,
+                            .slot = c->slots + c->at,
+                            .where = {.file = c->file, .expansion = c->expansion}};
     if (!at.count)
         return CALC_NONE;
-    at.where = at.tokens[0].where;
-    at.where.expansion = c->expansion;
     enum calc_outcome outcome = s->host.calculate(s->host.user, &at, out);
     if (outcome != CALC_NONE) {
         c->at += out->used;
@@ -467,7 +452,7 @@ void stream_take(struct stream *s, struct token *out)
         if (diag_full(s->diags))
             s->stopped = true;
         if (s->stopped) {
-            put(&s->cursors[0], s->cursors[0].count, out);
+            cursor_token(&s->cursors[0], s->cursors[0].count, out);
             return;
         }
         if (take_pending(s, out)) // cooked already: a macro was expanded before
@@ -502,9 +487,10 @@ void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t fi
     (void)a;
     const struct source_file *f = sources->file[file];
     uint32_t count;
-    struct token *tokens = lex_file(sources, file, diags, NULL, &count);
+    struct lexeme *tokens = lex_file(sources, file, diags, NULL, &count);
     for (uint32_t i = 0; i < count; i++) {
-        const struct token *t = &tokens[i];
+        struct token whole, *t = &whole;
+        lexeme_token(&tokens[i], file, f->text, 0, t);
         uint32_t line = source_line(f, t->where.begin);
         const char *kind = t->kind == TOK_NUMBER   ? "number"
                            : t->kind == TOK_STRING ? "string"

@@ -63,8 +63,9 @@ struct calc_place {
     enum calc_kind kind;
     bool local;   // CALC_ASSIGNMENT: #local
     bool goes_on; // what follows the end of these tokens may belong to the expression
-    const struct token *tokens;
+    const struct lexeme *tokens;
     uint32_t count;
+    const char *text;  // of the file
     uint32_t *slot;    // the host's, 0 at first: what it knows of this place
     struct span where; // file and expansion of the tokens
 };

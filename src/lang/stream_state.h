@@ -2,6 +2,7 @@
 #define LANG_STREAM_STATE_H
 
 #include "base/arena.h"
+#include "lang/lexeme.h"
 #include "lang/stream.h"
 
 // The inside of the stream, shared by stream.c, directive.c, macro.c and parse.c.
@@ -16,17 +17,24 @@ enum {
 struct macro {
     const char *name; // terminated
     struct span where;
-    const struct token *body; // count tokens
+    uint32_t file;
+    const char *text;          // of the file
+    const struct lexeme *body; // count tokens
     uint32_t *slots;          // ... and calc_place.slot of each
     uint32_t count;
-    const struct token *parameter[PARAMETERS_MAX];
+    struct {
+        const char *text;
+        size_t len;
+    } parameter[PARAMETERS_MAX];
     int parameter_count;
 };
 
 // Where tokens come from: a file, or the body of a macro being called.
 struct cursor {
-    const struct token *tokens;
+    const struct lexeme *tokens;
     uint32_t *slots; // calc_place.slot of each token
+    uint32_t file;
+    const char *text; // of the file
     uint32_t at, count;
     uint32_t expansion;
     uint32_t frames; // frames open when it began
@@ -44,15 +52,23 @@ struct frame {
     uint32_t back;   // a loop: the #while's condition, the #for's first body token
     double value;    // a #switch
     double end, step;
-    const struct token *variable;
+    struct lvalue variable; // of a #for
 };
 
 struct lexed {
     uint32_t file;
-    struct token *tokens;
+    struct lexeme *tokens;
     uint32_t *slots;
     uint32_t count;
 };
+
+// The token at `i`; past the end, the end.
+static inline void cursor_token(const struct cursor *c, uint32_t i, struct token *out)
+{
+    lexeme_token(&c->tokens[i], c->file, c->text, c->expansion, out);
+    if (i >= c->count)
+        out->kind = 0;
+}
 
 // That was called and that nobody declared.
 struct unknown_name {

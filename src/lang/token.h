@@ -9,18 +9,38 @@
 struct bulk;
 struct value;
 
-// One token of a file, made once by the lexer. `word` is the index of a reserved
+// Three numbers written out, as one token.
+struct lexed_vector {
+    double v[3];
+    uint32_t len; // bytes of its text
+};
+
+// One token of a file as it is kept, made once by the lexer: scenes that programs write have
+// tens of millions. lang/lexeme.h tells what is not here.
+struct lexeme {
+    uint16_t kind; // a TOK_* of grammar/parser.y, or a character
+    uint16_t word; // a reserved word; of a TOK_NUMBER: bytes of its text
+    uint32_t begin;
+    union {
+        double number;
+        const struct lexed_vector *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
+        const struct bulk *bulk; // TOK_BULK: the contents of a block of mesh2
+        uint32_t len;            // of all others: bytes of the text
+    };
+};
+
+// The same while it is looked at. `word` is the index of a reserved
 // word in keywords.def (enum word), or WORD_NONE for an ordinary name.
 struct token {
-    int kind; // a TOK_* of grammar/parser.y, or a character
+    int kind;
     struct span where;
     uint16_t word;
     uint16_t len;
     const char *text; // points into the source; not terminated
     union {
         double number;
-        const double *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
-        const struct bulk *bulk; // TOK_BULK: the contents of a block of mesh2
+        const double *vector;
+        const struct bulk *bulk;
     };
     const struct value *value; // a declared name, when read by the stream: its value
 };

@@ -355,6 +355,9 @@ bool bvh8_ray_begin(const struct bvh8 *b, const struct ray *ray, double t_min,
     for (int a = 0; a < 3; a++) {
         out->o[a] = (float)vec3_axis(o, a);
         out->inverse[a] = (float)(1 / d[a]);
+        // No box is out of reach of a ray from nowhere, not even one that is not there.
+        if (!(fabsf(out->o[a]) <= FLT_MAX && fabsf(out->inverse[a]) <= FLT_MAX))
+            return false;
     }
     out->t_begin = t_min;
     out->scale = largest;

@@ -150,7 +150,7 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
                                  struct real8 t_max, unsigned lanes, struct tree_lanes *l)
 {
     const struct real8 largest = v8_max_abs(d), tiny = r8_set(0x1p-60);
-    struct mask8 out = m8_of(0);
+    struct mask8 out = m8_of(0), real = m8_of(0xff);
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 at = a == 0 ? o.x : a == 1 ? o.y : o.z;
@@ -166,10 +166,16 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
         out = m8_or(out, m8_and(flat, m8_or(r8_lt(at, lo), r8_lt(hi, at))));
         const struct real8 most = r8_select(r8_lt(by, r8_set(0)), r8_set(-0x1p60),
                                             r8_set(0x1p60));
-        r8_store_floats(l->inverse[a], r8_select(flat, most, r8_mul(largest, inv)));
+        const struct real8 slow = r8_select(flat, most, r8_mul(largest, inv));
+        r8_store_floats(l->inverse[a], slow);
+        real = m8_and(real, r8_le(r8_abs(slow), r8_set(never)));
     }
-    const unsigned in = lanes & m8_bits(m8_without(r8_le(t_min, t_max), out));
     const struct vec8 begin = v8_sub(v8_mad(o, t_min, d), V8_SET(b->origin));
+    // A ray from nowhere would meet boxes that are not there (bvh8_ray_begin).
+    real = m8_and(real, r8_le(r8_abs(begin.x), r8_set(never)));
+    real = m8_and(real, r8_le(r8_abs(begin.y), r8_set(never)));
+    real = m8_and(real, r8_le(r8_abs(begin.z), r8_set(never)));
+    const unsigned in = lanes & m8_bits(m8_without(m8_and(real, r8_le(t_min, t_max)), out));
     r8_store_floats(l->o[0], begin.x);
     r8_store_floats(l->o[1], begin.y);
     r8_store_floats(l->o[2], begin.z);
