@@ -152,5 +152,5 @@ size_t bulk_vector(const char *text, size_t len, double out[3])
             return 0;
         s.at++;
     }
-    return (size_t)(s.at - text);
+    return next(&s) == '=' ? 0 : (size_t)(s.at - text); // `>=` is one token
 }

@@ -117,7 +117,7 @@ static const char *const scripts[][2] = {
      "5,2,3"},
     {"#macro T() transform{rotate x} #end #macro M() #local A = T(); #ifdef(A)"
      " #debug \"there\" #end #end M()", "there"},
-    {"#declare A = <1,2#>; #default { normal { bump_size 2 } } #debug str(A.v,0,0)", "2"},
+    {"#declare A = <1,2#>; #default { normal { bumps bump_size 2 } } #debug str(A.v,0,0)", "2"},
     {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
 };
 
