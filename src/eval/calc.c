@@ -10,6 +10,7 @@
 #include "eval/array.h"
 #include "eval/expr.h"
 #include "eval/functions.h"
+#include "lang/macro.h"
 
 // What a place in the text holds instead of an index.
 enum { SLOT_NEW, SLOT_SEEN, SLOT_NEVER, SLOT_FIRST };
@@ -60,7 +61,7 @@ static const struct calc *find(struct eval *e, const struct calc_place *at)
         return t->calc[*at->slot - SLOT_FIRST];
     if (*at->slot == SLOT_NEVER)
         return NULL;
-    if (!calc_compile(e, at, t->scratch)) {
+    if (!calc_compile(e, at, t->arena, t->scratch)) {
         *at->slot = SLOT_NEVER;
         return NULL;
     }
@@ -74,13 +75,17 @@ static const struct calc *find(struct eval *e, const struct calc_place *at)
 // ---- running -----------------------------------------------------------------
 
 struct number {
-    int width;
-    double n[5];
+    int width; // 0: a string
+    union {
+        double n[5];
+        const char *text; // terminated
+    };
 };
 
 struct run {
     struct eval *e;
     const struct calc_place *at;
+    const struct calc *calc;
     struct number stack[CALC_STACK_MAX + 1];
     struct number *top; // one above the last
     bool failed;        // and reported
@@ -90,18 +95,37 @@ struct run {
     } random[CALC_RANDOM_MAX];
 };
 
-static struct span place_in_text(const struct run *r, const struct calc_op *op)
+// Of a place in the text of macro i (calc_op.macro).
+static struct span place_in(const struct run *r, uint8_t i, uint32_t begin, uint32_t end)
 {
     struct span s = r->at->where;
-    s.begin = op->begin;
-    s.end = op->end;
+    if (i) {
+        const struct calc_macro *m = &r->calc->macro[i - 1];
+        const struct span called = place_in(r, m->outer, m->begin, m->end);
+        s.expansion = source_expand(r->e->sources, m->macro->name, called);
+        s.file = m->macro->file;
+    }
+    s.begin = begin;
+    s.end = end;
     return s;
+}
+
+static struct span place_in_text(const struct run *r, const struct calc_op *op)
+{
+    return place_in(r, op->macro, op->begin, op->end);
 }
 
 static void push(struct run *r, int width, const double *n)
 {
     r->top->width = width;
     memcpy(r->top->n, n, (size_t)width * sizeof *n);
+    r->top++;
+}
+
+static void push_text(struct run *r, const char *text)
+{
+    r->top->width = 0;
+    r->top->text = text;
     r->top++;
 }
 
@@ -115,6 +139,8 @@ static bool push_name(struct run *r, struct name *name)
     }
     if (v)
         push(r, v->width, v->n);
+    else if ((v = p.symbol ? symbol_string(p.symbol) : NULL))
+        push_text(r, v->string.text);
     return v;
 }
 
@@ -177,7 +203,7 @@ static void note_random(struct run *r, double stream)
 static bool call(struct run *r, const struct calc_op *op)
 {
     const struct builtin *f = builtin_find((enum word)op->word);
-    struct argument arg[8] = {0};
+    struct argument arg[8];
     struct ast node = {.kind = AST_CALL, .word = op->word, .where = place_in_text(r, op)};
     const char *kind = f->arguments;
     r->top -= op->count;
@@ -187,6 +213,10 @@ static bool call(struct run *r, const struct calc_op *op)
             if (v->width != 1)
                 return false;
             arg[i].f = v->n[0];
+        } else if (*kind == 's') {
+            if (v->width)
+                return false;
+            arg[i].s = v->text;
         } else if (v->width == 1) {
             arg[i].v = vec3(v->n[0], v->n[0], v->n[0]);
         } else if (v->width == 3) {
@@ -205,7 +235,10 @@ static bool call(struct run *r, const struct calc_op *op)
                      .arg = arg};
     c.result.width = f->result == 'f' ? 1 : 3;
     r->failed = !f->run(&c);
-    push(r, c.result.width, c.result.n);
+    if (f->result != 's')
+        push(r, c.result.width, c.result.n);
+    else
+        push_text(r, r->failed ? "" : c.result.text);
     return true;
 }
 
@@ -244,7 +277,7 @@ static bool binary(struct run *r, const struct calc_op *op)
         a->n[0] = of_two(r, op, a->n[0], b->n[0]);
         return true;
     }
-    if (a->width != b->width && a->width != 1 && b->width != 1)
+    if (!a->width || !b->width || (a->width != b->width && a->width != 1 && b->width != 1))
         return false;
     number_widen(a->n, &a->width, b->width);
     number_widen(b->n, &b->width, a->width);
@@ -253,11 +286,31 @@ static bool binary(struct run *r, const struct calc_op *op)
     return true;
 }
 
-static void unary(struct run *r, const struct calc_op *op)
+static bool unary(struct run *r, const struct calc_op *op)
 {
     struct number *v = r->top - 1;
+    if (!v->width)
+        return false;
     for (int i = 0; i < v->width && op->word != '+'; i++)
         v->n[i] = op->word == '-' ? -v->n[i] : !eval_truth(v->n[i]);
+    return true;
+}
+
+// A colour would have been rounded to single precision on its way into a name.
+static bool slot(struct run *r, const struct calc_op *op)
+{
+    const struct number *v = &r->stack[op->count];
+    if (v->width == 5)
+        return false;
+    *r->top++ = *v;
+    return true;
+}
+
+static void leave(struct run *r, const struct calc_op *op)
+{
+    struct number *to = &r->stack[op->count];
+    *to = r->top[-1];
+    r->top = to + 1;
 }
 
 static bool member(struct run *r, const struct calc_op *op)
@@ -277,7 +330,7 @@ static bool choose(struct run *r)
 {
     struct number *which = r->top - 3;
     r->top -= 2;
-    if (which->width != 1)
+    if (which->width != 1 || !which[1].width || !which[2].width)
         return false;
     *which = eval_truth(which->n[0]) ? which[1] : which[2];
     return true;
@@ -294,9 +347,12 @@ static bool step(struct run *r, const struct calc_op *op)
     case CALC_CALL: return call(r, op);
     case CALC_VECTOR: return vector(r, op);
     case CALC_BINARY: return binary(r, op);
-    case CALC_UNARY: unary(r, op); return true;
+    case CALC_UNARY: return unary(r, op);
     case CALC_MEMBER: return member(r, op);
     case CALC_CHOOSE: return choose(r);
+    case CALC_STRING: push_text(r, op->string); return true;
+    case CALC_SLOT: return slot(r, op);
+    case CALC_LEAVE: leave(r, op); return true;
     }
     return false;
 }
@@ -304,12 +360,19 @@ static bool step(struct run *r, const struct calc_op *op)
 // Whether every name holds what the steps take it for; nothing has run yet.
 static bool names_fit(struct eval *e, const struct calc *c)
 {
+    for (uint32_t i = 0; i < c->macro_count; i++) {
+        struct place p = symbols_place(e->symbols, c->macro[i].name);
+        const struct value *v = p.symbol ? symbol_value(p.symbol) : NULL;
+        if (!v || v->kind != VALUE_MACRO || v->data != c->macro[i].macro)
+            return false;
+    }
     for (uint32_t i = 0; i < c->count; i++) {
         const struct calc_op *op = &c->op[i];
         if (op->code == CALC_NAME) {
             struct place p = symbols_place(e->symbols, op->name);
             if (p.array ? p.array->kind != VALUE_NUMBER || !p.array->set[p.index]
-                        : !p.symbol || !symbol_number(p.symbol))
+                        : !p.symbol ||
+                              (!symbol_number(p.symbol) && !symbol_string(p.symbol)))
                 return false;
         } else if (op->code == CALC_ELEMENT) {
             const struct array_value *a = array_of(e, op->name);
@@ -333,18 +396,46 @@ static bool assign(struct run *r, const struct calc *c)
     struct eval *e = r->e;
     const struct number *result = --r->top;
     struct value v;
-    if (result->width == 1)
+    if (!result->width)
+        v = (struct value){.kind = VALUE_STRING,
+                           .string = {result->text, (uint32_t)strlen(result->text)}};
+    else if (result->width == 1)
         v = (struct value){.kind = VALUE_NUMBER, .width = 1, .n = {result->n[0]}};
     else
         v = value_of_number(result->n, result->width);
     if (c->subscripts) {
         uint32_t i;
         struct array_value *a = array_of(e, c->target);
-        return a && (a->kind == VALUE_NUMBER || a->kind == VALUE_NONE) &&
+        return a && result->width && (a->kind == VALUE_NUMBER || a->kind == VALUE_NONE) &&
                flat_index(r, a, c->subscripts, &i) && array_set(e->arena, a, i, &v);
     }
     struct place p = symbols_place_for(e->symbols, c->target, r->at->local);
+    if (!result->width)
+        return p.symbol && symbol_takes_number(p.symbol) && place_set(e->arena, p, &v);
     return p.symbol && symbol_set_number(p.symbol, &v);
+}
+
+// `S = concat(S, ...)`: what is added is written behind what is there. False when nothing
+// was done.
+static bool appended(struct run *r, const struct calc *c)
+{
+    struct eval *e = r->e;
+    const uint32_t added = c->op[c->count - 1].count - 1u;
+    struct place p = symbols_place_for(e->symbols, c->target, r->at->local);
+    bool ok = p.symbol && symbol_string(p.symbol);
+    r->top = r->stack;
+    for (uint32_t i = 1; ok && !r->failed && i + 1 < c->count; i++)
+        ok = step(r, &c->op[i]);
+    for (uint32_t i = 0; ok && i < added; i++)
+        ok = !r->stack[i].width &&
+             r->stack[i].text != symbol_string(p.symbol)->string.text;
+    ok = ok && !r->failed;
+    for (uint32_t i = 0; ok && i < added; i++)
+        symbol_append(e->arena, p.symbol, r->stack[i].text);
+    if (!ok)
+        take_back(r);
+    r->top = r->stack;
+    return ok;
 }
 
 // A local name exists, empty, before its right side is read (spec/language 3.2).
@@ -383,13 +474,21 @@ enum calc_outcome calc_run(void *user, const struct calc_place *at,
     struct run r;
     r.e = e;
     r.at = at;
+    r.calc = c;
     r.top = r.stack;
     r.failed = false;
     r.random_count = 0;
+    if (c->appends && (appended(&r, c) || r.failed)) {
+        out->used = c->used;
+        out->width = 0;
+        return r.failed ? CALC_FAILED : CALC_DONE;
+    }
     bool ok = true;
     for (uint32_t i = 0; ok && !r.failed && i < c->count; i++)
         ok = step(&r, &c->op[i]);
     const struct number *result = r.top - 1;
+    if (ok && !r.failed && !c->target)
+        ok = result->width; // strings are for names only
     if (ok && !r.failed && at->kind == CALC_ITEM)
         ok = result->width == 1 || (c->literal && result->width < 5);
     if (ok && !r.failed && at->kind == CALC_CONDITION)

@@ -4,8 +4,10 @@
 
 #include <string.h>
 
+#include "base/arena.h"
 #include "eval/functions.h"
 #include "lang/lexeme.h"
+#include "lang/macro.h"
 
 enum { NEST_MAX = 40 };
 
@@ -15,8 +17,23 @@ struct compile {
     const char *text; // of the file
     uint32_t count, at;
     struct calc *out;
+    struct arena *strings;
     int depth; // values on the stack
+    int from_bottom; // steps that leave the lowest value
     int nest, randoms;
+    const struct inlined *inlined; // the innermost
+};
+
+enum { LOCALS_MAX = 8 };
+
+// A macro while its body is compiled. Its arguments and locals lie on the stack from `base`
+// on.
+struct inlined {
+    const struct inlined *outer;
+    const struct macro *macro;
+    uint8_t index; // calc_op.macro
+    int base, local_count;
+    const struct lexeme *local[LOCALS_MAX];
 };
 
 static int kind(const struct compile *c)
@@ -41,12 +58,14 @@ static bool take(struct compile *c, int k)
 static struct calc_op *emit(struct compile *c, enum calc_code code, int pops,
                             uint32_t from)
 {
+    c->from_bottom += c->depth <= pops;
     c->depth += 1 - pops;
     if (c->out->count == CALC_OPS_MAX || c->depth > CALC_STACK_MAX)
         return NULL;
     struct calc_op *op = &c->out->op[c->out->count++];
     *op = (struct calc_op){0};
     op->code = (uint8_t)code;
+    op->macro = c->inlined ? c->inlined->index : 0;
     op->begin = c->t[from].begin;
     op->end = c->t[c->at - 1].begin + lexeme_len(&c->t[c->at - 1]);
     return op;
@@ -68,13 +87,118 @@ static bool subscripts(struct compile *c, int *count)
     return true;
 }
 
+// ---- macros ----------------------------------------------------------------------
+
+static bool same(const char *a, size_t a_len, const char *b, size_t b_len)
+{
+    return a_len == b_len && memcmp(a, b, a_len) == 0;
+}
+
+// Where on the stack the name's value lies; -1: it is none of a macro's.
+static int slot_of(const struct compile *c, const struct lexeme *t)
+{
+    const char *text = c->text + t->begin;
+    for (const struct inlined *in = c->inlined; in; in = in->outer) {
+        const struct macro *m = in->macro;
+        for (int i = in->local_count; i-- > 0;)
+            if (same(m->text + in->local[i]->begin, in->local[i]->len, text, t->len))
+                return in->base + m->parameter_count + i;
+        for (int i = 0; i < m->parameter_count; i++)
+            if (same(m->parameter[i].text, m->parameter[i].len, text, t->len))
+                return in->base + i;
+    }
+    return -1;
+}
+
+static bool primary(struct compile *c);
+
+// `#local NAME = value;`
+static bool local(struct compile *c, struct inlined *in)
+{
+    const struct lexeme *t;
+    if (!take(c, '#') || kind(c) != TOK_WORD || c->t[c->at++].word != WORD_local ||
+        kind(c) != TOK_NAME || in->local_count == LOCALS_MAX)
+        return false;
+    t = &c->t[c->at++];
+    const int known = slot_of(c, t);
+    if (known >= in->base || !take(c, '=') || !arith(c) || !take(c, ';'))
+        return false;
+    in->local[in->local_count++] = t;
+    return true;
+}
+
+// The body must be such that it means the same as a value: no operator of the text around
+// it may reach into it.
+static bool body(struct compile *c, struct inlined *in)
+{
+    while (kind(c) == '#')
+        if (!local(c, in))
+            return false;
+    return primary(c) && c->at == c->count;
+}
+
+static const struct macro *macro_of(const struct compile *c, struct name *name)
+{
+    const struct symbol *s = symbols_place(c->e->symbols, name).symbol;
+    const struct value *v = s ? symbol_value(s) : NULL;
+    return v && v->kind == VALUE_MACRO ? v->data : NULL;
+}
+
+// After the name of a macro: its arguments and, in place, its body.
+static bool macro(struct compile *c, const struct lexeme *t)
+{
+    struct name *name = name_of(c, t);
+    const struct macro *m = macro_of(c, name);
+    struct inlined in = {.outer = c->inlined, .macro = m, .base = c->depth};
+    if (!m || slot_of(c, t) >= 0 || c->out->macro_count == CALC_MACROS_MAX || !take(c, '('))
+        return false;
+    for (int i = 0; i < m->parameter_count; i++)
+        if ((i && !take(c, ',')) || !arith(c))
+            return false;
+    if (!take(c, ')'))
+        return false;
+    c->out->macro[c->out->macro_count++] =
+        (struct calc_macro){name, m, t->begin, t->begin + t->len,
+                            c->inlined ? c->inlined->index : 0};
+    in.index = (uint8_t)c->out->macro_count;
+    struct compile outer = *c;
+    c->t = m->body;
+    c->text = m->text;
+    c->count = m->count;
+    c->at = 0;
+    c->inlined = &in;
+    const bool ok = body(c, &in);
+    c->t = outer.t;
+    c->text = outer.text;
+    c->count = outer.count;
+    c->at = outer.at;
+    c->inlined = outer.inlined;
+    struct calc_op *op = ok ? emit(c, CALC_LEAVE, c->depth - in.base, c->at - 1) : NULL;
+    if (op)
+        op->count = (uint8_t)in.base;
+    return op;
+}
+
+// ----------------------------------------------------------------------------------
+
+static bool slot(struct compile *c, uint32_t from, int at)
+{
+    struct calc_op *op = kind(c) == '[' ? NULL : emit(c, CALC_SLOT, 0, from);
+    if (op)
+        op->count = (uint8_t)at;
+    return op;
+}
+
 static bool name(struct compile *c)
 {
     uint32_t from = c->at++;
     int n;
     struct calc_op *op;
     if (kind(c) == '(')
-        return false;
+        return macro(c, &c->t[from]);
+    const int at = slot_of(c, &c->t[from]);
+    if (at >= 0)
+        return slot(c, from, at);
     if (!subscripts(c, &n))
         return false;
     if (!(op = emit(c, n ? CALC_ELEMENT : CALC_NAME, n, from)))
@@ -123,14 +247,20 @@ static bool constant(struct compile *c)
     }
 }
 
-// A function of numbers that changes nothing, or rand.
+// Of numbers and strings, changing nothing, or rand.
+static bool is_simple(enum word w, const struct builtin *f)
+{
+    return f->run && w != WORD_seed && w != WORD_now && w != WORD_vstr &&
+           w != WORD_file_exists && w != WORD_datetime && w != WORD_val &&
+           strspn(f->arguments, "fvs") == strlen(f->arguments);
+}
+
 static bool call(struct compile *c)
 {
     uint32_t from = c->at;
     enum word w = (enum word)c->t[from].word;
     const struct builtin *f = builtin_find(w);
-    if (!f->run || f->result == 's' || w == WORD_seed || w == WORD_now ||
-        strspn(f->arguments, "fv") != strlen(f->arguments) || kind_after(c) != '(')
+    if (!is_simple(w, f) || kind_after(c) != '(')
         return false;
     if (w == WORD_rand && ++c->randoms > CALC_RANDOM_MAX)
         return false;
@@ -167,6 +297,20 @@ static bool vector(struct compile *c)
     return op;
 }
 
+// Without escapes.
+static bool string(struct compile *c)
+{
+    const struct lexeme *t = &c->t[c->at++];
+    const char *text = c->text + t->begin + 1;
+    const uint32_t len = t->len - 2;
+    if (len > UINT16_MAX || memchr(text, '\\', len))
+        return false;
+    struct calc_op *op = emit(c, CALC_STRING, 0, c->at - 1);
+    if (op)
+        op->string = arena_strndup(c->strings, text, len);
+    return op;
+}
+
 static bool atom(struct compile *c)
 {
     uint32_t from = c->at;
@@ -182,6 +326,7 @@ static bool atom(struct compile *c)
         if ((op = emit(c, CALC_VECTOR3, 0, from)))
             op->vector = c->t[from].vector->v;
         return op;
+    case TOK_STRING: return string(c);
     case '(': c->at++; return full(c) && take(c, ')');
     default: return false;
     }
@@ -322,12 +467,28 @@ static bool assignment(struct compile *c)
     if (!subscripts(c, &n) || !take(c, '='))
         return false;
     c->out->subscripts = (uint32_t)n;
-    return arith(c) && take(c, ';');
+    if (!arith(c) || !take(c, ';'))
+        return false;
+    const struct calc_op *last = &c->out->op[c->out->count - 1];
+    c->out->appends = !n && last->code == CALC_CALL && last->word == WORD_concat &&
+                      !c->out->macro_count && c->out->op[0].code == CALC_NAME &&
+                      c->out->op[0].name == c->out->target && last->count > 1 &&
+                      c->from_bottom == 2;
+    return true;
 }
 
-bool calc_compile(struct eval *e, const struct calc_place *at, struct calc *out)
+static bool gives_string(const struct calc *c)
 {
-    struct compile c = {.e = e, .t = at->tokens, .text = at->text, .count = at->count, .out = out};
+    const struct calc_op *last = &c->op[c->count - 1];
+    return last->code == CALC_STRING ||
+           (last->code == CALC_CALL && word_is_string_function((enum word)last->word));
+}
+
+bool calc_compile(struct eval *e, const struct calc_place *at, struct arena *strings,
+                  struct calc *out)
+{
+    struct compile c = {.e = e, .t = at->tokens, .text = at->text,
+                        .count = at->count, .out = out, .strings = strings};
     bool ok = false;
     *out = (struct calc){0};
     switch (at->kind) {
@@ -340,5 +501,5 @@ bool calc_compile(struct eval *e, const struct calc_place *at, struct calc *out)
         break;
     }
     out->used = c.at;
-    return ok;
+    return ok && (out->target || !gives_string(out));
 }

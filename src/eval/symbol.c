@@ -224,6 +224,11 @@ const struct value *symbol_number(const struct symbol *s)
     return s->is_number && !s->own.deprecated ? &s->own : NULL;
 }
 
+const struct value *symbol_string(const struct symbol *s)
+{
+    return s->is_string && !s->own.deprecated ? &s->own : NULL;
+}
+
 bool symbol_takes_number(const struct symbol *s)
 {
     return !s->value ||
@@ -306,6 +311,21 @@ static void keep_text(struct arena *a, struct symbol *s, const struct value *v)
     memmove(s->text, v->string.text, size);
     s->own = *v;
     s->own.string.text = s->text;
+}
+
+void symbol_append(struct arena *a, struct symbol *s, const char *text)
+{
+    const size_t old = s->own.string.len, more = strlen(text);
+    if (old + more + 1 > s->text_capacity) {
+        s->text_capacity = 2 * (old + more + 1);
+        char *grown = arena_alloc(a, s->text_capacity);
+        memcpy(grown, s->text, old);
+        s->text = grown;
+        s->own.string.text = grown;
+    }
+    memmove(s->text + old, text, more);
+    s->text[old + more] = 0;
+    s->own.string.len = (uint32_t)(old + more);
 }
 
 bool place_set(struct arena *a, struct place p, const struct value *v)

@@ -42,6 +42,9 @@ struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool 
 // NULL: none, or a number or string.
 const struct value *symbol_value(const struct symbol *s);
 const struct value *symbol_number(const struct symbol *s); // in place; NULL: no number
+const struct value *symbol_string(const struct symbol *s); // likewise
+// Adds to a string in place; `text` is none of its own.
+void symbol_append(struct arena *a, struct symbol *s, const char *text);
 // Assigns a number unless the name is a macro's or a function's.
 bool symbol_set_number(struct symbol *s, const struct value *v);
 bool symbol_takes_number(const struct symbol *s);

@@ -3,6 +3,7 @@
 
 #include "base/arena.h"
 #include "lang/lexeme.h"
+#include "lang/macro.h"
 #include "lang/stream.h"
 
 // The inside of the stream, shared by stream.c, directive.c, macro.c and parse.c.
@@ -11,22 +12,6 @@ enum {
     INCLUDES_MAX = 32,
     CALLS_MAX = 4000,
     FRAMES_MAX = 20000,
-    PARAMETERS_MAX = 55,
-};
-
-struct macro {
-    const char *name; // terminated
-    struct span where;
-    uint32_t file;
-    const char *text;          // of the file
-    const struct lexeme *body; // count tokens
-    uint32_t *slots;          // ... and calc_place.slot of each
-    uint32_t count;
-    struct {
-        const char *text;
-        size_t len;
-    } parameter[PARAMETERS_MAX];
-    int parameter_count;
 };
 
 // Where tokens come from: a file, or the body of a macro being called.

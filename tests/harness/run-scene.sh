@@ -68,7 +68,7 @@ fi
 if grep -q '^// message:' "$scene"; then
   sed -n 's|^// message: \{0,1\}||p' "$scene" >wanted
   read_scene --diagnostics=text --color=never
-  sed -e "s|^$folder/||" -e '/^lambert: /d' err >got
+  sed -e "s|$folder/||g" -e '/^lambert: /d' err >got
   compare 'messages'
 fi
 echo "1..$n"

@@ -1,0 +1,25 @@
+#ifndef LANG_MACRO_H
+#define LANG_MACRO_H
+
+#include "lang/token.h"
+
+enum { PARAMETERS_MAX = 55 };
+
+// A macro as it was defined: its body is a run of tokens. Never changed, and kept as long
+// as the scene is read.
+struct macro {
+    const char *name; // terminated
+    struct span where;
+    uint32_t file;
+    const char *text;          // of the file
+    const struct lexeme *body; // count tokens
+    uint32_t *slots;           // ... and calc_place.slot of each
+    uint32_t count;
+    struct {
+        const char *text;
+        size_t len;
+    } parameter[PARAMETERS_MAX];
+    int parameter_count;
+};
+
+#endif
