@@ -357,8 +357,7 @@ static bool step(struct run *r, const struct calc_op *op)
     return false;
 }
 
-// Whether every name holds what the steps take it for; nothing has run yet.
-static bool names_fit(struct eval *e, const struct calc *c)
+static bool macros_fit(struct eval *e, const struct calc *c)
 {
     for (uint32_t i = 0; i < c->macro_count; i++) {
         struct place p = symbols_place(e->symbols, c->macro[i].name);
@@ -366,7 +365,13 @@ static bool names_fit(struct eval *e, const struct calc *c)
         if (!v || v->kind != VALUE_MACRO || v->data != c->macro[i].macro)
             return false;
     }
-    for (uint32_t i = 0; i < c->count; i++) {
+    return true;
+}
+
+// Whether every name holds what the steps take it for; nothing has run yet.
+static bool names_fit(struct eval *e, const struct calc *c)
+{
+    for (uint32_t i = 0; c->reports && i < c->count; i++) {
         const struct calc_op *op = &c->op[i];
         if (op->code == CALC_NAME) {
             struct place p = symbols_place(e->symbols, op->name);
@@ -380,7 +385,7 @@ static bool names_fit(struct eval *e, const struct calc *c)
                 return false;
         }
     }
-    return true;
+    return macros_fit(e, c);
 }
 
 static void take_back(struct run *r)

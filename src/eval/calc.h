@@ -60,6 +60,7 @@ struct calc {
     struct name *next;   // a name that follows, which must be no macro, or NULL
     struct name *target; // of an assignment
     uint32_t subscripts; // ... to an array element: computed first
+    bool reports;        // a step may have something to say: names are looked at first
     bool appends;        // `target = concat(target, ...)`
     uint32_t macro_count;
     struct calc_macro macro[CALC_MACROS_MAX];

@@ -477,6 +477,25 @@ static bool assignment(struct compile *c)
     return true;
 }
 
+// Whether a step can only go well or be left to the grammar.
+static bool is_silent(const struct calc *c, uint32_t i)
+{
+    const struct calc_op *op = &c->op[i];
+    const bool divisor = i && op[-1].code == CALC_NUMBER && op[-1].number != 0;
+    if (op->code == CALC_BINARY)
+        return op->word != '/' || divisor;
+    if (op->code != CALC_CALL)
+        return op->code != CALC_CONSTANT;
+    switch (op->word) {
+    case WORD_mod: case WORD_div: return divisor;
+    case WORD_abs: case WORD_ceil: case WORD_floor: case WORD_int: case WORD_sin:
+    case WORD_cos: case WORD_min: case WORD_max: case WORD_degrees: case WORD_radians:
+    case WORD_vdot: case WORD_vlength: case WORD_concat: case WORD_str: case WORD_strlen:
+    case WORD_strupr: case WORD_strlwr: case WORD_asc: return true;
+    default: return false;
+    }
+}
+
 static bool gives_string(const struct calc *c)
 {
     const struct calc_op *last = &c->op[c->count - 1];
@@ -501,5 +520,7 @@ bool calc_compile(struct eval *e, const struct calc_place *at, struct arena *str
         break;
     }
     out->used = c.at;
+    for (uint32_t i = 0; i < out->count; i++)
+        out->reports |= !is_silent(out, i);
     return ok && (out->target || !gives_string(out));
 }

@@ -178,6 +178,16 @@ static bool declare_number(void *user, const struct lvalue *to, double v)
     return eval_assign(user, to, &number_value);
 }
 
+static void *name_of(void *user, const char *name, size_t len)
+{
+    return symbols_name(((struct eval *)user)->symbols, name, len);
+}
+
+static bool advance(void *user, void *name, double by, double *out)
+{
+    return symbols_advance(((struct eval *)user)->symbols, name, by, out);
+}
+
 static bool undef(void *user, const struct lvalue *name)
 {
     struct eval *e = user;
@@ -531,6 +541,8 @@ struct stream_host eval_host(struct eval *e)
         .declare_begin = declare_begin,
         .declare = declare,
         .declare_number = declare_number,
+        .name_of = name_of,
+        .advance = advance,
         .declare_array = declare_array,
         .calculate = e->options->statement ? NULL : calc_run,
         .undef = undef,

@@ -246,6 +246,16 @@ bool symbol_set_number(struct symbol *s, const struct value *v)
     return true;
 }
 
+bool symbols_advance(struct symbol_tables *t, struct name *name, double by, double *out)
+{
+    struct symbol *s = name->top;
+    if (!s || s->depth + 1 != t->depth || s->is_reference || !s->is_number ||
+        s->own.width != 1 || s->own.deprecated)
+        return false;
+    *out = s->own.n[0] += by;
+    return true;
+}
+
 struct place symbols_make(struct symbol_tables *t, const char *name, size_t len,
                           bool local)
 {

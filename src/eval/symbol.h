@@ -45,6 +45,8 @@ const struct value *symbol_number(const struct symbol *s); // in place; NULL: no
 const struct value *symbol_string(const struct symbol *s); // likewise
 // Adds to a string in place; `text` is none of its own.
 void symbol_append(struct arena *a, struct symbol *s, const char *text);
+// Adds to a float of the innermost scope; false: there is none.
+bool symbols_advance(struct symbol_tables *t, struct name *name, double by, double *out);
 // Assigns a number unless the name is a macro's or a function's.
 bool symbol_set_number(struct symbol *s, const struct value *v);
 bool symbol_takes_number(const struct symbol *s);

@@ -237,6 +237,8 @@ static void run_for(struct stream *s, struct token word)
     struct frame *f = stream_push_frame(s, FRAME_FOR, &word);
     f->back = s->cursors[s->cursor_count - 1].at;
     f->variable = variable;
+    if (ok && s->host.advance)
+        f->name = s->host.name_of(s->host.user, variable.name, variable.len);
     f->end = bound[1];
     f->step = bound[2];
     if (ok)
@@ -245,21 +247,28 @@ static void run_for(struct stream *s, struct token word)
         skip_rest(s, 1);
 }
 
+static bool for_before_end(double v, const struct frame *f)
+{
+    return f->step > 0 ? v <= f->end + TRUTH : v >= f->end - TRUTH;
+}
+
 static bool for_step(struct stream *s, const struct frame *f)
 {
     const struct lvalue to = f->variable;
+    double v;
+    if (f->name && s->host.advance(s->host.user, f->name, f->step, &v))
+        return for_before_end(v, f);
     struct name_info info = s->host.lookup(s->host.user, to.name, to.len);
     struct ast *n = ast_new(s->nodes, info.value ? AST_VALUE : AST_UNDECLARED, to.where);
     n->text = to.name;
     n->len = (uint16_t)to.len;
     n->value = info.value;
-    double v;
     if (!s->host.number(s->host.user, n, &v))
         return false;
     v += f->step;
     if (!s->host.declare_number(s->host.user, &to, v))
         return false;
-    return f->step > 0 ? v <= f->end + TRUTH : v >= f->end - TRUTH;
+    return for_before_end(v, f);
 }
 
 static void run_end(struct stream *s)

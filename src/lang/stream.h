@@ -105,6 +105,10 @@ struct stream_host {
     bool (*declare_begin)(void *user, struct lvalue *to);
     bool (*declare)(void *user, const struct lvalue *to, const struct ast *items);
     bool (*declare_number)(void *user, const struct lvalue *to, double v); // #for
+    // The same the short way, where the name holds a number of this scope: adds to it.
+    // `name`: the host's, from name_of. False: nothing has happened.
+    void *(*name_of)(void *user, const char *name, size_t len);
+    bool (*advance)(void *user, void *name, double by, double *out);
     bool (*declare_array)(void *user, const struct lvalue *to, const struct ast *sizes,
                           const struct ast *elements); // elements: nested AST_ENTRY or NULL
     // The short way for what is simple; NULL: everything goes through the grammar.

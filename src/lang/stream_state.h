@@ -38,6 +38,7 @@ struct frame {
     double value;    // a #switch
     double end, step;
     struct lvalue variable; // of a #for
+    void *name;             // ... the host's
 };
 
 struct lexed {
