@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/diag.h"
+#include "base/read_text.h"
 #include "base/stack.h"
 #include "eval/eval.h"
 #include "lang/ast.h"
@@ -76,31 +77,8 @@ static void scene_text(void *user, enum word directive, const char *text)
     ctx->message(ctx->message_user, &m);
 }
 
-// Places in the text are 32-bit numbers. NULL, with *len above it, for a larger file.
+// Places in the text are 32-bit numbers.
 enum { SCENE_BYTES_MAX = 1 << 30 };
-
-static char *read_all(FILE *f, struct arena *a, const char *prefix, size_t *len)
-{
-    size_t used = strlen(prefix), capacity = used + 65536;
-    char *text = malloc(capacity);
-    if (text)
-        memcpy(text, prefix, used);
-    for (size_t got = 1; text && got && used <= SCENE_BYTES_MAX; used += got) {
-        if (used == capacity) {
-            char *more = realloc(text, capacity *= 2);
-            if (!more)
-                free(text);
-            text = more;
-            if (!text)
-                break;
-        }
-        got = fread(text + used, 1, capacity - used, f);
-    }
-    char *kept = text && used <= SCENE_BYTES_MAX ? arena_strndup(a, text, used) : NULL;
-    *len = used;
-    free(text);
-    return kept;
-}
 
 // The file as source number 0. An include header (NULL: none) is put before the first line, so
 // that line numbers stay.
@@ -121,7 +99,7 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
                             strerror(errno));
     size_t len;
     errno = 0;
-    char *text = read_all(f, a, prefix, &len);
+    char *text = text_read(f, a, prefix, SCENE_BYTES_MAX, &len);
     bool ok = text && !ferror(f);
     const char *why = len > SCENE_BYTES_MAX ? "larger than a scene can be (1 GiB)"
                       : errno               ? strerror(errno)
@@ -132,6 +110,7 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
         return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path, why);
     const char *name = standard ? "<stdin>" : arena_strndup(a, path, strlen(path));
     *file = source_add(&ctx->sources, name, text, len, (struct span){0});
+    ctx->sources.file[*file]->ended = true;
     return LAMBERT_OK;
 }
 

@@ -116,7 +116,7 @@ static void *alloc(struct arena *a, size_t size, size_t align)
     struct block *b = a->head;
     size_t at = (b->used + align - 1) & ~(align - 1);
     if (at > b->size || b->size - at < size) {
-        size_t next = b->size < BLOCK_MAX ? 2 * b->size : b->size;
+        size_t next = b->size < BLOCK_MAX ? 2 * b->size : BLOCK_MAX;
         b = a->head = block_new(b, size > next ? size : next);
         a->size += b->size;
         at = 0;

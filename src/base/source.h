@@ -1,6 +1,7 @@
 #ifndef BASE_SOURCE_H
 #define BASE_SOURCE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,6 +18,7 @@ struct source_file {
     const char *name; // as used to open it
     const char *text;
     uint32_t len;
+    bool ended; // two zero bytes follow, and the text may be written to (but is not left so)
     uint32_t *line_start; // byte offset of each line
     uint32_t line_count;
     struct span included_at; // where the #include stood; end == 0 for the main file

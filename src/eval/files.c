@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/arena.h"
+#include "base/read_text.h"
 #include "eval/expr.h"
 #include "eval/file_io.h"
 
@@ -100,24 +101,7 @@ bool file_read(struct arena *a, const char *path, const char **text, size_t *len
     FILE *in = fopen(path, "rb");
     if (!in)
         return false;
-    char *buffer = NULL;
-    size_t used = 0, capacity = 0;
-    for (size_t got = 1; got;) {
-        if (used == capacity) {
-            capacity = 2 * capacity + (1 << 16);
-            char *grown = realloc(buffer, capacity);
-            if (!grown)
-                break;
-            buffer = grown;
-        }
-        got = fread(buffer + used, 1, capacity - used, in);
-        used += got;
-    }
-    bool ok = !ferror(in);
+    *text = text_read(in, a, "", SIZE_MAX / 4, len);
     fclose(in);
-    if (ok)
-        *text = arena_strndup(a, buffer ? buffer : "", used);
-    *len = used;
-    free(buffer);
-    return ok;
+    return *text;
 }

@@ -140,7 +140,9 @@ void directive_include(struct stream *s, struct token word)
     if (!s->host.open_include(s->host.user, name, path->where, &found, &text, &len) ||
         !s->host.enter_scope(s->host.user, path->where))
         return;
-    stream_push_file(s, source_add(s->sources, found, text, len, path->where));
+    const uint32_t file = source_add(s->sources, found, text, len, path->where);
+    s->sources->file[file]->ended = true;
+    stream_push_file(s, file);
 }
 
 static void run_message(struct stream *s, struct token word)

@@ -81,12 +81,27 @@ static bool expression_begins(const struct parse *p)
     }
 }
 
+// Whether a number or vector comes that is all of its expression.
+static bool is_literal(const struct stream *s)
+{
+    const struct cursor *c = &s->cursors[s->cursor_count - 1];
+    if (c->at + 1 >= c->count ||
+        (c->tokens[c->at].kind != TOK_NUMBER && c->tokens[c->at].kind != TOK_VECTOR3))
+        return false;
+    switch (c->tokens[c->at + 1].kind) {
+    case ',': case '}': case '>': case ')': case ']': case ';': case TOK_WORD:
+        return true;
+    default:
+        return false;
+    }
+}
+
 // Takes a whole expression as if it were one number or vector.
 static bool take_calculated(struct parse *p, struct token *t)
 {
     struct calc_result r;
     struct stream *s = p->in;
-    if (!s->host.calculate || s->pending_set || !expression_begins(p))
+    if (!s->host.calculate || s->pending_set || !expression_begins(p) || is_literal(s))
         return false;
     struct token first = raw_peek(s);
     enum calc_outcome outcome = stream_calculate(s, CALC_ITEM, false, &r);

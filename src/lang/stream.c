@@ -247,13 +247,15 @@ enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool l
         return CALC_NONE;
     pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
+    uint32_t once = 0; // what no loop or macro can come back to is not remembered
+    const bool again = s->frame_count || s->cursor_count > 1;
     struct calc_place at = {.kind = kind,
                             .local = local,
                             .goes_on = kind == CALC_ITEM && may_go_on_after(s, c),
                             .tokens = c->tokens + c->at,
                             .count = c->count - c->at,
                             .text = c->text,
-                            .slot = c->slots + c->at,
+                            .slot = again ? c->slots + c->at : &once,
                             .where = {.file = c->file, .expansion = c->expansion}};
     if (!at.count)
         return CALC_NONE;

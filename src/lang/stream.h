@@ -148,6 +148,7 @@ struct stream_host {
                     const struct lvalue *handle, const struct ast *items);
     // Finds and reads an include file through the library path: sets name as found,
     // text and len (in the source arena). False: not found (reported).
+    // The text is followed by two zero bytes and may be written to.
     bool (*open_include)(void *user, const char *name, struct span where,
                          const char **found, const char **text, size_t *len);
 };
