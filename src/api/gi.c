@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/arena.h"
 #include "irradiance/cache.h"
@@ -108,9 +109,18 @@ static void tell_progress(void *user, double share)
         ctx->cancel = true;
 }
 
+const char *gi_solution(const struct lambert_context *ctx, bool in)
+{
+    const char *own = text_of(ctx, in ? "gi-load" : "gi-save");
+    const char *file = text_of(ctx, "radiosity-file");
+    if (own || !file || !option_flag(ctx, in ? "radiosity-from-file" : "radiosity-to-file"))
+        return own;
+    return in && access(file, F_OK) ? NULL : file; // POV-Ray goes on without, too
+}
+
 static enum lambert_status write_files(struct lambert_context *ctx, const struct gi *g)
 {
-    const char *save = text_of(ctx, "gi-save"), *ply = text_of(ctx, "gi-ply");
+    const char *save = gi_solution(ctx, false), *ply = text_of(ctx, "gi-ply");
     char *e = ctx->error;
     if (save && !radiosity_save(g->radiosity, save, e, sizeof ctx->error))
         return LAMBERT_ERROR_OUTPUT;
@@ -196,12 +206,12 @@ static enum lambert_status patches_prepare(struct lambert_context *ctx,
     g->arena = arena_new(4096);
     job_init(&g->job, g->arena, ctx->world, settings);
     ctx->phase = LAMBERT_PHASE_RADIOSITY;
-    g->radiosity = radiosity_new(&g->job, &o, text_of(ctx, "gi-load"), ctx->error,
+    g->radiosity = radiosity_new(&g->job, &o, gi_solution(ctx, true), ctx->error,
                                  sizeof ctx->error);
     ctx->phase = LAMBERT_PHASE_TILES;
     enum lambert_status status = LAMBERT_OK;
     if (!g->radiosity)
-        status = text_of(ctx, "gi-load") ? LAMBERT_ERROR_INPUT : LAMBERT_ERROR_MEMORY;
+        status = gi_solution(ctx, true) ? LAMBERT_ERROR_INPUT : LAMBERT_ERROR_MEMORY;
     const char *aov = text_of(ctx, "gi-aov");
     if (status == LAMBERT_OK) {
         report(ctx, g->radiosity);

@@ -12,5 +12,7 @@ struct gi;
 enum lambert_status gi_prepare(struct lambert_context *ctx,
                                struct render_settings *settings, struct gi **out);
 void gi_free(struct gi *g);
+// The file that a solution is taken from, or written to; NULL: none.
+const char *gi_solution(const struct lambert_context *ctx, bool in);
 
 #endif

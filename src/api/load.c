@@ -209,6 +209,7 @@ static void file_found(void *user, const char *path)
 
 static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
 {
+    const uint32_t frame = (uint32_t)option_number(ctx, "frame");
     struct eval_options o = {
         .version = (int)(option_number(ctx, "language") * 100 + 0.5),
         .clock = (double)(float)option_number(ctx, "clock"), // spec/language 7.4
@@ -218,6 +219,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .input_name = path,
         .output_alpha = option_flag(ctx, "alpha"),
         .pov_patches = option_flag(ctx, "pov-patches"),
+        .camera = option_flag(ctx, "clockless") ? frame > 1 ? frame : 1 : 0,
         .steps_max = (uint64_t)option_number(ctx, "max-parse-steps"),
         .memory_max = (size_t)option_number(ctx, "max-parse-memory") << 20,
         .message = scene_text,

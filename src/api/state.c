@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 200809L // O_NOFOLLOW, ssize_t
 #include "api/state.h"
+#include "api/gi.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -63,7 +64,8 @@ static bool decides_pixels(const struct lambert_option *o)
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
         if (strcmp(o->group, groups[i]) == 0)
             return true;
-    return strcmp(o->name, "tile-size") == 0 || strcmp(o->name, "alpha") == 0;
+    return strcmp(o->name, "tile-size") == 0 || strcmp(o->name, "alpha") == 0 ||
+           strcmp(o->name, "clockless") == 0;
 }
 
 static uint64_t key_of(const struct lambert_context *ctx)
@@ -79,7 +81,7 @@ static uint64_t key_of(const struct lambert_context *ctx)
         for (size_t k = 0; k < n; k++)
             key = add_text(key, list[k]);
     }
-    const char *solution = lambert_option_text(ctx, "gi-load");
+    const char *solution = gi_solution(ctx, true);
     if (solution)
         key = digest_add_file(key, solution);
     for (uint32_t i = 0; i < ctx->sources.count; i++)

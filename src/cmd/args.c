@@ -19,18 +19,8 @@ bool text_same(const char *a, const char *b, size_t n)
     return true;
 }
 
-static bool starts_on(const char *value)
-{
-    return value[0] == '1' || text_same(value, "on", 2) || text_same(value, "true", 4) ||
-           text_same(value, "yes", 3);
-}
-
 int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
 {
-    if (strcmp(o->group, "unbuilt") == 0 &&
-        (o->kind != LAMBERT_OPTION_FLAG || starts_on(value)))
-        cmd_warn(c, "'%s' is not built yet and has no effect",
-                 o->keyword ? o->keyword : o->name);
     if (lambert_option_set(c->ctx, o->name, value) != LAMBERT_OK)
         return cmd_fail(CMD_USAGE, "%s", lambert_error(c->ctx));
     return CMD_OK;

@@ -131,8 +131,6 @@ int help_print(FILE *out, bool all)
     }
     fputs("\nOptions of POV-Ray that are taken and change nothing:\n", out);
     print_names(out, "compatibility");
-    fputs("\nOptions of POV-Ray that are not built yet (a warning says so):\n", out);
-    print_names(out, "unbuilt");
     return CMD_OK;
 }
 
@@ -274,8 +272,6 @@ int man_print(FILE *out)
     }
     fputs(".SS \"Taken, without effect\"\n", out);
     man_names(out, "compatibility");
-    fputs(".SS \"Not built yet\"\n", out);
-    man_names(out, "unbuilt");
     fputs(man_tail, out);
     return CMD_OK;
 }

@@ -43,6 +43,7 @@ struct builder {
     struct camera_state camera_default;
     struct pattern_defaults *pattern_defaults; // filled when parsing ends
     struct pointer_list objects, fogs, rainbows, medias;
+    struct pointer_list cameras; // if one of them is to be chosen
     bool gamma_set, noise_set;
     struct image_file *images; // read so far
     uint8_t warned[WORD_COUNT]; // read but not rendered: told once

@@ -260,11 +260,14 @@ const struct value *builder_block(struct builder *b, const struct ast *items)
 static bool camera(struct builder *b, struct args *a, const struct ast *n)
 {
     struct scene *s = b->e->scene;
-    if (s->has_camera)
+    const bool choose = b->e->options->camera;
+    if (s->has_camera && !choose)
         args_warning(a, n->where, "a camera was given before, this one is used");
     if (!build_camera(a, n, &b->camera))
         return false;
     s->camera = b->camera.camera;
+    if (choose)
+        pointer_list_add(b->arena, &b->cameras, copied(b, &s->camera, sizeof s->camera));
     return s->has_camera = true;
 }
 
@@ -379,6 +382,9 @@ bool builder_finish(struct builder *b)
     struct span nowhere = {0};
     if (!s->has_camera)
         s->camera = b->camera_default.camera;
+    if (b->cameras.count)
+        s->camera = *(const struct camera *)
+                         b->cameras.at[(b->e->options->camera - 1) % b->cameras.count];
     settings_finish(b);
     s->object = (const struct object *const *)b->objects.at;
     s->object_count = b->objects.count;

@@ -29,6 +29,7 @@ struct eval_options {
     const char *input_name;
     bool output_alpha;
     bool pov_patches; // bicubic patches are the triangles that POV-Ray draws
+    uint32_t camera; // the scene's n-th, and from the first on again; 0: the last
     // Limits for scenes of unknown origin: tokens read, those of loops and macros each
     // time anew, and bytes of all that is kept meanwhile. 0: none.
     uint64_t steps_max;

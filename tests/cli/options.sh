@@ -22,8 +22,25 @@ check "a missing value is an error" exits 64 "$lambert" sphere.pov --width
 quiet() { exits 0 "$lambert" sphere.pov +W8 +H6 "$@" && test ! -s err; }
 check "what means nothing here is taken in silence" \
   quiet -q -D -P +V +SP8 +EP2 +MB10 -UR +BM2 +WL5 Display=on Pause_When_Done=on -GA
-warned() { exits 0 "$lambert" sphere.pov +W8 +H6 -q +UF && has err 'not built'; }
-check "what is not built is said" warned
+fields() { exits 0 "$lambert" sphere.pov +W8 +H6 -q -o whole.png && exits 0 "$lambert" sphere.pov +W8 +H6 -q +UF +UO +RTR -o fields.png &&
+  cmp whole.png fields.png && ! test -s err; }
+check "field rendering changes nothing, as in POV-Ray 3.7" fields
+cat >cameras.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location -4*z look_at 0 }
+camera { location <1, 0, -3> look_at 0 }
+#ifdef(Third) camera { location <0, 2, -3> look_at 0 } #end
+light_source { <2, 4, -5>, 1 }
+sphere { 0, 1 pigment { gradient y scale 0.3 } }
+END
+sed '4,5d' cameras.pov >first.pov
+sed '3d;5d' cameras.pov >second.pov
+clockless() { exits 0 "$lambert" first.pov +W8 +H6 -q -o 1.png && exits 0 "$lambert" second.pov +W8 +H6 -q -o 2.png &&
+  exits 0 "$lambert" cameras.pov +W8 +H6 -q +KLA -o still.png && ! test -s err && cmp 1.png still.png &&
+  exits 0 "$lambert" cameras.pov +W8 +H6 -q Clockless_Animation=on +KFF3 -o turn.png && cmp 1.png turn1.png && cmp 2.png turn2.png && cmp 1.png turn3.png &&
+  exits 0 "$lambert" cameras.pov +W8 +H6 -q -o last.png && cmp 2.png last.png; }
+check "a clockless animation takes the cameras in turn" clockless
 
 printf '; a comment\nWidth=20\nHeight = 10 ; more\n+Q3 -D\n[big]\nWidth=200\n[tiny]\nWidth=2\n' >t.ini
 want='20 10' check "an INI file" size t.ini

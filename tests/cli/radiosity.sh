@@ -50,6 +50,9 @@ save() { render asks.pov -o saved.ppm --gi-save=room.rad && cmp -s lit.ppm saved
 check "a solution is saved" save
 load() { render asks.pov -o loaded.ppm --gi-load=room.rad && has err 'read from a file' && cmp -s lit.ppm loaded.ppm; }
 check "and used again" load
+named() { rm -f pov.rad; render asks.pov -o named.ppm +RFpov.rad +RFI +RFO && has err 'analytic' && cmp -s lit.ppm named.ppm && test -s pov.rad &&
+  render asks.pov -o again.ppm +RFpov.rad +RFI && has err 'read from a file' && cmp -s lit.ppm again.ppm; }
+check "POV-Ray's switches for it do the same" named
 sed 's/look_at <.5, .5, 1>/look_at <.5, 1, .6>/' asks.pov >turned.pov
 turned() { render turned.pov -o turned.ppm --gi-load=room.rad && value=$(first turned.ppm) && test "$value" -gt 32440; }
 check "also by another camera" turned
