@@ -1,5 +1,7 @@
 #include "eval/build.h"
 
+#include <math.h>
+
 // fog, rainbow, sky_sphere, background (spec/language 4.13).
 
 #define AT(member) offsetof(struct fog, member)
@@ -74,6 +76,7 @@ static const struct field rainbow_fields[] = {
 const struct rainbow *build_rainbow(struct args *a, const struct ast *block)
 {
     static const double unset = -1, far = 1e7; // spec/lighting.md 0
+    static const double parallel = 1 - 1e-10;  // cosine between unit vectors
     struct args in = args_of(a->b, block, a);
     const struct value *id = args_take_value(&in, VALUE_RAINBOW);
     struct rainbow *r = arena_new_struct(a->b->arena, struct rainbow);
@@ -99,6 +102,8 @@ const struct rainbow *build_rainbow(struct args *a, const struct ast *block)
     else if (r->arc_angle < r->falloff_angle)
         args_error(&in, block->where, "falloff_angle must not be larger than arc_angle");
     r->direction = vec3_normalize(r->direction);
+    if (!in.failed && fabs(vec3_dot(r->direction, r->up)) > parallel)
+        args_error(&in, block->where, "direction and up must not be parallel");
     r->angle -= r->width / 2;
     return in.failed ? NULL : r;
 }

@@ -91,7 +91,8 @@ write_table()
     echo
     echo 'Every reserved word of the language, made by `make update-compatibility`.'
     echo '"same": read and rendered as POV-Ray does, as far as the test of the last column'
-    echo 'tells; "missing": the program says so when it meets the word.'
+    echo 'tells; "missing": the program says so when it meets the word. A least use of each word, and'
+    echo 'whether the two programs read it, is a row of `tests/words/words.tsv`, which `words.sh` walks.'
     echo
     awk -F' [|] ' '{n[$3]++} END {
       printf "%d words: %d same, %d different, %d missing.\n", NR, n["same"], n["differs"], n["missing"]}' \

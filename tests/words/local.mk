@@ -1,5 +1,6 @@
 # A minimal scene for every word that no other test has.
-EXTRA_DIST += \
+TESTS += %D%/words.sh
+EXTRA_DIST += %D%/words.sh %D%/words.tsv \
 	%D%/atmosphere.pov \
 	%D%/blob.pov \
 	%D%/blocks-of-colours.pov \
