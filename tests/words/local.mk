@@ -1,6 +1,6 @@
 # A minimal scene for every word that no other test has.
-TESTS += %D%/words.sh
-EXTRA_DIST += %D%/words.sh %D%/words.tsv \
+TESTS += %D%/words.sh %D%/mistakes.sh
+EXTRA_DIST += %D%/mistakes.out %D%/mistakes.sh %D%/mistakes.tsv %D%/words.sh %D%/words.tsv \
 	%D%/atmosphere.pov \
 	%D%/blob.pov \
 	%D%/blocks-of-colours.pov \
