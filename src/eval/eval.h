@@ -80,6 +80,7 @@ struct eval {
     uint32_t *random;         // streams of seed(), by index
     uint32_t random_count, random_capacity;
     uint32_t depth;            // nesting of the expression being evaluated
+    struct deprecation *deprecations; // names still to be warned of
     char *line[3];             // of #debug, #render, #statistics: not ended yet
     struct scene_file *files;  // opened by the scene, newest first
     bool file_refused;         // the last file looked for is there but may not be read

@@ -36,7 +36,8 @@ static struct name_info lookup(void *user, const char *name, size_t len)
     const struct value *v = place_found(p) ? place_peek(e->nodes, p) : NULL;
     if (!v)
         return (struct name_info){.class = NAME_UNDECLARED};
-    struct name_info info = {.class = class_of(v), .value = v};
+    struct name_info info = {
+        .class = class_of(v), .value = v, .deprecated = v->deprecated};
     if (v->kind == VALUE_MACRO)
         memcpy(&info.macro, &v->data, sizeof info.macro);
     return info;
@@ -157,6 +158,38 @@ bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
     return false;
 }
 
+// `#declare deprecated NAME`, until it has been said.
+struct deprecation {
+    struct deprecation *next;
+    const char *name, *text; // text: what to say; NULL: the standard
+};
+
+static void deprecate(struct eval *e, const struct lvalue *to)
+{
+    struct deprecation *d = arena_new_struct(e->arena, struct deprecation);
+    d->next = e->deprecations;
+    d->name = arena_strndup(e->arena, to->name, to->len);
+    if (to->deprecated_text && eval_string(e, to->deprecated_text, &d->text))
+        d->text = arena_strndup(e->arena, d->text, strlen(d->text));
+    e->deprecations = d;
+}
+
+static void deprecated(void *user, const char *name, size_t len, struct span where)
+{
+    struct eval *e = user;
+    for (struct deprecation **at = &e->deprecations; *at; at = &(*at)->next) {
+        const struct deprecation *d = *at;
+        if (strlen(d->name) != len || memcmp(d->name, name, len))
+            continue;
+        *at = d->next;
+        if (d->text)
+            diag_at(e->diags, DIAG_SCENE_WARNING, where, d->text);
+        else
+            diag_at(e->diags, DIAG_DEPRECATED, where, d->name);
+        return;
+    }
+}
+
 static bool declare(void *user, const struct lvalue *to, const struct ast *items)
 {
     struct eval *e = user;
@@ -168,6 +201,7 @@ static bool declare(void *user, const struct lvalue *to, const struct ast *items
         *marked = *v;
         marked->deprecated = true;
         v = marked;
+        deprecate(e, to);
     }
     return eval_assign(e, to, v);
 }
@@ -534,6 +568,7 @@ struct stream_host eval_host(struct eval *e)
         .lookup = lookup,
         .hold = hold,
         .closest = closest,
+        .deprecated = deprecated,
         .number = number,
         .string = string,
         .path = path,

@@ -26,10 +26,8 @@ static const struct ast *read_rvalue(struct stream *s, bool *ok)
 static void read_deprecated(struct stream *s, struct lvalue *to)
 {
     to->deprecated = true;
-    if (raw_word(s) == WORD_once) {
+    if (raw_word(s) == WORD_once)
         raw_take(s);
-        to->deprecated_once = true;
-    }
     if (raw_kind(s) == TOK_STRING) {
         struct token t = raw_take(s);
         struct ast *text = ast_new(s->nodes, AST_STRING, t.where);
@@ -74,7 +72,6 @@ void directive_declare(struct stream *s, struct token word)
     }
     to.local = word.word == WORD_local;
     to.deprecated = mark.deprecated;
-    to.deprecated_once = mark.deprecated_once;
     to.deprecated_text = mark.deprecated_text;
     bool begun = s->host.declare_begin(s->host.user, &to), ok;
     if (next_is_array(s)) {

@@ -376,6 +376,8 @@ static const struct value *held(struct stream *s, const struct name_info *info)
 static bool bind_name(struct stream *s, struct token *t)
 {
     struct name_info info = s->host.lookup(s->host.user, t->text, t->len);
+    if (info.deprecated)
+        s->host.deprecated(s->host.user, t->text, t->len, t->where);
     t->value = held(s, &info);
     switch (info.class) {
     case NAME_UNDECLARED:

@@ -27,6 +27,7 @@ struct name_info {
     enum name_class class;
     const struct value *value; // the value now, until something is assigned
     void *macro;               // NAME_MACRO: what define_macro stored
+    bool deprecated;           // the host wants to be told of its use
 };
 
 // A place an assignment goes to: a name, with subscripts for an array element.
@@ -38,8 +39,7 @@ struct lvalue {
     bool local;              // #local
     uint32_t scope;          // host's: how many scopes were open before the right side,
                              // which may end inside a macro it calls; 0: all of now
-    bool deprecated;         // `#declare deprecated`: each use warns
-    bool deprecated_once;    // ... only the first
+    bool deprecated;         // `#declare deprecated`: its first use warns
     const struct ast *deprecated_text; // AST_STRING, or NULL for a standard text
 };
 
@@ -94,6 +94,7 @@ struct stream_host {
     const struct value *(*hold)(void *user, const struct value *value);
     // The declared name, or macro, closest to one that is not; NULL: none, as without it.
     const char *(*closest)(void *user, const char *name, size_t len, bool macros_only);
+    void (*deprecated)(void *user, const char *name, size_t len, struct span where);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
     bool (*path)(void *user, const struct ast *expr, const char **out);   // no escapes
