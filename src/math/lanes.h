@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -403,6 +404,17 @@ LANES_INLINE void r8_store_floats(float *p, struct real8 x)
     r8_store(v, x);
     for (int i = 0; i < 8; i++)
         p[i] = (float)v[i];
+#endif
+}
+
+// v in the lanes of `bits`.
+LANES_INLINE void u8_put(uint32_t p[8], unsigned bits, uint32_t v)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)v));
+#else
+    for (; bits; bits &= bits - 1)
+        p[__builtin_ctz(bits)] = v;
 #endif
 }
 

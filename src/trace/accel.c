@@ -224,6 +224,19 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
     free(object);
 }
 
+// Objects that packets miss about as soon as a tree would.
+static bool is_few(const struct accel *accel)
+{
+    enum { FEW = 2 };
+    for (uint32_t i = 0; i < accel->top.item_count; i++) {
+        const unsigned shape = accel->object_shape[accel->top.item[i]];
+        const bool simple = shape >= PACKET_SPHERE && shape <= PACKET_CYLINDER;
+        if (!simple && shape != PACKET_PRODUCT && shape != PACKET_SPONGE)
+            return false;
+    }
+    return accel->top.item_count <= FEW;
+}
+
 struct accel *accel_build(struct arena *a, const struct world *w)
 {
     struct accel *accel = arena_new_struct(a, struct accel);
@@ -232,6 +245,7 @@ struct accel *accel_build(struct arena *a, const struct world *w)
         accel->base_inside[i] = w->node[i].base_inside;
     for (uint32_t i = 0; i < w->object_count; i++) {
         const struct world_object *o = &w->object[i];
+        accel->flags |= o->flags;
         if (o->node_count > accel->nodes_max)
             accel->nodes_max = o->node_count;
         if (o->leaf_count > accel->leaves_max)
@@ -241,6 +255,7 @@ struct accel *accel_build(struct arena *a, const struct world *w)
     build_large(a, w, accel);
     build_top(a, w, accel);
     list_lone_spheres(a, w, accel);
+    accel->few = is_few(accel);
     accel->kernels = packet_kernels_choose();
     return accel;
 }

@@ -56,6 +56,8 @@ struct accel {
     uint8_t *object_shape; // enum packet_shape, per object
     unsigned lone_flags;   // of all objects that are bare spheres
     bool lone_opaque;      // all of them are
+    bool few;              // so few items, all cheap to miss, that the tree helps no packet
+    unsigned flags;        // of all objects
     const struct packet_kernels *kernels;
     uint32_t *infinite; // objects without finite bounds, in order
     uint32_t infinite_count;

@@ -70,6 +70,47 @@ struct ray_batch *ray_batch_new(uint32_t capacity)
     return b;
 }
 
+struct hit_batch *hit_batch_new(uint32_t capacity)
+{
+    struct hit_batch *b = must_alloc(1, sizeof *b);
+    capacity = (capacity + 7) & ~7u;
+    double **const number[] = {&b->t, &b->dt, &b->part, &b->u, &b->v};
+    for (int i = 0; i < 5; i++)
+        *number[i] = aligned(capacity * sizeof(double));
+    b->leaf = aligned(capacity * sizeof *b->leaf);
+    b->crossing = aligned(capacity);
+    return b;
+}
+
+void hit_batch_free(struct hit_batch *b)
+{
+    if (!b)
+        return;
+    free(b->t);
+    free(b->dt);
+    free(b->part);
+    free(b->u);
+    free(b->v);
+    free(b->leaf);
+    free(b->crossing);
+    free(b);
+}
+
+struct hit hit_batch_at(const struct hit_batch *b, uint32_t i)
+{
+    struct hit h = {.b = {.t = b->t[i]}};
+    if (h.b.t < INFINITY)
+        h.b = (struct boundary){.t = b->t[i],
+                                .dt = b->dt[i],
+                                .u = b->u[i],
+                                .v = b->v[i],
+                                .part = (uint32_t)b->part[i],
+                                .leaf = b->leaf[i],
+                                .crossing = b->crossing[i],
+                                .drawn = 1};
+    return h;
+}
+
 void ray_batch_free(struct ray_batch *b)
 {
     if (!b)

@@ -44,6 +44,19 @@ void ray_batch_free(struct ray_batch *b);
 // every ISA and for one ray at a time.
 void trace_closest(const struct world *w, struct trace_scratch *s,
                    const struct ray_batch *rays, struct hit *out);
+// Hits in structure-of-arrays form: the members of a boundary that is drawn, `part` as a
+// number. Of misses only t is set. Arrays as those of ray_batch.
+struct hit_batch {
+    double *t, *dt, *part, *u, *v;
+    uint32_t *leaf;
+    uint8_t *crossing;
+};
+struct hit_batch *hit_batch_new(uint32_t capacity);
+void hit_batch_free(struct hit_batch *b);
+struct hit hit_batch_at(const struct hit_batch *b, uint32_t i);
+// As trace_closest.
+void trace_hits(const struct world *w, struct trace_scratch *s,
+                const struct ray_batch *rays, const struct hit_batch *out);
 struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
                            const struct ray_query *q);
 

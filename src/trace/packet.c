@@ -41,12 +41,14 @@ const struct packet_kernels *packet_kernels_choose(void)
 
 // ---- lanes ----------------------------------------------------------------------------
 
-static struct ray_query query_of(const struct packet *p, int i)
+static struct ray_query query_of(const struct packet *p, int lane)
 {
+    const struct ray_batch *r = p->rays;
+    const uint32_t i = p->first + (uint32_t)lane;
     return (struct ray_query){
-        .ray = {vec3(p->o[0][i], p->o[1][i], p->o[2][i]),
-                vec3(p->d[0][i], p->d[1][i], p->d[2][i]), p->t_min[i], p->t_max[i]},
-        .hidden_by = p->hidden_by[i]};
+        .ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
+                vec3(r->d[0][i], r->d[1][i], r->d[2][i]), r->t_min[i], r->t_max[i]},
+        .hidden_by = r->hidden_by[i]};
 }
 
 struct search *packet_lane_begin(struct packet *p, int lane)
@@ -86,77 +88,39 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object)
     return found;
 }
 
-struct hit packet_lane_hit(struct packet *p, int lane)
+struct boundary packet_lane_hit(struct packet *p, int lane)
 {
-    const uint32_t object = p->object[lane];
     const struct ray_query q = query_of(p, lane);
     struct boundary_list *list = &p->s->crossings;
     list->count = 0;
-    const struct world_object *o = &p->w->object[object];
-    leaf_crossings(p->w, o->is_csg ? p->leaf[lane] : o->first_leaf, &q.ray, list);
+    leaf_crossings(p->w, p->leaf[lane], &q.ray, list);
     // A packet's kernel found it: the leaf has a crossing of just this t.
     for (uint32_t i = 0; i < list->count; i++)
         if (list->at[i].t == p->t[lane] && list->at[i].drawn)
-            return (struct hit){list->at[i]};
+            return list->at[i];
     abort();
 }
 
 // ---- batches --------------------------------------------------------------------------
 
-static void load(struct packet *p, const struct ray_batch *r, uint32_t first)
+void trace_hits(const struct world *w, struct trace_scratch *s,
+                const struct ray_batch *rays, const struct hit_batch *out)
 {
-    const uint32_t count = r->count - first < 8 ? r->count - first : 8;
-    p->alive = (1u << count) - 1;
-    p->searching = p->whole = p->hidden_any = 0;
-    for (int a = 0; a < 3; a++) {
-        memcpy(p->o[a], r->o[a] + first, sizeof p->o[a]);
-        memcpy(p->d[a], r->d[a] + first, sizeof p->d[a]);
-    }
-    memcpy(p->t_min, r->t_min + first, sizeof p->t_min);
-    memcpy(p->t_max, r->t_max + first, sizeof p->t_max);
-    memcpy(p->hidden_by, r->hidden_by + first, sizeof p->hidden_by);
-    for (uint32_t i = count; i < 8; i++) {
-        for (int a = 0; a < 3; a++) {
-            p->o[a][i] = p->o[a][0];
-            p->d[a][i] = p->d[a][0];
-        }
-        p->t_min[i] = p->t_min[0];
-        p->t_max[i] = p->t_max[0];
-        p->hidden_by[i] = p->hidden_by[0];
-    }
-    for (uint32_t i = 0; i < 8; i++) {
-        p->t[i] = INFINITY;
-        p->object[i] = UINT32_MAX;
-        p->hidden_any |= p->hidden_by[i];
-    }
+    w->accel->kernels->hits(w, s, rays, out);
 }
 
 void trace_closest(const struct world *w, struct trace_scratch *s,
                    const struct ray_batch *rays, struct hit *out)
 {
-    struct packet p;
-    p.w = w;
-    p.s = s;
-    p.mode = SWEEP_CLOSEST;
-    s->stats.rays += rays->count;
-    for (uint32_t i = 0; i < rays->count; i += 8) {
-        load(&p, rays, i);
-        w->accel->kernels->trace(&p, out + i);
-    }
+    struct hit_batch *b = hit_batch_new(rays->count);
+    trace_hits(w, s, rays, b);
+    for (uint32_t i = 0; i < rays->count; i++)
+        out[i] = hit_batch_at(b, i);
+    hit_batch_free(b);
 }
 
 void trace_occluded(const struct world *w, struct trace_scratch *s,
                     const struct ray_batch *rays, uint8_t *out)
 {
-    struct packet p;
-    p.w = w;
-    p.s = s;
-    p.mode = SWEEP_OPAQUE;
-    s->stats.shadow_rays += rays->count;
-    for (uint32_t i = 0; i < rays->count; i += 8) {
-        load(&p, rays, i);
-        w->accel->kernels->trace(&p, NULL);
-        for (uint32_t k = i; k < i + 8 && k < rays->count; k++)
-            out[k] = p.object[k - i] != UINT32_MAX;
-    }
+    w->accel->kernels->occluded(w, s, rays, out);
 }

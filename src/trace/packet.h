@@ -37,9 +37,10 @@ struct tree_lanes {
     double t_begin[8], scale[8];
 };
 
-// Eight rays side by side. Lanes that are not `alive` hold copies of one that is.
+// Eight rays of a batch. Lanes that are not `alive` hold rays as well: any.
 struct packet {
-    double o[3][8], d[3][8], t_min[8], t_max[8];
+    const struct ray_batch *rays;
+    uint32_t first;
     double t[8]; // as in search, when the lane has no search of its own yet
     struct tree_lanes top;
     uint32_t object[8]; // UINT32_MAX: none
@@ -47,7 +48,7 @@ struct packet {
     double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where
     uint8_t crossing[8];               // `whole`
     unsigned alive, searching, whole;
-    unsigned hidden_any, hidden_by[8];
+    unsigned hidden_any; // of all rays, where some object is hidden from some
     const struct world *w;
     struct trace_scratch *s;
     enum sweep_mode mode;
@@ -61,7 +62,7 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object);
 struct search *packet_lane_begin(struct packet *p, int lane);
 void packet_lane_end(struct packet *p, int lane);
 // The boundary of a lane's nearest hit, by the shape itself.
-struct hit packet_lane_hit(struct packet *p, int lane);
+struct boundary packet_lane_hit(struct packet *p, int lane);
 
 // Whether the lane's search holds that boundary.
 static inline bool packet_lane_known(const struct packet *p, int lane)
@@ -81,9 +82,11 @@ static inline uint8_t crossing_of_leaf(uint8_t crossing, bool inverted)
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
-    // Finds the nearest (or, opaque, any) hit of the alive lanes, and its boundary unless
-    // `out` (by lane) is NULL.
-    void (*trace)(struct packet *p, struct hit *out);
+    // trace_hits and trace_occluded.
+    void (*hits)(const struct world *w, struct trace_scratch *s,
+                 const struct ray_batch *rays, const struct hit_batch *out);
+    void (*occluded)(const struct world *w, struct trace_scratch *s,
+                     const struct ray_batch *rays, uint8_t *out);
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
     const struct shape_kernels *shapes;

@@ -152,14 +152,14 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
     if (!bits)
         return 0;
     const uint32_t object = a->top.item[i];
+    const struct world_object *o = &p->w->object[object];
     if ((a->lone_flags & p->hidden_any) || (p->mode == SWEEP_OPAQUE && !a->lone_opaque)) {
-        const struct world_object *o = &p->w->object[object];
         bits = seeing(p, o->flags, bits);
         if (p->mode == SWEEP_OPAQUE && !o->opaque)
             return 0;
     }
     const struct real8 t = r8_select(r8_lt(e->t_min, x.in), x.in, x.out);
-    return take(e, bits, t, object, 0);
+    return take(e, bits, t, object, o->first_leaf);
 }
 
 static void limit(struct packet *p, unsigned won)
@@ -231,6 +231,14 @@ static void find(struct eight *e, struct packet *p)
     }
     if (!p->alive || !a->top.node)
         return;
+    if (a->few) {
+        for (uint32_t i = 0; i < a->top.item_count && p->alive; i++) {
+            const unsigned won = try_item(e, p->alive, i);
+            if (p->mode == SWEEP_OPAQUE)
+                p->alive &= ~won;
+        }
+        return;
+    }
     const unsigned lanes =
         tree_begin(&a->top, e->ray.o, e->ray.d, e->inverse, e->t_min,
                    r8_min(e->t_max, r8_load(p->t)), p->alive, &p->top);
@@ -238,22 +246,112 @@ static void find(struct eight *e, struct packet *p)
         traverse(e, lanes);
 }
 
-static void trace(struct packet *p, struct hit *out)
+// Eight rays of the batch, from `first` on.
+static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
+                  uint32_t first, unsigned lanes)
 {
-    const unsigned lanes = p->alive;
-    struct eight e; // not set to zero as a whole: it is large
-    e.p = p;
-    e.ray = ray8_of((struct vec8){r8_load(p->o[0]), r8_load(p->o[1]), r8_load(p->o[2])},
-                    (struct vec8){r8_load(p->d[0]), r8_load(p->d[1]), r8_load(p->d[2])});
-    e.t_min = r8_load(p->t_min);
-    e.t_max = r8_load(p->t_max);
-    e.sheared = false;
-    e.inverse = (struct vec8){r8_div(r8_set(1), e.ray.d.x), r8_div(r8_set(1), e.ray.d.y),
-                              r8_div(r8_set(1), e.ray.d.z)};
-    find(&e, p);
-    if (out)
-        hits(&e, lanes, out);
+    p->rays = r;
+    p->first = first;
+    p->alive = lanes;
+    p->searching = p->whole = p->hidden_any = 0;
+    r8_store(p->t, r8_set(INFINITY));
+    u8_put(p->object, 255, UINT32_MAX);
+    if (p->w->accel->flags & (OBJECT_NO_IMAGE | OBJECT_NO_REFLECTION | OBJECT_NO_SHADOW |
+                              OBJECT_NO_RADIOSITY))
+        for (uint32_t i = 0; i < 8; i++)
+            p->hidden_any |= r->hidden_by[first + i];
+    e->p = p;
+    e->ray = ray8_of((struct vec8){r8_load(r->o[0] + first), r8_load(r->o[1] + first),
+                                   r8_load(r->o[2] + first)},
+                     (struct vec8){r8_load(r->d[0] + first), r8_load(r->d[1] + first),
+                                   r8_load(r->d[2] + first)});
+    e->t_min = r8_load(r->t_min + first);
+    e->t_max = r8_load(r->t_max + first);
+    e->sheared = false;
+    e->inverse =
+        (struct vec8){r8_div(r8_set(1), e->ray.d.x), r8_div(r8_set(1), e->ray.d.y),
+                      r8_div(r8_set(1), e->ray.d.z)};
 }
 
-const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace, walk,
+// The rays from `first` to the end of the batch, fewer than eight, with copies of the first
+// behind them.
+struct rest {
+    struct ray_batch rays;
+    double number[8][8];
+    unsigned hidden_by[8];
+};
+
+static const struct ray_batch *rest_of(struct rest *x, const struct ray_batch *r,
+                                       uint32_t first)
+{
+    const double *const from[8] = {r->o[0], r->o[1],  r->o[2], r->d[0],
+                                   r->d[1], r->d[2], r->t_min, r->t_max};
+    for (uint32_t i = 0; i < 8; i++) {
+        const uint32_t k = first + i < r->count ? first + i : first;
+        for (int a = 0; a < 8; a++)
+            x->number[a][i] = from[a][k];
+        x->hidden_by[i] = r->hidden_by[k];
+    }
+    x->rays = (struct ray_batch){.count = r->count - first,
+                                 .capacity = 8,
+                                 .o = {x->number[0], x->number[1], x->number[2]},
+                                 .d = {x->number[3], x->number[4], x->number[5]},
+                                 .t_min = x->number[6],
+                                 .t_max = x->number[7],
+                                 .hidden_by = x->hidden_by};
+    return &x->rays;
+}
+
+static void hits_from(struct packet *p, const struct ray_batch *r, uint32_t first,
+                      unsigned lanes, const struct hit_batch *out)
+{
+    struct eight e; // not set to zero as a whole: it is large
+    begin(&e, p, r, first, lanes);
+    find(&e, p);
+    hits(&e, out);
+}
+
+static void trace_hits8(const struct world *w, struct trace_scratch *s,
+                        const struct ray_batch *rays, const struct hit_batch *out)
+{
+    struct packet p;
+    p.w = w;
+    p.s = s;
+    p.mode = SWEEP_CLOSEST;
+    s->stats.rays += rays->count;
+    uint32_t i = 0;
+    for (; i + 8 <= rays->count; i += 8)
+        hits_from(&p, rays, i, 255, out);
+    if (i < rays->count) {
+        struct rest x;
+        const struct hit_batch to = {out->t + i, out->dt + i,   out->part + i,    out->u + i,
+                                     out->v + i, out->leaf + i, out->crossing + i};
+        hits_from(&p, rest_of(&x, rays, i), 0, (1u << (rays->count - i)) - 1, &to);
+    }
+}
+
+static void trace_occluded8(const struct world *w, struct trace_scratch *s,
+                            const struct ray_batch *rays, uint8_t *out)
+{
+    struct packet p;
+    struct rest x;
+    p.w = w;
+    p.s = s;
+    p.mode = SWEEP_OPAQUE;
+    s->stats.shadow_rays += rays->count;
+    for (uint32_t i = 0; i < rays->count; i += 8) {
+        struct eight e;
+        const uint32_t n = rays->count - i < 8 ? rays->count - i : 8;
+        if (n == 8)
+            begin(&e, &p, rays, i, 255);
+        else
+            begin(&e, &p, rest_of(&x, rays, i), 0, (1u << n) - 1);
+        find(&e, &p);
+        for (uint32_t k = 0; k < n; k++)
+            out[i + k] = p.object[k] != UINT32_MAX;
+    }
+}
+
+const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace_hits8,
+                                                           trace_occluded8, walk,
                                                            &PASTE(shape_kernels_, ISA)};

@@ -59,7 +59,8 @@ static void mesh8_lane(struct mesh8 *v, int lane, int32_t child)
     const struct bvh8 *tree = &v->m->tree;
     const struct ray ray = {vec3(v->o[0][lane], v->o[1][lane], v->o[2][lane]),
                             vec3(v->d[0][lane], v->d[1][lane], v->d[2][lane]),
-                            e->p->t_min[lane], e->p->t_max[lane]};
+                            e->p->rays->t_min[e->p->first + (uint32_t)lane],
+                            e->p->rays->t_max[e->p->first + (uint32_t)lane]};
     const struct triangle_ray sheared = triangle_ray_of(&ray);
     struct bvh8_ray r = tree_lane(&v->at, lane);
     const struct tree_ray8 way = tree_ray8_of(&r);

@@ -2,6 +2,8 @@
 #define TRACE_PACKET_OBJECTS_H
 
 // Eight rays and one object.
+#include <string.h>
+
 #include "trace/packet.h"
 #include "trace/packet_cross.h"
 #include "trace/packet_product.h"
@@ -23,7 +25,7 @@ LANES_INLINE unsigned seeing(const struct packet *p, unsigned flags, unsigned bi
         return bits;
     for (unsigned m = bits; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
-        if (flags & p->hidden_by[lane])
+        if (flags & p->rays->hidden_by[p->first + (uint32_t)lane])
             bits &= ~(1u << lane);
     }
     return bits;
@@ -45,11 +47,8 @@ LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint3
         return 0;
     p->whole &= ~won;
     r8_store(p->t, r8_select(m8_of(won), t, best));
-    for (unsigned m = won; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m);
-        p->object[lane] = object;
-        p->leaf[lane] = leaf;
-    }
+    u8_put(p->object, won, object);
+    u8_put(p->leaf, won, leaf);
     return won;
 }
 
@@ -348,40 +347,48 @@ static void complete_all(struct eight *e, unsigned lanes)
     }
 }
 
-static void hits(struct eight *e, unsigned lanes, struct hit *out)
+// The boundary of a lane that the one-ray form has found.
+static void hit_alone(struct packet *p, int lane, const struct hit_batch *out)
+{
+    const uint32_t i = p->first + (uint32_t)lane;
+    const struct boundary b =
+        packet_lane_known(p, lane) ? p->search[lane].b : packet_lane_hit(p, lane);
+    out->t[i] = b.t;
+    out->dt[i] = b.dt;
+    out->part[i] = b.part;
+    out->u[i] = b.u;
+    out->v[i] = b.v;
+    out->leaf[i] = b.leaf;
+    out->crossing[i] = b.crossing;
+}
+
+static void hits(struct eight *e, const struct hit_batch *out)
 {
     struct packet *p = e->p;
-    unsigned open = 0;
-    for (unsigned m = lanes; m; m &= m - 1) {
+    const uint32_t first = p->first;
+    const struct real8 t = r8_load(p->t);
+    const unsigned met = p->alive & m8_bits(r8_lt(t, r8_set(INFINITY)));
+    unsigned alone = 0;
+    r8_store(out->t + first, t);
+    if (!met)
+        return;
+    for (unsigned m = met & p->searching; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
-        const uint32_t object = p->object[lane];
-        if (object == UINT32_MAX) {
-            out[lane].b = (struct boundary){.t = INFINITY};
-            lanes &= ~(1u << lane);
-        } else if (packet_lane_known(p, lane)) {
-            out[lane].b = p->search[lane].b;
-            lanes &= ~(1u << lane);
-        } else {
-            if (!p->w->object[object].is_csg)
-                p->leaf[lane] = p->w->object[object].first_leaf;
-            open |= m & -m & ~p->whole;
-        }
+        if (packet_lane_known(p, lane))
+            alone |= m & -m;
+        else if (!(p->whole >> lane & 1) && !p->w->object[p->object[lane]].is_csg)
+            p->leaf[lane] = p->w->object[p->object[lane]].first_leaf;
     }
-    complete_all(e, open);
-    for (unsigned m = lanes; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m);
-        if (p->whole >> lane & 1)
-            out[lane].b = (struct boundary){.t = p->t[lane],
-                                            .dt = p->dt[lane],
-                                            .u = p->u[lane],
-                                            .v = p->v[lane],
-                                            .part = (uint32_t)p->part[lane],
-                                            .leaf = p->leaf[lane],
-                                            .crossing = p->crossing[lane],
-                                            .drawn = 1};
-        else
-            out[lane] = packet_lane_hit(p, lane);
-    }
+    complete_all(e, met & ~alone & ~p->whole);
+    r8_store(out->dt + first, r8_load(p->dt));
+    r8_store(out->part + first, r8_load(p->part));
+    r8_store(out->u + first, r8_load(p->u));
+    r8_store(out->v + first, r8_load(p->v));
+    memcpy(out->leaf + first, p->leaf, sizeof p->leaf);
+    memcpy(out->crossing + first, p->crossing, sizeof p->crossing);
+    alone |= met & ~p->whole;
+    for (unsigned m = alone; m; m &= m - 1)
+        hit_alone(p, __builtin_ctz(m), out);
 }
 
 #endif

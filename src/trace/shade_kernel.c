@@ -33,17 +33,13 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
 {
     const struct leaf *leaf[8];
     uint32_t part[8], same = 0;
-    double hit_t[8], hit_dt[8];
     g->live = (1u << count) - 1;
     for (uint32_t i = 0; i < 8; i++) {
         const uint32_t k = ray[i < count ? i : 0];
-        const struct boundary *b = &t->hit[k].b;
         g->ray[i] = k;
         g->slot[i] = t->wave.slot[k];
-        leaf[i] = &t->job->world->leaf[b->leaf];
-        part[i] = b->part;
-        hit_t[i] = b->t;
-        hit_dt[i] = b->dt;
+        leaf[i] = &t->job->world->leaf[t->hit->leaf[k]];
+        part[i] = (uint32_t)t->hit->part[k];
         same += leaf[i] == leaf[0];
     }
     const struct ray_batch *b = t->rays;
@@ -54,12 +50,12 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
     const struct vec8 d = {gather(b->d[0], g, rays_in_row),
                            gather(b->d[1], g, rays_in_row),
                            gather(b->d[2], g, rays_in_row)};
-    const struct real8 at = r8_load(hit_t);
+    const struct real8 at = gather(t->hit->t, g, rays_in_row);
     const struct real8 size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)));
     struct place8 x = {.p = v8_mad(o, at, d)};
     if ((same == 8 && place_leaf(leaf[0], part, &x)) || place_spheres(leaf, &x)) {
         x.ns = x.ng;
-        x.error = r8_add(r8_mul(r8_load(hit_dt), r8_abs(v8_dot(d, x.ng))),
+        x.error = r8_add(r8_mul(gather(t->hit->dt, g, rays_in_row), r8_abs(v8_dot(d, x.ng))),
                          place_error(leaf[0], size));
     } else {
         place_each(t, g, &x);

@@ -173,7 +173,8 @@ static void place_each(struct tracer *t, const struct simple_group *g, struct pl
                                 0,
                                 INFINITY};
         struct interaction at;
-        trace_interaction(t->job->world, &ray, &t->hit[k], &at);
+        const struct hit hit = hit_batch_at(t->hit, k);
+        trace_interaction(t->job->world, &ray, &hit, &at);
         p[0][i] = at.p.x, p[1][i] = at.p.y, p[2][i] = at.p.z;
         ng[0][i] = at.ng.x, ng[1][i] = at.ng.y, ng[2][i] = at.ng.z;
         ns[0][i] = at.ns.x, ns[1][i] = at.ns.y, ns[2][i] = at.ns.z;

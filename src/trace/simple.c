@@ -245,7 +245,7 @@ bool simple_take(struct tracer *t, uint32_t k)
     if (!job->simple ||
         (job->has_media && media_inside(wave_inside(t, t->wave.slot[k]))))
         return false;
-    const uint32_t class = job->simple[job->world->leaf[t->hit[k].b.leaf].surface].class;
+    const uint32_t class = job->simple[job->world->leaf[t->hit->leaf[k]].surface].class;
     if (class == SIMPLE_NONE)
         return false;
     if (t->class_head[class] == END) {

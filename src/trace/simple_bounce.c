@@ -141,14 +141,14 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
         b.exponent[0][i] = b.exponent[1][i] = b.exponent[2][i] = 0;
         if (!(g->live >> i & 1))
             continue;
-        surface[i] = &w->surface[w->leaf[t->hit[g->ray[i]].b.leaf].surface];
+        surface[i] = &w->surface[w->leaf[t->hit->leaf[g->ray[i]]].surface];
         const struct inside *inside = wave_inside(t, g->slot[i]);
         if (c->finish->fresnel)
             b.index[i] = fresnel_index(inside, surface[i]->interior);
         if (c->clear) {
             sides[i] = interior_cross(t, inside, surface[i]->interior);
             b.eta[i] = crossing_eta(&sides[i]);
-            ask_fade(&b, i, surface[i]->interior, inside, t->hit[g->ray[i]].b.t);
+            ask_fade(&b, i, surface[i]->interior, inside, t->hit->t[g->ray[i]]);
         }
         live |= 1u << i;
     }
@@ -168,9 +168,8 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
         if (c->clear) {
             if (fabs(b.eta[i] - 1) < zero)
                 go_straight(g, &b, i);
-            const struct hit *hit = &t->hit[g->ray[i]];
             const struct simple_surface *x = &t->job->simple[surface[i] - w->surface];
-            if (!pass(&l, surface[i], x->pass, hit->b.t, &sides[i]))
+            if (!pass(&l, surface[i], x->pass, t->hit->t[g->ray[i]], &sides[i]))
                 continue;
         }
         if (c->mirror)

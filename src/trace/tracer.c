@@ -38,7 +38,7 @@ struct tracer *tracer_new(const struct job *job)
     t->arena = arena_new(64 * 1024);
     t->camera_arena = arena_new(1024);
     t->rays = endless_new();
-    t->hit = must_alloc(BATCH_SIZE, sizeof *t->hit);
+    t->hit = hit_batch_new(BATCH_SIZE);
     shadow_init(t);
     simple_init(t);
     if (job->settings.indirect.begin)
@@ -66,7 +66,7 @@ void tracer_free(struct tracer *t)
     simple_end(t);
     media_end(t);
     free(t->near_photons);
-    free(t->hit);
+    hit_batch_free(t->hit);
     free(t->sum);
     free(t->power);
     free(t);

@@ -124,7 +124,7 @@ struct tracer {
     struct trace_scratch *scratch;
     struct arena *arena; // interiors of the current tile
     struct ray_batch *rays;
-    struct hit *hit;
+    struct hit_batch *hit;
     struct wavefront wave;
     uint32_t slot;                    // of the ray that is shaded alone
     struct shadow_batch simple, rest; // of simple surfaces and of all others

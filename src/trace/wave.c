@@ -239,8 +239,10 @@ static void first_keep(struct tracer *t)
     const struct wavefront *w = &t->wave;
     for (uint32_t k = 0; k < w->count; k++) {
         const struct path *p = &w->path[w->order[w->slot[k]]];
-        if (p->level == t->first_level)
-            t->first[p->sample] = (struct first_hit){t->hit[k].b.t, t->hit[k].b.leaf};
+        if (p->level == t->first_level) {
+            const struct hit hit = hit_batch_at(t->hit, k);
+            t->first[p->sample] = (struct first_hit){hit.b.t, hit.b.leaf};
+        }
     }
 }
 
@@ -254,16 +256,17 @@ static void wave_trace(struct tracer *t)
     }
     memset(w->t, 0, w->count * sizeof w->t[0]);
     const uint32_t first = w->next->count;
-    trace_closest(t->job->world, t->scratch, t->rays, t->hit);
+    trace_hits(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
     for (uint32_t k = 0; k < w->count; k++) {
-        if (!(t->hit[k].b.t < INFINITY)) {
+        if (!(t->hit->t[k] < INFINITY)) {
             missed(t, k);
         } else if (!simple_take(t, k)) {
             t->slot = w->slot[k];
             const struct path p = wave_path(t, t->slot);
-            shade_hit(t, &p, &t->hit[k]);
+            const struct hit hit = hit_batch_at(t->hit, k);
+            shade_hit(t, &p, &hit);
         }
     }
     simple_shade(t);
