@@ -1,11 +1,14 @@
 // What finds the objects, and the leaves of large objects, near a ray.
 #include "trace/accel.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
+#include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
 #include "trace/packet.h"
 
@@ -198,6 +201,62 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
     }
 }
 
+// Adds what a leaf has; false: quick tests do not know its shape.
+static bool leaf_adds(const struct leaf *l, unsigned shape, struct accel_product *x)
+{
+    double extent, radius = INFINITY;
+    if (shape == PACKET_SPHERE) {
+        const struct sphere *s = l->shape;
+        radius = s->radius;
+        extent = 2 * vec3_max_abs(s->centre) + radius;
+    } else if (shape == PACKET_BOX) {
+        const struct box *s = l->shape;
+        extent = fmax(vec3_max_abs(s->min), vec3_max_abs(s->max));
+    } else if (shape == PACKET_CYLINDER) {
+        const struct cylinder *s = l->shape;
+        radius = s->radius;
+        extent = vec3_max_abs(s->frame.origin) + s->length + radius;
+    } else if (shape == PACKET_PLANE) {
+        extent = vec3_max_abs(((const struct plane *)l->shape)->point);
+    } else {
+        return false;
+    }
+    x->extent = fmax(x->extent, extent);
+    x->least = fmin(x->least, radius);
+    return true;
+}
+
+static struct accel_product product_of(const struct world *w, const struct accel *accel,
+                                       const struct world_object *o)
+{
+    struct accel_product x = {.least = INFINITY, .kind = PRODUCT_PLACED};
+    for (uint32_t i = 0; i < o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[o->first_leaf + i];
+        if (!leaf_adds(l, accel->leaf_shape[o->first_leaf + i], &x))
+            return (struct accel_product){.kind = PRODUCT_EXACT};
+        if (l->transform->identity)
+            continue;
+        if (x.kind == PRODUCT_MOVED &&
+            l->transform != w->leaf[o->first_leaf + x.moved].transform)
+            return (struct accel_product){.kind = PRODUCT_EXACT};
+        if (x.kind == PRODUCT_PLACED)
+            x.moved = (uint16_t)i;
+        x.kind = PRODUCT_MOVED;
+    }
+    return x;
+}
+
+static void list_products(struct arena *a, const struct world *w, struct accel *accel)
+{
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        if (accel->object_shape[i] != PACKET_PRODUCT)
+            continue;
+        if (!accel->product)
+            accel->product = arena_new_array(a, struct accel_product, w->object_count);
+        accel->product[i] = product_of(w, accel, &w->object[i]);
+    }
+}
+
 static void build_top(struct arena *a, const struct world *w, struct accel *accel)
 {
     struct aabb *box = malloc((w->object_count + 1) * sizeof *box);
@@ -252,6 +311,7 @@ struct accel *accel_build(struct arena *a, const struct world *w)
             accel->leaves_max = o->leaf_count;
     }
     classify(a, w, accel);
+    list_products(a, w, accel);
     build_large(a, w, accel);
     build_top(a, w, accel);
     list_lone_spheres(a, w, accel);

@@ -43,21 +43,37 @@ struct accel_large {
     uint32_t unbounded_count;
     uint32_t *required; // the required leaves
     uint32_t required_count;
-    struct accel_ball *ball; // of a PACKET_SPONGE whose solids packets know, for each item
-                             // of `leaves`; else NULL
+    struct accel_ball
+        *ball; // of a PACKET_SPONGE whose solids packets know, for each item
+               // of `leaves`; else NULL
+};
+
+// What quick tests of a PACKET_PRODUCT know of its leaves (trace/packet_quick.h).
+enum product_kind {
+    PRODUCT_EXACT,  // it has none
+    PRODUCT_PLACED, // no leaf has a transform
+    PRODUCT_MOVED   // one transform is that of all that have any
+};
+
+struct accel_product {
+    double extent; // the most that coordinates and radii of a leaf add up to
+    double least;  // radius
+    uint16_t kind;
+    uint16_t moved; // the first leaf with a transform, from the object's first
 };
 
 // One world's boxes: over the finite objects, and over the leaves of each large object.
 struct accel {
     struct bvh8 top;
-    double *ball[4];       // x, y, z and radius of the items of `top` that are bare spheres,
-                           // so that most tests touch nothing else; radius 0: another object
-    uint8_t *leaf_shape;   // enum packet_shape, per leaf
-    uint8_t *object_shape; // enum packet_shape, per object
-    unsigned lone_flags;   // of all objects that are bare spheres
-    bool lone_opaque;      // all of them are
-    bool few;              // so few items, all cheap to miss, that the tree helps no packet
-    unsigned flags;        // of all objects
+    double *ball[4]; // x, y, z and radius of the items of `top` that are bare spheres,
+                     // so that most tests touch nothing else; radius 0: another object
+    uint8_t *leaf_shape;           // enum packet_shape, per leaf
+    uint8_t *object_shape;         // enum packet_shape, per object
+    struct accel_product *product; // per object; NULL: there are no products
+    unsigned lone_flags;           // of all objects that are bare spheres
+    bool lone_opaque;              // all of them are
+    bool few;       // so few items, all cheap to miss, that the tree helps no packet
+    unsigned flags; // of all objects
     const struct packet_kernels *kernels;
     uint32_t *infinite; // objects without finite bounds, in order
     uint32_t infinite_count;
@@ -69,9 +85,8 @@ struct accel {
 
 enum { LARGE_OBJECT = 12 }; // leaves from which an object gets a tree of its own
 
-static inline const struct accel_large *accel_large(const struct accel *a,
-                                                    const struct world_object *o,
-                                                    uint32_t object)
+static inline const struct accel_large *
+accel_large(const struct accel *a, const struct world_object *o, uint32_t object)
 {
     return o->leaf_count < LARGE_OBJECT ? NULL : &a->large[a->large_of[object]];
 }

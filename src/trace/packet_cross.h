@@ -476,7 +476,7 @@ LANES_INLINE struct span8 span8_of(const struct cross8 *x, struct mask8 met, str
     return (struct span8){r8_select(odd, r8_neg(infinite), x->t[0]),
                           r8_select(odd, infinite, x->t[1]),
                           r8_select(odd, zero, x->dt[0]), r8_select(odd, zero, x->dt[1]),
-                          m8_or(met, odd)};
+                          m8_or(met, odd), m8_of(0)};
 }
 
 LANES_INLINE struct span8 span8_cone(const struct cone *c, const struct ray8 *ray,

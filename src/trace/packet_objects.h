@@ -7,6 +7,7 @@
 #include "trace/packet.h"
 #include "trace/packet_cross.h"
 #include "trace/packet_product.h"
+#include "trace/packet_quick.h"
 #include "trace/packet_torus.h"
 
 struct eight {
@@ -259,14 +260,11 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
     return won;
 }
 
-static unsigned product(struct eight *e, unsigned bits, uint32_t object)
+static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
     const struct world *w = p->w;
     const struct world_object *o = &w->object[object];
-    bits &= box_lanes(e, &o->bounds);
-    if (!bits)
-        return 0;
     bool complement[PRODUCT_LEAVES];
     struct product x;
     product_begin(&x, e->t_min, e->t_max);
@@ -285,8 +283,88 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     unsigned unsure;
     const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
     const unsigned won = take_leaves(e, found, t, at, object);
-    p->s->stats.csg_tests++;
     return unsure ? won | packet_try_object(p, unsure, object) : won;
+}
+
+// The lines' spans in a shape of quick products.
+LANES_INLINE struct span8 quick_span(const struct leaf *l, enum packet_shape shape,
+                                     const struct ray8 *ray)
+{
+    switch (shape) {
+    case PACKET_SPHERE: return span8_sphere(l->shape, ray);
+    case PACKET_BOX: return span8_box(l->shape, ray);
+    case PACKET_CYLINDER: return span8_cylinder(l->shape, ray);
+    default: return span8_plane(l->shape, ray);
+    }
+}
+
+// Lanes where a leaf's own bounds touch t_min, as product_add: rays that leave a surface
+// begin close to it.
+static struct mask8 begins_at(struct eight *e, const struct leaf *l,
+                              enum packet_shape shape)
+{
+    struct mask8 odd;
+    const struct span8 x = leaf_span(e, l, shape, &odd);
+    return m8_and(x.met, m8_or(r8_le(r8_abs(r8_sub(x.in, e->t_min)), x.in_e),
+                               r8_le(r8_abs(r8_sub(x.out, e->t_min)), x.out_e)));
+}
+
+// The spans of the leaves that are complements, or of those that are not; returns the lanes
+// that can still meet the object.
+static unsigned product_leaves(struct eight *e, struct quick *q, bool complements,
+                               const struct world_object *o, const struct ray8 *moved,
+                               unsigned bits)
+{
+    const struct world *w = e->p->w;
+    for (uint32_t i = 0; i < o->leaf_count && bits; i++) {
+        const struct leaf *l = &w->leaf[o->first_leaf + i];
+        if (l->inverted != complements)
+            continue;
+        const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
+        const struct span8 s =
+            quick_span(l, shape, l->transform->identity ? &e->ray : moved);
+        if (!complements)
+            bits &= quick_solid(q, i, shape != PACKET_PLANE, &s);
+        else if (!quick_complement(q, i, shape != PACKET_PLANE, bits, &s))
+            continue;
+        if (m8_bits(q->near) & bits)
+            q->doubt = m8_or(q->doubt, begins_at(e, l, shape));
+    }
+    return bits;
+}
+
+static unsigned product(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world_object *o = &p->w->object[object];
+    const struct accel_product *x = &p->w->accel->product[object];
+    bits &= box_lanes(e, &o->bounds);
+    if (!bits)
+        return 0;
+    p->s->stats.csg_tests++;
+    if (x->kind == PRODUCT_EXACT)
+        return product_exact(e, bits, object);
+    struct quick q;
+    struct ray8 own;
+    quick_begin(&q, e->t_min, e->t_max);
+    quick_space(&q, x, &e->ray, r8_set(0), r8_set(0));
+    if (x->kind == PRODUCT_MOVED) {
+        const struct leaf *l = &p->w->leaf[o->first_leaf + x->moved];
+        own = local_ray(l, &e->ray);
+        quick_moved(&q, x, l, &e->ray, &own);
+    }
+    quick_bounded(&q);
+    bits = product_leaves(e, &q, false, o, &own, bits);
+    if (bits)
+        bits &= quick_solids_end(&q, r8_load(p->t));
+    if (!bits)
+        return 0;
+    product_leaves(e, &q, true, o, &own, bits);
+    struct real8 t, at;
+    unsigned doubt;
+    const unsigned found = quick_first(&q, bits, &t, &at, &doubt);
+    const unsigned won = take_leaves(e, found, t, at, object);
+    return doubt ? won | product_exact(e, doubt, object) : won;
 }
 
 // ---- hits -----------------------------------------------------------------------------------

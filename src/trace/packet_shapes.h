@@ -17,11 +17,21 @@ struct ray8 {
     struct real8 o_max;      // the largest coordinate of o
 };
 
+// Where a span is `clear` no error bound dt is above SPAN_CLEAR (size + |t| speed) / |d|,
+// size: the sum of the ray's and the shape's coordinates, speed: the largest component of
+// d, provided that GAMMA(17) size is no more than the shape's radius.
+#define SPAN_CLEAR (0x1p16 * GAMMA(17))
+
 struct span8 {
     struct real8 in, out;     // -+infinity: does not begin, does not end
     struct real8 in_e, out_e; // at least the shape's error bounds dt
     struct mask8 met;
+    struct mask8 clear; // of lanes that are met
 };
+
+// Squares of sines and of relative heights above the silhouette from which a crossing is
+// clear: a dt grows with their inverses' roots.
+static const double clear_square = 0x1p-12, clear_slope = 0x1p-12;
 
 LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
 {
@@ -50,6 +60,7 @@ LANES_INLINE struct span8 span8_sphere(const struct sphere *s, const struct ray8
         x.in = x.out = x.in_e = x.out_e = rest;
         return x;
     }
+    x.clear = r8_le(r8_set(clear_square * r * r), rest);
     const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
     x.in = r8_sub(r8_neg(at), reach);
     x.out = r8_add(r8_neg(at), reach);
@@ -71,6 +82,8 @@ LANES_INLINE struct span8 span8_plane(const struct plane *p, const struct ray8 *
     const struct real8 t = r8_div(v8_dot(n, v8_sub(V8_SET(p->point), ray->o)), down);
     struct span8 x = {.met = m8_without(m8_of(255),
                                         runs_along8(down, v8_max_abs(ray->d)))};
+    x.clear =
+        r8_le(r8_mul(r8_set(clear_slope), v8_max_abs(ray->d)), r8_abs(down));
     const struct mask8 enters = r8_lt(down, r8_set(0));
     x.in = r8_select(enters, t, r8_set(-INFINITY));
     x.out = r8_select(enters, r8_set(INFINITY), t);
@@ -110,6 +123,8 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
         v.in = v.out = v.in_e = v.out_e = rest;
         return v;
     }
+    v.clear = m8_or(along, m8_and(r8_le(r8_set(clear_square * r * r), rest),
+                                  r8_le(r8_mul(r8_set(clear_square), ray->dd), a)));
     const struct real8 reach = r8_sqrt(r8_div(rest, a));
     v.in = r8_select(along, r8_set(-INFINITY), r8_sub(r8_neg(s), reach));
     v.out = r8_select(along, r8_set(INFINITY), r8_add(r8_neg(s), reach));
@@ -123,6 +138,8 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     v.in_e = v.out_e = r8_mul(r8_add(e_p, root), per_a);
 
     const struct mask8 across = runs_along8(d.z, longest);
+    v.clear = m8_and(v.clear, m8_or(across, r8_le(r8_mul(r8_set(clear_slope), longest),
+                                                  r8_abs(d.z))));
     const struct real8 length = r8_set(c->length);
     const struct real8 inv = r8_div(r8_set(1), d.z);
     const struct real8 ta = r8_mul(r8_sub(r8_set(0), o.z), inv);
@@ -162,10 +179,13 @@ LANES_INLINE void slab8(double min, double max, struct real8 o, struct real8 d,
         t1 = r8_select(flat, r8_neg(from), t1);
     }
     const struct real8 dt = r8_abs(r8_mul(e, inv));
+    const struct mask8 clear =
+        m8_or(flat, r8_le(r8_mul(r8_set(clear_slope), longest), r8_abs(d)));
     if (first) {
-        *x = (struct span8){t0, t1, dt, dt, m8_of(255)};
+        *x = (struct span8){t0, t1, dt, dt, m8_of(255), clear};
         return;
     }
+    x->clear = m8_and(x->clear, clear);
     const struct mask8 later = r8_lt(x->in, t0), sooner = r8_lt(t1, x->out);
     x->in = r8_select(later, t0, x->in);
     x->in_e = r8_select(later, dt, x->in_e);
