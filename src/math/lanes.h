@@ -407,6 +407,36 @@ LANES_INLINE void r8_store_floats(float *p, struct real8 x)
 #endif
 }
 
+// Eight rows of four, turned: row i holds lane i of each.
+LANES_INLINE void f8_store_rows(float *p, struct float8 x, struct float8 y,
+                                struct float8 z, struct float8 w)
+{
+#if defined(__AVX__) || defined(__AVX2__)
+    const __m256 xy0 = _mm256_unpacklo_ps(x.a, y.a), xy1 = _mm256_unpackhi_ps(x.a, y.a);
+    const __m256 zw0 = _mm256_unpacklo_ps(z.a, w.a), zw1 = _mm256_unpackhi_ps(z.a, w.a);
+    const __m256d xy[2] = {_mm256_castps_pd(xy0), _mm256_castps_pd(xy1)};
+    const __m256d zw[2] = {_mm256_castps_pd(zw0), _mm256_castps_pd(zw1)};
+    __m256 row[4]; // i and i + 4
+    for (int i = 0; i < 2; i++) {
+        row[2 * i] = _mm256_castpd_ps(_mm256_unpacklo_pd(xy[i], zw[i]));
+        row[2 * i + 1] = _mm256_castpd_ps(_mm256_unpackhi_pd(xy[i], zw[i]));
+    }
+    for (int i = 0; i < 4; i++) {
+        _mm_storeu_ps(p + 4 * i, _mm256_castps256_ps128(row[i]));
+        _mm_storeu_ps(p + 16 + 4 * i, _mm256_extractf128_ps(row[i], 1));
+    }
+#else
+    float v[4][8];
+    f8_store(v[0], x);
+    f8_store(v[1], y);
+    f8_store(v[2], z);
+    f8_store(v[3], w);
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 4; k++)
+            p[4 * i + k] = v[k][i];
+#endif
+}
+
 // v in the lanes of `bits`.
 LANES_INLINE void u8_put(uint32_t p[8], unsigned bits, uint32_t v)
 {

@@ -6,14 +6,14 @@
 #include "trace/packet_sponge.h"
 
 #define PASTE_(a, b) a##b
-#define PASTE(a, b) PASTE_(a, b)
-#define TEXT_(a) #a
-#define TEXT(a) TEXT_(a)
+#define PASTE(a, b)  PASTE_(a, b)
+#define TEXT_(a)     #a
+#define TEXT(a)      TEXT_(a)
 
 enum {
-    FEW = 2,         // lanes that go on one by one
-    SMALL_TREE = 8,  // nodes up to which packets always pay
-    TOGETHER = 4     // of the lanes at the root, how many a child must hold on average
+    FEW = 2,        // lanes that go on one by one
+    SMALL_TREE = 8, // nodes up to which packets always pay
+    TOGETHER = 4    // of the lanes at the root, how many a child must hold on average
 };
 
 // ---- one ray ----------------------------------------------------------------------------
@@ -50,8 +50,8 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
         return false;
     double all[8];
     bool found = false;
-    const bool ask = (a->lone_flags & f->q->hidden_by) ||
-                     (f->mode == SWEEP_OPAQUE && !a->lone_opaque);
+    const bool ask =
+        (a->lone_flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !a->lone_opaque);
     r8_store(all, t);
     for (; met; met &= met - 1) {
         const uint32_t i = first + (uint32_t)__builtin_ctz(met);
@@ -142,7 +142,8 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
 {
     struct packet *p = e->p;
     const struct accel *a = p->w->accel;
-    const struct sphere ball = {.centre = vec3(a->ball[0][i], a->ball[1][i], a->ball[2][i]),
+    const struct sphere ball = {.centre =
+                                    vec3(a->ball[0][i], a->ball[1][i], a->ball[2][i]),
                                 .radius = a->ball[3][i]};
     if (!(ball.radius > 0))
         return try_eight(e, bits, a->top.item[i]);
@@ -239,9 +240,8 @@ static void find(struct eight *e, struct packet *p)
         }
         return;
     }
-    const unsigned lanes =
-        tree_begin(&a->top, e->ray.o, e->ray.d, e->inverse, e->t_min,
-                   r8_min(e->t_max, r8_load(p->t)), p->alive, &p->top);
+    const unsigned lanes = tree_begin(&a->top, e->ray.o, e->ray.d, e->inverse, e->t_min,
+                                      r8_min(e->t_max, r8_load(p->t)), p->alive, &p->top);
     if (lanes)
         traverse(e, lanes);
 }
@@ -256,8 +256,8 @@ static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
     p->searching = p->whole = p->hidden_any = 0;
     r8_store(p->t, r8_set(INFINITY));
     u8_put(p->object, 255, UINT32_MAX);
-    if (p->w->accel->flags & (OBJECT_NO_IMAGE | OBJECT_NO_REFLECTION | OBJECT_NO_SHADOW |
-                              OBJECT_NO_RADIOSITY))
+    if (p->w->accel->flags &
+        (OBJECT_NO_IMAGE | OBJECT_NO_REFLECTION | OBJECT_NO_SHADOW | OBJECT_NO_RADIOSITY))
         for (uint32_t i = 0; i < 8; i++)
             p->hidden_any |= r->hidden_by[first + i];
     e->p = p;
@@ -284,7 +284,7 @@ struct rest {
 static const struct ray_batch *rest_of(struct rest *x, const struct ray_batch *r,
                                        uint32_t first)
 {
-    const double *const from[8] = {r->o[0], r->o[1],  r->o[2], r->d[0],
+    const double *const from[8] = {r->o[0], r->o[1], r->o[2],  r->d[0],
                                    r->d[1], r->d[2], r->t_min, r->t_max};
     for (uint32_t i = 0; i < 8; i++) {
         const uint32_t k = first + i < r->count ? first + i : first;
@@ -324,8 +324,9 @@ static void trace_hits8(const struct world *w, struct trace_scratch *s,
         hits_from(&p, rays, i, 255, out);
     if (i < rays->count) {
         struct rest x;
-        const struct hit_batch to = {out->t + i, out->dt + i,   out->part + i,    out->u + i,
-                                     out->v + i, out->leaf + i, out->crossing + i};
+        const struct hit_batch to = {out->t + i,       out->dt + i, out->part + i,
+                                     out->u + i,       out->v + i,  out->leaf + i,
+                                     out->crossing + i};
         hits_from(&p, rest_of(&x, rays, i), 0, (1u << (rays->count - i)) - 1, &to);
     }
 }

@@ -33,8 +33,8 @@ LANES_INLINE unsigned seeing(const struct packet *p, unsigned flags, unsigned bi
 }
 
 // Takes t where it is wanted and nearer (of equal ones the object declared first).
-LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint32_t object,
-                           uint32_t leaf)
+LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t,
+                           uint32_t object, uint32_t leaf)
 {
     struct packet *p = e->p;
     const struct real8 best = r8_load(p->t);
@@ -55,8 +55,9 @@ LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t, uint3
 
 LANES_INLINE struct real8 transformed(struct vec8 v, const struct mat3 *m, int j)
 {
-    return r8_add(r8_add(r8_mul(v.x, r8_set(m->m[0][j])), r8_mul(v.y, r8_set(m->m[1][j]))),
-                  r8_mul(v.z, r8_set(m->m[2][j])));
+    return r8_add(
+        r8_add(r8_mul(v.x, r8_set(m->m[0][j])), r8_mul(v.y, r8_set(m->m[1][j]))),
+        r8_mul(v.z, r8_set(m->m[2][j])));
 }
 
 // The rays in a leaf's own space, as transform_inverse_ray.
@@ -165,9 +166,12 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     const uint32_t leaf = w->object[object].first_leaf;
     const struct leaf *l = &w->leaf[leaf];
     struct ray8 own;
+    const enum packet_shape shape = w->accel->leaf_shape[leaf];
+    if (shape == PACKET_PLANE && e->p->mode == SWEEP_CLOSEST)
+        return lone_cross(e, bits, object, leaf); // cheap, and nothing is left to do
     const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
     struct span8 x;
-    switch ((enum packet_shape)w->accel->leaf_shape[leaf]) { // no error bound is computed
+    switch (shape) { // no error bound is computed
     case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
     case PACKET_BOX: x = span8_box(l->shape, ray); break;
     case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
@@ -401,8 +405,8 @@ static unsigned complete_balls(struct eight *e, unsigned lanes)
     }
     if (!(balls & (balls - 1)))
         return lanes;
-    const struct cross8 c = cross8_ball(
-        (struct vec8){r8_load(x), r8_load(y), r8_load(z)}, r8_load(r), &e->ray);
+    const struct cross8 c = cross8_ball((struct vec8){r8_load(x), r8_load(y), r8_load(z)},
+                                        r8_load(r), &e->ray);
     complete(p, &c, balls, false);
     return lanes & ~balls;
 }
@@ -412,7 +416,11 @@ static unsigned complete_balls(struct eight *e, unsigned lanes)
 static void complete_all(struct eight *e, unsigned lanes)
 {
     struct packet *p = e->p;
-    lanes = lanes ? complete_balls(e, lanes) : 0;
+    unsigned others = 0;
+    for (unsigned m = lanes; m; m &= m - 1)
+        others |= p->leaf[__builtin_ctz(m)] ^ p->leaf[__builtin_ctz(lanes)];
+    if (others)
+        lanes = complete_balls(e, lanes);
     while (lanes) {
         const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
         unsigned same = 0;

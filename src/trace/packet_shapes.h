@@ -35,9 +35,12 @@ static const double clear_square = 0x1p-12, clear_slope = 0x1p-12;
 
 LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
 {
-    const struct real8 dd = v8_dot(d, d);
-    return (struct ray8){
-        o, d, dd, r8_div(r8_set(1 + 0x1p-40), r8_sqrt(dd)), v8_max_abs(o)};
+    const struct real8 dd = v8_dot(d, d), one = r8_set(1);
+    struct ray8 ray = {o, d, dd, r8_set(1 + 0x1p-40), v8_max_abs(o)};
+    // Where all are of length 1, but for rounding, that is known.
+    if (m8_bits(r8_le(r8_abs(r8_sub(dd, one)), r8_set(0x1p-44))) != 255)
+        ray.per_length = r8_div(r8_set(1 + 0x1p-40), r8_sqrt(dd));
+    return ray;
 }
 
 // RUNS_ALONG of math/gamma.h

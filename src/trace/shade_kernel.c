@@ -55,8 +55,9 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
     struct place8 x = {.p = v8_mad(o, at, d)};
     if ((same == 8 && place_leaf(leaf[0], part, &x)) || place_spheres(leaf, &x)) {
         x.ns = x.ng;
-        x.error = r8_add(r8_mul(gather(t->hit->dt, g, rays_in_row), r8_abs(v8_dot(d, x.ng))),
-                         place_error(leaf[0], size));
+        x.error =
+            r8_add(r8_mul(gather(t->hit->dt, g, rays_in_row), r8_abs(v8_dot(d, x.ng))),
+                   place_error(leaf[0], size));
     } else {
         place_each(t, g, &x);
     }
@@ -212,6 +213,23 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
     return queued;
 }
 
+// ---- sums ---------------------------------------------------------------------------------
+
+static void sums(const struct wavefront *w, struct sample_sum *out)
+{
+    uint32_t i = 0;
+    for (; i + 8 <= w->count; i += 8)
+        f8_store_rows(
+            &out[i].light.r, f8_add(f8_load(w->own[0] + i), f8_load(w->lit[0] + i)),
+            f8_add(f8_load(w->own[1] + i), f8_load(w->lit[1] + i)),
+            f8_add(f8_load(w->own[2] + i), f8_load(w->lit[2] + i)), f8_load(w->t + i));
+    for (; i < w->count; i++)
+        out[i] =
+            (struct sample_sum){{w->own[0][i] + w->lit[0][i], w->own[1][i] + w->lit[1][i],
+                                 w->own[2][i] + w->lit[2][i]},
+                                w->t[i]};
+}
+
 // ---- boxes --------------------------------------------------------------------------------
 
 LANES_INLINE void slab8_meet(double min, double max, struct real8 o, struct real8 inv,
@@ -245,4 +263,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 }
 
 const struct shade_kernels PASTE(shade_kernels_, ISA) = {
-    TEXT(ISA), &PASTE(noise_kernels_, ISA), camera, place, own, light, bounce, meets};
+    TEXT(ISA), &PASTE(noise_kernels_, ISA), camera, place, own, light, bounce, sums,
+    meets};

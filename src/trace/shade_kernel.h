@@ -26,6 +26,8 @@ struct shade_kernels {
     // Fills what leaves the group by mirrors and, where the class is clear, through it.
     void (*bounce)(const struct simple_class *c, const struct simple_group *g,
                    struct simple_bounce *b);
+    // What the wave's slots have collected, as the samples of the same numbers.
+    void (*sums)(const struct wavefront *w, struct sample_sum *out);
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);

@@ -211,6 +211,11 @@ void simple_compile(struct job *job, struct arena *a)
 
 enum { END = UINT16_MAX };
 
+// Rays side by side that hit surfaces of one class.
+struct hit_run {
+    uint16_t first, count, next; // next: of the class; END: none
+};
+
 void simple_init(struct tracer *t)
 {
     const uint32_t classes = t->job->simple_class_count;
@@ -220,10 +225,10 @@ void simple_init(struct tracer *t)
     t->class_head = malloc(classes * sizeof *t->class_head);
     t->class_tail = malloc(classes * sizeof *t->class_tail);
     t->class_seen = malloc(BATCH_SIZE * sizeof *t->class_seen);
-    t->class_link = malloc(BATCH_SIZE * sizeof *t->class_link);
+    t->run = malloc(BATCH_SIZE * sizeof *t->run);
     t->class_ray = malloc(BATCH_SIZE * sizeof *t->class_ray);
     if (!t->group || !t->class_head || !t->class_tail || !t->class_seen ||
-        !t->class_link || !t->class_ray)
+        !t->run || !t->class_ray)
         abort();
     for (uint32_t i = 0; i < classes; i++)
         t->class_head[i] = END;
@@ -235,11 +240,11 @@ void simple_end(struct tracer *t)
     free(t->class_head);
     free(t->class_tail);
     free(t->class_seen);
-    free(t->class_link);
+    free(t->run);
     free(t->class_ray);
 }
 
-bool simple_take(struct tracer *t, uint32_t k)
+bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
 {
     const struct job *job = t->job;
     if (!job->simple ||
@@ -248,14 +253,15 @@ bool simple_take(struct tracer *t, uint32_t k)
     const uint32_t class = job->simple[job->world->leaf[t->hit->leaf[k]].surface].class;
     if (class == SIMPLE_NONE)
         return false;
+    const uint16_t at = (uint16_t)t->run_count++;
     if (t->class_head[class] == END) {
-        t->class_head[class] = (uint16_t)k;
+        t->class_head[class] = at;
         t->class_seen[t->class_count++] = class;
     } else {
-        t->class_link[t->class_tail[class]] = (uint16_t)k;
+        t->run[t->class_tail[class]].next = at;
     }
-    t->class_tail[class] = (uint16_t)k;
-    t->class_link[k] = END;
+    t->class_tail[class] = at;
+    t->run[at] = (struct hit_run){(uint16_t)k, (uint16_t)count, END};
     return true;
 }
 
@@ -273,12 +279,13 @@ static void add_indirect(struct tracer *t, const struct simple_class *c,
     const struct ray_batch *b = t->rays;
     const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
                             vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
+    const struct hit met = hit_batch_at(t->hit, k);
     struct interaction at;
-    trace_interaction(t->job->world, &ray, &t->hit[k], &at);
+    trace_interaction(t->job->world, &ray, &met, &at);
     struct path path = wave_path(t, g->slot[i]);
     if (!(path.flags & PATH_CONTINUED))
         path.level++;
-    const struct indirect_hit hit = {&ray, &t->hit[k], &at,
+    const struct indirect_hit hit = {&ray, &met, &at,
                                      vec3(g->n[0][i], g->n[1][i], g->n[2][i]), &path};
     const struct rgb light = indirect_light(t, &hit, back);
     t->slot = g->slot[i];
@@ -301,8 +308,9 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
 {
     const struct shade_kernels *kernels = t->job->kernels;
     uint32_t count = 0;
-    for (uint32_t k = first; k != END; k = t->class_link[k])
-        t->class_ray[count++] = (uint16_t)k;
+    for (uint32_t i = first; i != END; i = t->run[i].next)
+        for (uint32_t k = 0; k < t->run[i].count; k++)
+            t->class_ray[count++] = (uint16_t)(t->run[i].first + k);
     const uint32_t groups = (count + 7) / 8;
     for (uint32_t i = 0; i < groups; i++) {
         const uint32_t left = count - 8 * i;
@@ -326,7 +334,7 @@ void simple_shade(struct tracer *t)
         shade_class(t, &t->job->simple_class[class], t->class_head[class], &queued);
         t->class_head[class] = END;
     }
-    t->class_count = 0;
+    t->class_count = t->run_count = 0;
     if (queued)
         shadow_flush_simple(t, queued);
 }

@@ -64,8 +64,9 @@ struct simple_bounce {
 void simple_compile(struct job *job, struct arena *a);
 void simple_init(struct tracer *t);
 void simple_end(struct tracer *t);
-// Keeps the hit of ray k of the batch if its surface is simple.
-bool simple_take(struct tracer *t, uint32_t k);
+// Keeps the hits of `count` rays of the batch from k on, all of one leaf, if its surface is
+// simple.
+bool simple_take(struct tracer *t, uint32_t k, uint32_t count);
 // Shades the hits that were kept.
 void simple_shade(struct tracer *t);
 // The rays that go on from a group (trace/simple_bounce.c).

@@ -1,6 +1,7 @@
 #include "trace/tile.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arena.h"
 
@@ -55,26 +56,44 @@ static void sample(void *user, const struct vec2 *position, uint32_t count,
     tracer_samples(user, position, count, out);
 }
 
+// Pixels of a tile that are traced together, and their samples.
+struct plain_batch {
+    struct vec2 position[BATCH_SIZE];
+    struct tile_place place[BATCH_SIZE];
+    uint32_t count;
+};
+
+static void plain_trace(struct tracer *t, const struct tile *tile, struct plain_batch *b,
+                        struct image *out)
+{
+    const struct sample_sum *sum = tracer_batch(t, b->position, b->count);
+    const bool alpha = t->job->settings.output_alpha;
+    for (uint32_t k = 0; k < b->count; k++) {
+        float *pixel = image_at(out, tile->x0 + b->place[k].x, tile->y0 + b->place[k].y);
+        memcpy(pixel, &sum[k], sizeof sum[k]);
+        pixel[3] = alpha ? 1 - sum[k].t : 1;
+    }
+    b->count = 0;
+}
+
 // One ray a pixel, in Morton order, so that rays of a packet stay close together.
 static void plain(struct tracer *t, const struct tile_tables *tables,
                   const struct tile *tile, struct image *out)
 {
-    struct vec2 position[BATCH_SIZE];
-    float color[BATCH_SIZE][4];
+    struct plain_batch b;
     const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
-    uint32_t count = 0;
+    b.count = 0;
     for (uint32_t i = 0; i < tables->place_count; i++) {
         const struct tile_place p = tables->place[i];
-        if (p.x < width && p.y < height)
-            position[count++] = (struct vec2){tile->x0 + p.x + 0.5, tile->y0 + p.y + 0.5};
-        if (count < BATCH_SIZE && i + 1 < tables->place_count)
+        if (p.x >= width || p.y >= height)
             continue;
-        tracer_samples(t, position, count, color);
-        for (uint32_t k = 0; k < count; k++)
-            store(t->job, image_at(out, (int)position[k].u, (int)position[k].v),
-                  color[k]);
-        count = 0;
+        b.place[b.count] = p;
+        b.position[b.count++] = (struct vec2){tile->x0 + p.x + 0.5, tile->y0 + p.y + 0.5};
+        if (b.count == BATCH_SIZE)
+            plain_trace(t, tile, &b, out);
     }
+    if (b.count)
+        plain_trace(t, tile, &b, out);
 }
 
 static double working_gamma(const struct settings *s)

@@ -99,8 +99,7 @@ static void results(const struct tracer *t, uint32_t count, float (*out)[4])
     }
 }
 
-void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
-                 float (*out)[4])
+static void rays_run(struct tracer *t, const struct tracer_ray *ray, uint32_t count)
 {
     begin(t, count);
     t->camera_queue.count = 0;
@@ -123,6 +122,12 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
                         : inside_at(t->arena, t->job->world, p->o);
     }
     wave_run(t, &t->camera_queue);
+}
+
+void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
+                 float (*out)[4])
+{
+    rays_run(t, ray, count);
     results(t, count, out);
 }
 
@@ -144,7 +149,7 @@ void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
 }
 
 static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
-                               uint32_t count, float (*out)[4])
+                               uint32_t count)
 {
     struct tracer_ray ray[BATCH_SIZE];
     const struct render_settings *s = &t->job->settings;
@@ -154,26 +159,33 @@ static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
         ray[i].exists = camera_ray(t->job->camera, position[i].u, position[i].v, s->width,
                                    s->height, &ray[i].ray);
     }
-    tracer_rays(t, ray, count, out);
+    rays_run(t, ray, count);
+}
+
+const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
+                                      uint32_t count)
+{
+    const struct job *job = t->job;
+    if (job->quick_camera) {
+        begin(t, count);
+        job->kernels->camera(job, position, count, t->rays);
+        wave_run_camera(t, position, count);
+    } else {
+        samples_one_by_one(t, position, count);
+    }
+    return t->sum;
 }
 
 void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
                     float (*out)[4])
 {
-    const struct job *job = t->job;
-    if (job->camera->mesh) {
+    if (t->job->camera->mesh) {
         mesh_samples(t, position, count, out);
         return;
     }
     for (uint32_t first = 0; first < count; first += BATCH_SIZE) {
         const uint32_t n = count - first < BATCH_SIZE ? count - first : BATCH_SIZE;
-        if (!job->quick_camera) {
-            samples_one_by_one(t, position + first, n, out + first);
-            continue;
-        }
-        begin(t, n);
-        job->kernels->camera(job, position + first, n, t->rays);
-        wave_run_camera(t, position + first, n);
+        tracer_batch(t, position + first, n);
         results(t, n, out + first);
     }
 }

@@ -11,6 +11,7 @@
 
 struct arena;
 struct simple_group;
+struct hit_run;
 
 // The interiors a ray is inside, the last entered first; never changed once made, so
 // that rays share tails.
@@ -136,7 +137,9 @@ struct tracer {
     struct ray_batch *walk_rays;
     struct hit *walk_hit;
     struct simple_group *group;                                 // BATCH_SIZE / 8 of them
-    uint16_t *class_head, *class_tail, *class_link, *class_ray; // trace/simple.c
+    uint16_t *class_head, *class_tail, *class_ray; // trace/simple.c
+    struct hit_run *run;
+    uint32_t run_count;
     uint32_t *class_seen, class_count;
     struct sample_sum *sum;
     uint32_t sum_count, sum_capacity;
@@ -178,6 +181,10 @@ void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t coun
 // All have the same level. first, if not NULL, gets what each meets first.
 void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
                   struct first_hit *first, float (*out)[4]);
+
+// The same for at most BATCH_SIZE, where they stand until the next call.
+const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
+                                      uint32_t count);
 
 // ---- between the parts of the tracer ------------------------------------
 // Adds what a hit sends towards the camera; rays that go on are appended to the wave's

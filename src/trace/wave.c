@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/elementary.h"
+#include "trace/shade_kernel.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
 
@@ -224,8 +225,12 @@ static void missed(struct tracer *t, uint32_t k)
 static void sums_add(struct tracer *t)
 {
     const struct wavefront *w = &t->wave;
+    if (!w->path) { // the first light of samples 0 to count - 1
+        t->job->kernels->sums(w, t->sum);
+        return;
+    }
     for (uint32_t i = 0; i < w->count; i++) {
-        struct sample_sum *s = &t->sum[w->path ? w->path[w->order[i]].sample : i];
+        struct sample_sum *s = &t->sum[w->path[w->order[i]].sample];
         s->light = rgb_add(s->light,
                            rgb(w->own[0][i] + w->lit[0][i], w->own[1][i] + w->lit[1][i],
                                w->own[2][i] + w->lit[2][i]));
@@ -246,6 +251,17 @@ static void first_keep(struct tracer *t)
     }
 }
 
+// Shades the hits of rays from k up to `end`, one by one.
+static void shade_alone(struct tracer *t, uint32_t k, uint32_t end)
+{
+    for (; k < end; k++) {
+        t->slot = t->wave.slot[k];
+        const struct path p = wave_path(t, t->slot);
+        const struct hit hit = hit_batch_at(t->hit, k);
+        shade_hit(t, &p, &hit);
+    }
+}
+
 // Traces and shades the rays of the batch.
 static void wave_trace(struct tracer *t)
 {
@@ -259,15 +275,17 @@ static void wave_trace(struct tracer *t)
     trace_hits(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
-    for (uint32_t k = 0; k < w->count; k++) {
+    for (uint32_t k = 0, end; k < w->count; k = end) {
+        end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
             missed(t, k);
-        } else if (!simple_take(t, k)) {
-            t->slot = w->slot[k];
-            const struct path p = wave_path(t, t->slot);
-            const struct hit hit = hit_batch_at(t->hit, k);
-            shade_hit(t, &p, &hit);
+            continue;
         }
+        while (end < w->count && t->hit->leaf[end] == t->hit->leaf[k] &&
+               t->hit->t[end] < INFINITY)
+            end++;
+        if (!simple_take(t, k, end - k))
+            shade_alone(t, k, end);
     }
     simple_shade(t);
     shadow_flush(t);
