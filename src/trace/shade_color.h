@@ -29,12 +29,10 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
                r8_floor(r8_add(p.z, e)));
     const struct real8 even = r8_mul(r8_floor(r8_mul(cell, r8_set(0.5))), r8_set(2));
     const unsigned odd = m8_bits(r8_lt(even, cell));
-    for (; bits; bits &= bits - 1) {
-        const int i = __builtin_ctz(bits);
-        const struct rgb c = x->color[odd >> i & 1];
-        g->color[0][i] = c.r;
-        g->color[1][i] = c.g;
-        g->color[2][i] = c.b;
+    const float *const color[2] = {&x->color[0].r, &x->color[1].r};
+    for (int k = 0; k < 3; k++) {
+        const struct float8 c = f8_select(odd, f8_set(color[1][k]), f8_set(color[0][k]));
+        f8_store(g->color[k], bits == 255 ? c : f8_select(bits, c, f8_load(g->color[k])));
     }
     return true;
 }
@@ -105,8 +103,8 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
         f8_store(g->att, f8_set(x->att));
         return;
     }
-    for (unsigned m = bits; m; m &= m - 1)
-        g->att[__builtin_ctz(m)] = x->att;
+    f8_store(g->att, bits == 255 ? f8_set(x->att)
+                                 : f8_select(bits, f8_set(x->att), f8_load(g->att)));
     if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
         return;
     if (x->kind != SIMPLE_SOLID) {

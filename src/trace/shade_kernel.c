@@ -32,15 +32,15 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
                   struct simple_group *g)
 {
     const struct leaf *leaf[8];
-    uint32_t part[8], same = 0;
+    uint32_t id[8], differ = 0;
     g->live = (1u << count) - 1;
     for (uint32_t i = 0; i < 8; i++) {
         const uint32_t k = ray[i < count ? i : 0];
         g->ray[i] = k;
         g->slot[i] = t->wave.slot[k];
-        leaf[i] = &t->job->world->leaf[t->hit->leaf[k]];
-        part[i] = (uint32_t)t->hit->part[k];
-        same += leaf[i] == leaf[0];
+        id[i] = t->hit->leaf[k];
+        differ |= id[i] ^ id[0];
+        leaf[i] = &t->job->world->leaf[id[i]];
     }
     const struct ray_batch *b = t->rays;
     const bool rays_in_row = count == 8 && g->ray[7] - g->ray[0] == 7;
@@ -51,15 +51,18 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
                            gather(b->d[1], g, rays_in_row),
                            gather(b->d[2], g, rays_in_row)};
     const struct real8 at = gather(t->hit->t, g, rays_in_row);
-    const struct real8 size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)));
+    const struct place_rays r = {
+        .d = d,
+        .t = at,
+        .dt = gather(t->hit->dt, g, rays_in_row),
+        .part = gather(t->hit->part, g, rays_in_row),
+        .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)))};
     struct place8 x = {.p = v8_mad(o, at, d)};
-    if ((same == 8 && place_leaf(leaf[0], part, &x)) || place_spheres(leaf, &x)) {
+    if ((!differ && place_leaf(leaf[0], r.part, &x)) || place_spheres(leaf, &x)) {
         x.ns = x.ng;
-        x.error =
-            r8_add(r8_mul(gather(t->hit->dt, g, rays_in_row), r8_abs(v8_dot(d, x.ng))),
-                   place_error(leaf[0], size));
+        x.error = place_error_of(leaf[0], &r, x.ng);
     } else {
-        place_each(t, g, &x);
+        place_mixed(t, leaf, g, &r, &x);
     }
     v8_store(g->d, d);
     v8_store(g->p, x.p);
@@ -78,7 +81,7 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
             for (uint32_t i = 0; i < 8; i++)
                 g->through[c][i] = through[g->slot[i]];
     }
-    if (same == 8)
+    if (!differ)
         colors_of(t, leaf[0]->surface, g, 255);
     else
         colors(t, leaf, g);

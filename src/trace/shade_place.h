@@ -31,17 +31,21 @@ LANES_INLINE void place_plane(const struct plane *s, struct place8 *x)
     x->ng = n;
 }
 
-LANES_INLINE void place_box(const struct box *b, const uint32_t part[8], struct place8 *x)
+// On a face across one axis: sides 2 axis and 2 axis + 1.
+LANES_INLINE void place_side(struct real8 part, int axis, double min, double max,
+                             struct real8 *p, struct real8 *n)
 {
-    const double face[6] = {b->min.x, b->max.x, b->min.y, b->max.y, b->min.z, b->max.z};
-    double p[3][8], n[3][8] = {{0}};
-    v8_store(p, x->p);
-    for (int i = 0; i < 8; i++) {
-        p[part[i] / 2][i] = face[part[i]];
-        n[part[i] / 2][i] = part[i] & 1 ? 1 : -1;
-    }
-    x->p = v8_load((const double(*)[8])p);
-    x->ng = v8_load((const double(*)[8])n);
+    const struct mask8 low = r8_eq(part, r8_set(2 * axis)),
+                       high = r8_eq(part, r8_set(2 * axis + 1));
+    *p = r8_select(low, r8_set(min), r8_select(high, r8_set(max), *p));
+    *n = r8_select(low, r8_set(-1), r8_select(high, r8_set(1), r8_set(0)));
+}
+
+LANES_INLINE void place_box(const struct box *b, struct real8 part, struct place8 *x)
+{
+    place_side(part, 0, b->min.x, b->max.x, &x->p.x, &x->ng.x);
+    place_side(part, 1, b->min.y, b->max.y, &x->p.y, &x->ng.y);
+    place_side(part, 2, b->min.z, b->max.z, &x->p.z, &x->ng.z);
 }
 
 LANES_INLINE struct vec8 frame8(const struct frame *f, struct real8 x, struct real8 y,
@@ -54,19 +58,15 @@ LANES_INLINE struct vec8 frame8(const struct frame *f, struct real8 x, struct re
 #undef FRAME_AXIS
 }
 
-LANES_INLINE void place_cylinder(const struct cylinder *c, const uint32_t part[8],
+LANES_INLINE void place_cylinder(const struct cylinder *c, struct real8 part,
                                  struct place8 *x)
 {
     const struct frame *f = &c->frame;
     const struct vec8 v = v8_sub(x->p, V8_SET(f->origin));
     struct real8 qx = v8_dot(V8_SET(f->e1), v), qy = v8_dot(V8_SET(f->e2), v),
                  qz = v8_dot(V8_SET(f->e3), v);
-    unsigned side_bits = 0, top_bits = 0;
-    for (int i = 0; i < 8; i++) {
-        side_bits |= (unsigned)(part[i] == CYLINDER_SIDE) << i;
-        top_bits |= (unsigned)(part[i] == CYLINDER_TOP) << i;
-    }
-    const struct mask8 side = m8_of(side_bits), top = m8_of(top_bits);
+    const struct mask8 side = r8_eq(part, r8_set(CYLINDER_SIDE)),
+                       top = r8_eq(part, r8_set(CYLINDER_TOP));
     const struct real8 length = r8_sqrt(r8_add(r8_mul(qx, qx), r8_mul(qy, qy)));
     const struct mask8 off_axis = r8_lt(r8_set(0), length);
     const struct real8 ux = r8_select(off_axis, r8_div(qx, length), r8_set(1));
@@ -101,8 +101,7 @@ LANES_INLINE struct real8 place_error(const struct leaf *l, struct real8 size)
 }
 
 // All lanes hit this leaf; false: its shape has no lanes.
-LANES_INLINE bool place_leaf(const struct leaf *l, const uint32_t part[8],
-                             struct place8 *x)
+LANES_INLINE bool place_leaf(const struct leaf *l, struct real8 part, struct place8 *x)
 {
     const bool moved = !l->transform->identity;
     const struct shape_ops *ops = l->ops;
@@ -123,8 +122,8 @@ LANES_INLINE bool place_leaf(const struct leaf *l, const uint32_t part[8],
         place_cylinder(l->shape, part, x);
     }
     if (moved) {
-        x->p =
-            v8_add(v8_row_times(x->p, &l->transform->linear), V8_SET(l->transform->offset));
+        x->p = v8_add(v8_row_times(x->p, &l->transform->linear),
+                      V8_SET(l->transform->offset));
         x->ng = v8_normalize(v8_times_column(&l->transform->inverse, x->ng));
     }
     if (l->inverted)
@@ -152,21 +151,14 @@ LANES_INLINE bool place_spheres(const struct leaf *const leaf[8], struct place8 
     return true;
 }
 
-// One lane after the other.
-static void place_each(struct tracer *t, const struct simple_group *g, struct place8 *x)
+// The lanes of `bits`, one after the other.
+static void place_each(struct tracer *t, const struct simple_group *g, unsigned bits,
+                       struct place8 *x)
 {
-    double p[3][8], ng[3][8], ns[3][8], error[8];
-    for (int i = 0; i < 8; i++) {
+    double p[3][8] = {{0}}, ng[3][8] = {{0}}, ns[3][8] = {{0}}, error[8] = {0};
+    for (unsigned m = bits; m; m &= m - 1) {
+        const int i = __builtin_ctz(m);
         const uint32_t k = g->ray[i];
-        if (i && k == g->ray[0]) { // a lane that is not live
-            for (int a = 0; a < 3; a++) {
-                p[a][i] = p[a][0];
-                ng[a][i] = ng[a][0];
-                ns[a][i] = ns[a][0];
-            }
-            error[i] = error[0];
-            continue;
-        }
         const struct ray_batch *b = t->rays;
         const struct ray ray = {{b->o[0][k], b->o[1][k], b->o[2][k]},
                                 {b->d[0][k], b->d[1][k], b->d[2][k]},
@@ -184,6 +176,47 @@ static void place_each(struct tracer *t, const struct simple_group *g, struct pl
     x->ng = v8_load((const double(*)[8])ng);
     x->ns = v8_load((const double(*)[8])ns);
     x->error = r8_load(error);
+}
+
+// The rays of a group, and where they end.
+struct place_rays {
+    struct vec8 d;
+    struct real8 t, dt, part;
+    struct real8 size; // of the coordinates of o + t d
+};
+
+LANES_INLINE struct real8 place_error_of(const struct leaf *l, const struct place_rays *r,
+                                         struct vec8 ng)
+{
+    return r8_add(r8_mul(r->dt, r8_abs(v8_dot(r->d, ng))), place_error(l, r->size));
+}
+
+// Leaf by leaf.
+static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
+                        const struct simple_group *g, const struct place_rays *r,
+                        struct place8 *x)
+{
+    const struct vec8 p = x->p;
+    for (unsigned left = 255; left;) {
+        const struct leaf *l = leaf[__builtin_ctz(left)];
+        struct place8 y = {.p = p};
+        unsigned bits = 0;
+        for (unsigned i = 0; i < 8; i++)
+            bits |= (unsigned)(leaf[i] == l) << i;
+        if (place_leaf(l, r->part, &y)) {
+            y.ns = y.ng;
+            y.error = place_error_of(l, r, y.ng);
+        } else {
+            place_each(t, g, bits, &y);
+        }
+        const struct mask8 m = m8_of(bits);
+        const bool first = left == 255;
+        x->p = first ? y.p : v8_select(m, y.p, x->p);
+        x->ng = first ? y.ng : v8_select(m, y.ng, x->ng);
+        x->ns = first ? y.ns : v8_select(m, y.ns, x->ns);
+        x->error = first ? y.error : r8_select(m, y.error, x->error);
+        left &= ~bits;
+    }
 }
 
 #endif
