@@ -257,6 +257,24 @@ LANES_INLINE struct real8 r8_floor(struct real8 x)
 #endif
 }
 
+// Eight pairs, turned.
+LANES_INLINE void r8_load_pairs(const double *p, struct real8 *x, struct real8 *y)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    const __m512d a = _mm512_loadu_pd(p), b = _mm512_loadu_pd(p + 8);
+    x->a = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), b);
+    y->a = _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), b);
+#else
+    double v[8], w[8];
+    for (int i = 0; i < 8; i++) {
+        v[i] = p[2 * i];
+        w[i] = p[2 * i + 1];
+    }
+    *x = r8_load(v);
+    *y = r8_load(w);
+#endif
+}
+
 // Four neighbouring doubles past each of eight places, turned: out[k] holds the k-th of
 // each.
 LANES_INLINE void r8_load_rows(const double *const row[8], int past,

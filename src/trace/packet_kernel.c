@@ -16,101 +16,7 @@ enum {
     TOGETHER = 4    // of the lanes at the root, how many a child must hold on average
 };
 
-// ---- one ray ----------------------------------------------------------------------------
-
-static bool lone_hidden(const struct search *f, uint32_t object)
-{
-    const struct world_object *o = &f->w->object[object];
-    return (o->flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !o->opaque);
-}
-
-// The crossings of the spheres among `count` items of the tree, as spheres8 below; says
-// whether one is the nearest now.
-static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t first,
-                         uint32_t count)
-{
-    const struct accel *a = f->w->accel;
-    const struct vec8 centre = {r8_load(a->ball[0] + first), r8_load(a->ball[1] + first),
-                                r8_load(a->ball[2] + first)};
-    const struct real8 r = r8_load(a->ball[3] + first);
-    const struct vec8 oc = v8_sub(ray->o, centre);
-    const struct real8 at = r8_div(v8_dot(ray->d, oc), ray->dd);
-    const struct vec8 near = v8_mad(oc, r8_neg(at), ray->d);
-    const struct real8 rest = r8_sub(r8_mul(r, r), v8_dot(near, near));
-    unsigned met = m8_bits(r8_lt(r8_set(0), rest)) & ((1u << count) - 1);
-    if (!met)
-        return false;
-    const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
-    const struct real8 t_min = r8_set(f->q->ray.t_min);
-    const struct real8 t0 = r8_sub(r8_neg(at), reach), t1 = r8_add(r8_neg(at), reach);
-    const struct real8 t = r8_select(r8_lt(t_min, t0), t0, t1);
-    met &= m8_bits(m8_and(r8_lt(t_min, t), r8_lt(t, r8_set(f->q->ray.t_max))));
-    met &= m8_bits(r8_le(t, r8_set(f->t)));
-    if (!met)
-        return false;
-    double all[8];
-    bool found = false;
-    const bool ask =
-        (a->lone_flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !a->lone_opaque);
-    r8_store(all, t);
-    for (; met; met &= met - 1) {
-        const uint32_t i = first + (uint32_t)__builtin_ctz(met);
-        const uint32_t object = a->top.item[i];
-        if (!search_is_nearer(f, all[i - first], object) ||
-            (ask && lone_hidden(f, object)))
-            continue;
-        f->t = all[i - first];
-        f->object = object;
-        f->known = false;
-        found = true;
-    }
-    return found;
-}
-
-static bool walk_leaf(struct search *f, const struct ray8 *ray, uint32_t first,
-                      uint32_t count)
-{
-    const struct accel *a = f->w->accel;
-    uint32_t balls = 0;
-    for (uint32_t i = first; i < first + count; i++)
-        balls += a->ball[3][i] > 0;
-    f->s->stats.leaf_tests += balls;
-    bool found = balls && walk_spheres(f, ray, first, count);
-    if (balls == count)
-        return found;
-    for (uint32_t i = first; i < first + count; i++)
-        if (!(a->ball[3][i] > 0))
-            found |= search_try_object(f, a->top.item[i]);
-    return found;
-}
-
-static void walk(struct search *f, struct bvh8_ray *r, int32_t child)
-{
-    const struct bvh8 *tree = &f->w->accel->top;
-    const struct ray *q = &f->q->ray;
-    const struct ray8 ray = {.o = V8_SET(q->o), .d = V8_SET(q->d), .dd = r8_set(f->dd)};
-    const struct tree_ray8 v = tree_ray8_of(r);
-    struct bvh8_entry stack[BVH8_STACK];
-    uint32_t depth = 0;
-    stack[depth++] = (struct bvh8_entry){child, 0};
-    while (depth) {
-        const struct bvh8_entry e = stack[--depth];
-        if (e.t > r->t_far * BVH8_SLACK)
-            continue;
-        if (e.child < 0) {
-            if (!walk_leaf(f, &ray, bvh8_leaf_first(e.child), bvh8_leaf_count(e.child)))
-                continue;
-            if (f->mode == SWEEP_OPAQUE)
-                return;
-            bvh8_ray_limit(r, f->t);
-            continue;
-        }
-        f->s->stats.node_visits++;
-        depth = push_children(&tree->node[e.child], r, &v, stack, depth);
-    }
-}
-
-// ---- the tree ---------------------------------------------------------------------------
+// ---- eight rays, one object ---------------------------------------------------------------------------
 
 static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
 {
@@ -163,18 +69,140 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
     return take(e, bits, t, object, o->first_leaf);
 }
 
+// ---- one ray ----------------------------------------------------------------------------
+
+static bool lone_hidden(const struct search *f, uint32_t object)
+{
+    const struct world_object *o = &f->w->object[object];
+    return (o->flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !o->opaque);
+}
+
+// The crossings of the spheres among `count` items of the tree, as spheres8 below; says
+// whether one is the nearest now.
+static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t first,
+                         uint32_t count)
+{
+    const struct accel *a = f->w->accel;
+    const struct vec8 centre = {r8_load(a->ball[0] + first), r8_load(a->ball[1] + first),
+                                r8_load(a->ball[2] + first)};
+    const struct real8 r = r8_load(a->ball[3] + first);
+    const struct vec8 oc = v8_sub(ray->o, centre);
+    const struct real8 at = r8_div(v8_dot(ray->d, oc), ray->dd);
+    const struct vec8 near = v8_mad(oc, r8_neg(at), ray->d);
+    const struct real8 rest = r8_sub(r8_mul(r, r), v8_dot(near, near));
+    unsigned met = m8_bits(r8_lt(r8_set(0), rest)) & ((1u << count) - 1);
+    if (!met)
+        return false;
+    const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
+    const struct real8 t_min = r8_set(f->q->ray.t_min);
+    const struct real8 t0 = r8_sub(r8_neg(at), reach), t1 = r8_add(r8_neg(at), reach);
+    const struct real8 t = r8_select(r8_lt(t_min, t0), t0, t1);
+    met &= m8_bits(m8_and(r8_lt(t_min, t), r8_lt(t, r8_set(f->q->ray.t_max))));
+    met &= m8_bits(r8_le(t, r8_set(f->t)));
+    if (!met)
+        return false;
+    double all[8];
+    bool found = false;
+    const bool ask =
+        (a->lone_flags & f->q->hidden_by) || (f->mode == SWEEP_OPAQUE && !a->lone_opaque);
+    r8_store(all, t);
+    for (; met; met &= met - 1) {
+        const uint32_t i = first + (uint32_t)__builtin_ctz(met);
+        const uint32_t object = a->top.item[i];
+        if (!search_is_nearer(f, all[i - first], object) ||
+            (ask && lone_hidden(f, object)))
+            continue;
+        f->t = all[i - first];
+        f->object = object;
+        f->known = false;
+        found = true;
+    }
+    return found;
+}
+
+// Products are for packets, of one ray as well.
+static bool walk_product(struct eight *e, int lane, uint32_t object)
+{
+    struct packet *p = e->p;
+    packet_lane_end(p, lane);
+    if (!try_eight(e, 1u << lane, object))
+        return false;
+    packet_lane_begin(p, lane);
+    return true;
+}
+
+// e: the packet of which the ray is a lane, or NULL.
+static bool walk_leaf(struct search *f, const struct ray8 *ray, uint32_t first,
+                      uint32_t count, struct eight *e, int lane)
+{
+    const struct accel *a = f->w->accel;
+    uint32_t balls = 0;
+    for (uint32_t i = first; i < first + count; i++)
+        balls += a->ball[3][i] > 0;
+    f->s->stats.leaf_tests += balls;
+    bool found = balls && walk_spheres(f, ray, first, count);
+    if (balls == count)
+        return found;
+    for (uint32_t i = first; i < first + count; i++) {
+        const uint32_t object = a->top.item[i];
+        if (a->ball[3][i] > 0)
+            continue;
+        if (e && a->object_shape[object] == PACKET_PRODUCT)
+            found |= walk_product(e, lane, object);
+        else
+            found |= search_try_object(f, object);
+    }
+    return found;
+}
+
+static void walk_from(struct search *f, struct bvh8_ray *r, int32_t child,
+                      struct eight *in, int lane)
+{
+    const struct bvh8 *tree = &f->w->accel->top;
+    const struct ray *q = &f->q->ray;
+    const struct ray8 ray = {.o = V8_SET(q->o), .d = V8_SET(q->d), .dd = r8_set(f->dd)};
+    const struct tree_ray8 v = tree_ray8_of(r);
+    struct bvh8_entry stack[BVH8_STACK];
+    uint32_t depth = 0;
+    stack[depth++] = (struct bvh8_entry){child, 0};
+    while (depth) {
+        const struct bvh8_entry e = stack[--depth];
+        if (e.t > r->t_far * BVH8_SLACK)
+            continue;
+        if (e.child < 0) {
+            if (!walk_leaf(f, &ray, bvh8_leaf_first(e.child), bvh8_leaf_count(e.child),
+                           in, lane))
+                continue;
+            if (f->mode == SWEEP_OPAQUE)
+                return;
+            bvh8_ray_limit(r, f->t);
+            continue;
+        }
+        f->s->stats.node_visits++;
+        depth = push_children(&tree->node[e.child], r, &v, stack, depth);
+    }
+}
+
+static void walk(struct search *f, struct bvh8_ray *r, int32_t child)
+{
+    walk_from(f, r, child, NULL, 0);
+}
+
+// ---- the tree ---------------------------------------------------------------------------
+
 static void limit(struct packet *p, unsigned won)
 {
     tree_limit(&p->top, won, p->t, p->mode == SWEEP_OPAQUE);
 }
 
-static void one_by_one(struct packet *p, unsigned lanes, int32_t child)
+static void one_by_one(struct eight *e, unsigned lanes, int32_t child)
 {
+    struct packet *p = e->p;
     for (; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
         struct bvh8_ray r = tree_lane(&p->top, i);
         const double before = p->t[i];
-        walk(packet_lane_begin(p, i), &r, child);
+        walk_from(packet_lane_begin(p, i), &r, child, e, i);
         packet_lane_end(p, i);
         if (p->t[i] < before)
             limit(p, 1u << i);
@@ -199,7 +227,7 @@ static void traverse(struct eight *e, unsigned lanes)
         if (!bits)
             continue;
         if (!(bits & (bits - 1)) || (FEW > 1 && __builtin_popcount(bits) <= FEW)) {
-            one_by_one(p, bits, child);
+            one_by_one(e, bits, child);
             continue;
         }
         if (child < 0) {
@@ -216,7 +244,7 @@ static void traverse(struct eight *e, unsigned lanes)
         // Rays that part at the root gain nothing from each other, and each alone meets
         // its boxes in its own order.
         if (child == 0 && tree->node_count > SMALL_TREE && met_lanes < TOGETHER * depth) {
-            one_by_one(p, bits, 0);
+            one_by_one(e, bits, 0);
             return;
         }
     }

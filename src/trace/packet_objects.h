@@ -160,6 +160,18 @@ static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint
     return odd ? won | packet_try_object(e->p, odd, object) : won;
 }
 
+// Cheap, and nothing is left to do for the boundary.
+static unsigned lone_plane(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf)
+{
+    const struct leaf *l = &e->p->w->leaf[leaf];
+    struct ray8 own;
+    const struct cross8 x = cross8_plane(l->shape, leaf_ray(l, &e->ray, &own));
+    const unsigned won = take(e, bits & m8_bits(x.met), x.t[0], object, leaf);
+    if (won)
+        keep(e->p, &x, m8_of(255), won, l->inverted);
+    return won;
+}
+
 static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
 {
     const struct world *w = e->p->w;
@@ -168,7 +180,7 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     struct ray8 own;
     const enum packet_shape shape = w->accel->leaf_shape[leaf];
     if (shape == PACKET_PLANE && e->p->mode == SWEEP_CLOSEST)
-        return lone_cross(e, bits, object, leaf); // cheap, and nothing is left to do
+        return lone_plane(e, bits, object, leaf);
     const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
     struct span8 x;
     switch (shape) { // no error bound is computed

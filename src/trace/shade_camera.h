@@ -14,14 +14,17 @@ static void camera(const struct job *job, const struct vec2 *position, uint32_t 
     const struct vec8 right = V8_SET(c->right), up = V8_SET(c->up);
     const struct vec8 location = V8_SET(c->location), direction = V8_SET(c->direction);
     for (uint32_t i = 0; i < count; i += 8) {
-        double px[8], py[8];
-        for (uint32_t k = 0; k < 8; k++) {
-            const struct vec2 *p = &position[i + k < count ? i + k : i];
-            px[k] = p->u;
-            py[k] = p->v;
+        const struct vec2 *from = position + i;
+        struct vec2 last[8];
+        struct real8 px, py;
+        if (i + 8 > count) {
+            for (uint32_t k = 0; k < 8; k++)
+                last[k] = position[i + k < count ? i + k : i];
+            from = last;
         }
-        const struct real8 u = r8_sub(r8_div(r8_load(px), width), half);
-        const struct real8 v = r8_sub(half, r8_div(r8_load(py), height));
+        r8_load_pairs(&from->u, &px, &py);
+        const struct real8 u = r8_sub(r8_div(px, width), half);
+        const struct real8 v = r8_sub(half, r8_div(py, height));
         const struct vec8 d = v8_normalize(v8_mad(v8_mad(direction, u, right), v, up));
         r8_store(out->o[0] + i, location.x);
         r8_store(out->o[1] + i, location.y);

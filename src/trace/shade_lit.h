@@ -94,10 +94,9 @@ LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *l
         struct real8 cosine = r8_abs(facing);
         if (f->brilliance != 1)
             cosine = r8_pow_single(cosine, (double)f->brilliance);
-        float strength[8];
-        for (int i = 0; i < 8; i++)
-            strength[i] = fmaxf(0, back >> i & 1 ? f->diffuse_back : f->diffuse);
-        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(f8_load(strength), f8_load(g->att))),
+        const struct float8 strength = f8_select(back, f8_set(fmaxf(0, f->diffuse_back)),
+                                                 f8_set(fmaxf(0, f->diffuse)));
+        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(strength, f8_load(g->att))),
                        rgb8_load((const float(*)[8])g->color));
     }
     if (!lamp->dull) {
