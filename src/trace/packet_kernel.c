@@ -233,8 +233,10 @@ static void traverse(struct eight *e, unsigned lanes)
         if (child < 0) {
             const uint32_t first = bvh8_leaf_first(child), n = bvh8_leaf_count(child);
             unsigned won = 0;
+            e->boxed = n == 1;
             for (uint32_t i = first; i < first + n; i++)
                 won |= try_item(e, bits, i);
+            e->boxed = false;
             limit(p, won);
             continue;
         }
@@ -295,7 +297,7 @@ static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
                                    r8_load(r->d[2] + first)});
     e->t_min = r8_load(r->t_min + first);
     e->t_max = r8_load(r->t_max + first);
-    e->sheared = false;
+    e->sheared = e->boxed = false;
     e->inverse =
         (struct vec8){r8_div(r8_set(1), e->ray.d.x), r8_div(r8_set(1), e->ray.d.y),
                       r8_div(r8_set(1), e->ray.d.z)};
@@ -368,6 +370,7 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
     p.s = s;
     p.mode = SWEEP_OPAQUE;
     s->stats.shadow_rays += rays->count;
+    uint32_t blocker = UINT32_MAX; // of all rays before: likely of these as well
     for (uint32_t i = 0; i < rays->count; i += 8) {
         struct eight e;
         const uint32_t n = rays->count - i < 8 ? rays->count - i : 8;
@@ -375,9 +378,16 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
             begin(&e, &p, rays, i, 255);
         else
             begin(&e, &p, rest_of(&x, rays, i), 0, (1u << n) - 1);
-        find(&e, &p);
-        for (uint32_t k = 0; k < n; k++)
+        if (blocker != UINT32_MAX)
+            p.alive &= ~try_eight(&e, p.alive, blocker);
+        if (p.alive)
+            find(&e, &p);
+        bool all = true;
+        for (uint32_t k = 0; k < n; k++) {
             out[i + k] = p.object[k] != UINT32_MAX;
+            all &= out[i + k];
+        }
+        blocker = all ? p.object[0] : UINT32_MAX;
     }
 }
 

@@ -17,6 +17,7 @@ struct eight {
     struct real8 t_min, t_max;
     struct shear8 shear; // for triangles, if `sheared`
     bool sheared;
+    bool boxed; // the object's box alone has just been met, in the tree
 };
 
 // Lanes of `bits` that may see an object of these flags.
@@ -354,7 +355,8 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     struct packet *p = e->p;
     const struct world_object *o = &p->w->object[object];
     const struct accel_product *x = &p->w->accel->product[object];
-    bits &= box_lanes(e, &o->bounds);
+    if (!e->boxed)
+        bits &= box_lanes(e, &o->bounds);
     if (!bits)
         return 0;
     p->s->stats.csg_tests++;
