@@ -60,18 +60,23 @@ static void sample(void *user, const struct vec2 *position, uint32_t count,
 struct plain_batch {
     struct vec2 position[BATCH_SIZE];
     struct tile_place place[BATCH_SIZE];
+    float color[BATCH_SIZE][4]; // of cameras with several rays a sample
     uint32_t count;
 };
 
 static void plain_trace(struct tracer *t, const struct tile *tile, struct plain_batch *b,
                         struct image *out)
 {
-    const struct sample_sum *sum = tracer_batch(t, b->position, b->count);
     const bool alpha = t->job->settings.output_alpha;
-    for (uint32_t k = 0; k < b->count; k++) {
+    const float *color = b->color[0]; // red, green, blue, transparency
+    if (t->job->camera->mesh)
+        tracer_samples(t, b->position, b->count, b->color);
+    else
+        color = &tracer_batch(t, b->position, b->count)->light.r;
+    for (uint32_t k = 0; k < b->count; k++, color += 4) {
         float *pixel = image_at(out, tile->x0 + b->place[k].x, tile->y0 + b->place[k].y);
-        memcpy(pixel, &sum[k], sizeof sum[k]);
-        pixel[3] = alpha ? 1 - sum[k].t : 1;
+        memcpy(pixel, color, 3 * sizeof *color);
+        pixel[3] = alpha ? 1 - color[3] : 1;
     }
     b->count = 0;
 }

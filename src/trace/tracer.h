@@ -182,7 +182,8 @@ void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t coun
 void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
                   struct first_hit *first, float (*out)[4]);
 
-// The same for at most BATCH_SIZE, where they stand until the next call.
+// The same for at most BATCH_SIZE where a sample is one ray (a camera without meshes), where
+// they stand until the next call.
 const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
                                       uint32_t count);
 
