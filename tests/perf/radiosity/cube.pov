@@ -18,7 +18,6 @@ global_settings {
 }
 #ifdef (lambert)
 #declare lambert_gi = "radiosity";
-#declare lambert_gi_emitters = "mesh";
 #end
 #declare Matt = texture { pigment { rgb 1 } finish { ambient 0 diffuse .5 emission 0 } };
 difference { box { -1, 2 } box { <0, 0, -.3>, 1 } texture { Matt } }
