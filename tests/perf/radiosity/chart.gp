@@ -10,7 +10,7 @@ set pointsize 0.8
 set tics font "sans,11"
 set title font "sans,14"
 set key below maxrows 3 samplen 1.5 font "sans,11" spacing 1.1 width -2
-set bmargin 6
+set bmargin 6.8
 
 # Colour-blind safe (Okabe, Ito 2008); every curve has a shape of its own as well.
 set style line 1 lc rgb "#0072b2" lw 2 pt 7  # analytic, Gauss-Seidel
