@@ -1,5 +1,6 @@
 #include "math/polynomial.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -31,19 +32,19 @@ double polynomial_root_bound(const double *c, int degree)
 {
     while (degree > 0 && c[degree] == 0)
         degree--;
-    double bound = 0;
-UNROLL
+    int most = INT_MIN, en;
+    frexp(c[degree], &en);
     for (int i = 0; i < degree; i++) {
         if (c[i] == 0)
             continue;
         // |c_i / c_n|^(1/(n-i)) up to the next power of two, without pow.
-        int ei, en;
+        int ei;
         frexp(c[i], &ei);
-        frexp(c[degree], &en);
-        int e = (int)ceil((ei - en + 1.) / (degree - i));
-        bound = fmax(bound, ldexp(1, e));
+        const int above = ei - en + 1, n = degree - i;
+        const int e = above > 0 ? (above + n - 1) / n : -(-above / n);
+        most = e > most ? e : most;
     }
-    return 2 * bound;
+    return most == INT_MIN ? 0 : ldexp(1, most + 1);
 }
 
 // Sum of |c_i t^i|: the scale of the rounding errors of the value.
