@@ -8,12 +8,14 @@
 #include "base/arena.h"
 #include "irradiance/cache.h"
 #include "radiosity/radiosity.h"
+#include "trace/photons.h"
 
 struct gi {
     struct arena *arena;
     struct job job;
     struct radiosity *radiosity;
     struct irradiance_cache *cache;
+    struct photons *photons;
 };
 
 static const char *text_of(const struct lambert_context *ctx, const char *name)
@@ -170,6 +172,8 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory");
     struct irradiance_report r;
     ctx->phase = LAMBERT_PHASE_RADIOSITY;
+    // Surfaces that gathering rays see show their caustics too.
+    settings->photons = g->photons = render_photons(ctx->world, settings, &ctx->cancel);
     g->cache = irradiance_cache_new(ctx->world, settings, &watch, &r);
     ctx->phase = LAMBERT_PHASE_TILES;
     if (!g->cache) {
@@ -253,6 +257,7 @@ void gi_free(struct gi *g)
         return;
     radiosity_free(g->radiosity);
     irradiance_cache_free(g->cache);
+    photons_free(g->photons);
     if (g->arena)
         arena_free(g->arena);
     free(g);

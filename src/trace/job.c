@@ -159,6 +159,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .mirrors = q >= 8,
         .normals = q >= 8,
         .atmosphere = q >= 9,
+        .photons = settings->purpose == RENDER_SCOUT ? NULL : settings->photons,
     };
     const unsigned never =
         settings->purpose == RENDER_GATHER ? (unsigned)OBJECT_NO_RADIOSITY : 0;

@@ -199,15 +199,39 @@ static double now(clockid_t clock)
 }
 
 struct shooting {
-    struct job *job;
+    const struct job *job;
     const volatile bool *cancel;
     struct photons *photons;
 };
 
+// On a deep stack, as what renders.
 static void shoot(void *user)
 {
     struct shooting *s = user;
     s->photons = photons_shoot(s->job, s->cancel);
+}
+
+static struct photons *shot(const struct job *job, const volatile bool *cancel)
+{
+    struct shooting s = {job, cancel, NULL};
+    if (job->shoots)
+        stack_run(shoot, &s);
+    return s.photons;
+}
+
+struct photons *render_photons(const struct world *w, const struct render_settings *settings,
+                               const volatile bool *cancel)
+{
+    struct render_settings s = *settings;
+    struct job job;
+    settings_check(&s);
+    if (!w->scene->settings.photons.on)
+        return NULL;
+    struct arena *arena = arena_new(4096);
+    job_init(&job, arena, w, &s);
+    struct photons *p = shot(&job, cancel);
+    arena_free(arena);
+    return p;
 }
 
 bool render_world(const struct world *w, const struct render_settings *settings,
@@ -228,17 +252,16 @@ bool render_world(const struct world *w, const struct render_settings *settings,
         r.stats.tiles_done += progress->have[i];
     pthread_mutex_init(&r.lock, NULL);
     const double begin = now(CLOCK_MONOTONIC), cpu_begin = now(CLOCK_PROCESS_CPUTIME_ID);
-    struct shooting shooting = {&job, progress ? progress->cancel : NULL, NULL};
-    if (r.tiles_total && job.shoots)
-        stack_run(shoot, &shooting);
-    job.photons = shooting.photons;
+    struct photons *photons = NULL;
+    if (r.tiles_total && !job.photons)
+        job.photons = photons = shot(&job, progress ? progress->cancel : NULL);
     if (r.tiles_total)
         work_in_threads(&r);
     r.stats.seconds = now(CLOCK_MONOTONIC) - begin;
     r.stats.cpu_seconds = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
     r.stats.tiles_total = r.tiles_total;
     pthread_mutex_destroy(&r.lock);
-    photons_free(shooting.photons);
+    photons_free(photons);
     arena_free(arena);
     if (stats)
         *stats = r.stats;

@@ -9,6 +9,8 @@
 #include "trace/intersect.h"
 #include "trace/world.h"
 
+struct photons;
+
 // What rays are traced for.
 enum render_purpose {
     RENDER_PICTURE,
@@ -31,6 +33,7 @@ struct render_settings {
     int quality;                                // 9
     bool output_alpha;
     struct indirect indirect;
+    const struct photons *photons; // shot before; NULL: render_world shoots them
     enum render_purpose purpose;
 };
 extern const struct render_settings render_settings_default;
@@ -64,6 +67,11 @@ struct render_stats {
     double cpu_seconds; // the process's, in that time
     uint32_t tiles_done, tiles_total;
 };
+
+// The photons of a scene (trace/photons.h), for several jobs; NULL: it has none. The
+// settings are those of the picture.
+struct photons *render_photons(const struct world *w, const struct render_settings *settings,
+                               const volatile bool *cancel);
 
 // Renders into a picture of premultiplied linear (working space) RGBA floats.
 // True when every tile was done; false after a cancel (missing tiles are zero).

@@ -113,7 +113,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
             i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp ? lamp->index + 100 : 99));
         c = rgb_scale(i, l->color);
     }
-    if (!back && !(lamp && lamp->dull))
+    if (!back && !(lamp ? lamp->dull : s->t->job->settings.purpose == RENDER_GATHER))
         c = rgb_add(c, highlights(l, s->path->d, to, facing));
     if (f->irid != 0)
         c = rgb_mul(c, irid_factor(s, f, l->n, to));
