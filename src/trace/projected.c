@@ -15,7 +15,8 @@ static void gather(const struct object *o, struct ray ray, struct boundary_list 
         for (uint32_t i = 0; i < own.count; i++) {
             const struct boundary *b = &own.at[i];
             if (b->t > 0)
-                boundary_list_add(out, b->t, b->dt, b->crossing, b->part);
+                boundary_list_add(out, b->t, b->dt, b->crossing, b->part)->drawn =
+                    b->drawn;
         }
         boundary_list_free(&own);
     } else if (o->kind == OBJECT_CSG) {
@@ -46,7 +47,7 @@ double object_first_hit(const struct object *o, struct vec3 origin, struct vec3 
             continue;
         const double after = i + 1 < l.count ? (t + l.at[i + 1].t) / 2 : t + (t - before);
         const bool then = object_inside(o, ray_at(&ray, after));
-        if (then != inside || l.at[i].crossing == CROSS_TOUCH)
+        if (l.at[i].drawn && (then != inside || l.at[i].crossing == CROSS_TOUCH))
             hit = t;
         inside = then;
         before = t;

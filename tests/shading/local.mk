@@ -249,7 +249,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/341-media-wide-spot.pov \
 	%D%/342-fog-light-hollow.pov \
 	%D%/343-media-random.pov %D%/345-subsurface-many.pov \
-	%D%/346-subsurface-plate.pov \
+	%D%/346-subsurface-plate.pov %D%/347-projected-disc.pov \
 	%D%/350-media-truth-absorption.pov \
 	%D%/351-media-truth-emission.pov \
 	%D%/352-media-truth-glow-in-smoke.pov \
