@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// All of the file lies in memory; the library reads and writes through these.
+// All of the file lies in memory; the library writes through these.
 struct memory_file {
     struct byte_buffer *out;
-    const uint8_t *in;
-    size_t in_size;
 };
 
 static int64_t on_write(exr_const_context_t f, void *user, const void *data, uint64_t n,
@@ -24,25 +22,6 @@ static int64_t on_write(exr_const_context_t f, void *user, const void *data, uin
     return -1;
 }
 
-static int64_t on_read(exr_const_context_t f, void *user, void *data, uint64_t n,
-                       uint64_t offset, exr_stream_error_func_ptr_t fail)
-{
-    (void)f, (void)fail;
-    struct memory_file *m = user;
-    if (offset >= m->in_size)
-        return 0;
-    if (n > m->in_size - offset)
-        n = m->in_size - offset;
-    memcpy(data, m->in + offset, n);
-    return (int64_t)n;
-}
-
-static int64_t on_size(exr_const_context_t f, void *user)
-{
-    (void)f;
-    return (int64_t)((struct memory_file *)user)->in_size;
-}
-
 static void on_error(exr_const_context_t f, exr_result_t code, const char *text)
 {
     (void)f, (void)code, (void)text; // the code is returned too
@@ -53,19 +32,12 @@ static exr_context_initializer_t context_initializer(struct memory_file *m)
     exr_context_initializer_t i = EXR_DEFAULT_CONTEXT_INITIALIZER;
     i.user_data = m;
     i.error_handler_fn = on_error;
-    i.read_fn = on_read;
     i.write_fn = on_write;
-    i.size_fn = on_size;
     return i;
 }
 
-static int channel_index(const char *name)
-{
-    if (name[0] == 'Y' && !name[1])
-        return 0;
-    const char *at = strchr("RGBA", name[0]);
-    return name[0] && !name[1] && at ? (int)(at - "RGBA") : -1;
-}
+// Of a file that is written: R, G, B and A in this order.
+static int channel_index(const char *name) { return (int)(strchr("RGBA", name[0]) - "RGBA"); }
 
 static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct image *im,
                          int y)
@@ -77,25 +49,6 @@ static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct i
         c[i].user_line_stride = im->width * im->channels * 4;
         c[i].encode_from_ptr =
             (const uint8_t *)(image_at(im, 0, y) + channel_index(c[i].channel_name));
-    }
-}
-
-// Into one plane per channel: the library's short cut for three interleaved channels
-// (3.1.5) stores them in the wrong order. All other channels share one more plane, since
-// some short cuts write even to those that have none.
-static void bind_decoder(exr_coding_channel_info_t *c, int count, float *planes,
-                         int channels, int width, int height, int y)
-{
-    for (int i = 0; i < count; i++) {
-        int k = channel_index(c[i].channel_name);
-        if (k < 0 || k >= channels)
-            k = channels; // not wanted: into a plane that is thrown away
-        size_t at = ((size_t)k * (size_t)height + (size_t)y) * (size_t)width;
-        c[i].user_bytes_per_element = 4;
-        c[i].user_data_type = EXR_PIXEL_FLOAT;
-        c[i].user_pixel_stride = 4;
-        c[i].user_line_stride = width * 4;
-        c[i].decode_to_ptr = (uint8_t *)(planes + at);
     }
 }
 
@@ -203,120 +156,4 @@ bool exr_encode(const struct image *im, const struct image_write_options *o,
     }
     image_free(&linear);
     return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
-}
-
-static exr_result_t read_chunks(exr_context_t f, const struct image *im, float *planes,
-                                int first)
-{
-    exr_decode_pipeline_t d = EXR_DECODE_PIPELINE_INITIALIZER;
-    int lines = 1;
-    exr_result_t r = exr_get_scanlines_per_chunk(f, 0, &lines);
-    for (int y = 0; y < im->height && !r; y += lines) {
-        exr_chunk_info_t chunk;
-        r = exr_read_scanline_chunk_info(f, 0, first + y, &chunk);
-        if (!r)
-            r = y ? exr_decoding_update(f, 0, &chunk, &d)
-                  : exr_decoding_initialize(f, 0, &chunk, &d);
-        if (r)
-            break;
-        bind_decoder(d.channels, d.channel_count, planes, im->channels, im->width,
-                     im->height, y);
-        if (!y)
-            r = exr_decoding_choose_default_routines(f, 0, &d);
-        if (!r)
-            r = exr_decoding_run(f, 0, &d);
-    }
-    exr_decoding_destroy(f, &d);
-    return r;
-}
-
-struct layout {
-    bool grey, color, alpha;
-};
-
-static exr_result_t read_layout(exr_context_t f, struct layout *l)
-{
-    const exr_attr_chlist_t *list;
-    exr_result_t r = exr_get_channels(f, 0, &list);
-    for (int i = 0; !r && i < list->num_channels; i++) {
-        const char *name = list->entries[i].name.str;
-        l->grey = l->grey || strcmp(name, "Y") == 0;
-        l->alpha = l->alpha || strcmp(name, "A") == 0;
-        l->color = l->color || strcmp(name, "R") == 0;
-    }
-    return r;
-}
-
-static void interleave(struct image *im, const float *planes, bool grey)
-{
-    size_t n = (size_t)im->width * (size_t)im->height;
-    for (size_t i = 0; i < n; i++) {
-        float *p = im->pixel + i * (size_t)im->channels;
-        for (int k = 0; k < im->channels; k++)
-            p[k] = planes[(grey && k < 3 ? 0 : (size_t)k) * n + i];
-    }
-}
-
-static bool read_opened(exr_context_t f, struct image *im, size_t size,
-                        struct codec_error e)
-{
-    struct layout l = {0};
-    exr_attr_box2i_t box;
-    exr_storage_t storage;
-    exr_result_t r = exr_get_storage(f, 0, &storage);
-    if (!r && storage != EXR_STORAGE_SCANLINE)
-        return codec_fail(e, "only scan line EXR files can be read");
-    r = r ? r : exr_get_data_window(f, 0, &box);
-    r = r ? r : read_layout(f, &l);
-    if (r)
-        return codec_fail(e, "%s", exr_get_error_code_as_string(r));
-    if (!l.grey && !l.color)
-        return codec_fail(e, "the file has neither R G B nor Y channels");
-    const int64_t width = (int64_t)box.max.x - box.min.x + 1;
-    const int64_t height = (int64_t)box.max.y - box.min.y + 1;
-    // Every chunk of up to 256 rows has its place in the file's table, 8 bytes.
-    if (width < 1 || height < 1 || width > INT32_MAX || height > INT32_MAX ||
-        width * height > INT32_MAX || (size_t)(height / 256) > size / 8)
-        return codec_fail(e, "it claims %lld x %lld pixels in %zu bytes",
-                          (long long)width, (long long)height, size);
-    if (!image_init(im, (int)width, (int)height, l.alpha ? 4 : 3))
-        return codec_fail(e, "out of memory");
-    float *planes = calloc((size_t)im->width * (size_t)im->height,
-                           ((size_t)im->channels + 1) * sizeof *planes);
-    r = planes ? read_chunks(f, im, planes, box.min.y) : EXR_ERR_OUT_OF_MEMORY;
-    if (!r)
-        interleave(im, planes, !l.color);
-    free(planes);
-    return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
-}
-
-bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec_error e)
-{
-    *im = (struct image){0};
-    struct memory_file m = {.in = data, .in_size = size};
-    exr_context_initializer_t init = context_initializer(&m);
-    exr_context_t f;
-    exr_result_t r = exr_start_read(&f, "picture", &init);
-    if (r)
-        return codec_fail(e, "%s", exr_get_error_code_as_string(r));
-    bool ok = read_opened(f, im, size, e);
-    exr_finish(&f);
-    if (!ok)
-        image_free(im);
-    return ok;
-}
-
-bool exr_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
-{
-    struct image im;
-    if (!exr_decode(&im, data, size, e))
-        return false;
-    t->width = im.width;
-    t->height = im.height;
-    t->channels = im.channels;
-    t->format = TEXEL_F32;
-    t->max = 1;
-    t->premultiplied = true;
-    t->data = im.pixel; // handed over
-    return true;
 }

@@ -1,15 +1,45 @@
-// BMP files: 1, 4 and 8 bits with a palette (plain and run-length encoded), 24 and 32.
+// BMP files: 1, 4 and 8 bits with a palette (plain and run-length encoded), 16, 24 and 32,
+// the fields of 16 and 32 by masks if given.
 #include <stdlib.h>
 
 #include "image/codec.h"
 
-enum { RGB, RLE8, RLE4 };
+enum { RGB, RLE8, RLE4, FIELDS, ALPHA_FIELDS = 6 };
 
 struct header {
     uint32_t data, size; // of the pixels, of the information header
     uint32_t width, height, depth, compression, colors;
     bool from_top;
+    uint32_t mask[4]; // of red, green, blue, alpha; 0: none
 };
+
+static bool is_field(uint32_t mask)
+{
+    const uint32_t low = mask & (~mask + 1), up = mask + low; // one run of bits
+    return (up & (up - 1)) == 0;
+}
+
+// Where the bits of 16 and 32 are; true if they can be.
+static bool read_masks(struct byte_reader *r, struct header *h, uint32_t given)
+{
+    if (h->compression != FIELDS && h->compression != ALPHA_FIELDS) {
+        h->mask[0] = 0x7c00, h->mask[1] = 0x03e0, h->mask[2] = 0x001f;
+        return true;
+    }
+    // Behind a header of 40 bytes, within larger ones.
+    const int count = given >= 16 || h->compression == ALPHA_FIELDS ? 4 : 3;
+    bool ok = h->depth == 16 || h->depth == 32;
+    for (int k = 0; k < count; k++) {
+        h->mask[k] = read_le32(r);
+        ok &= is_field(h->mask[k]) && (h->depth == 32 || h->mask[k] <= 0xffff);
+    }
+    return ok && h->mask[0] && h->mask[1] && h->mask[2];
+}
+
+static bool has_fields(const struct header *h)
+{
+    return h->compression == FIELDS || h->compression == ALPHA_FIELDS;
+}
 
 static bool read_header(struct byte_reader *r, struct header *h, struct codec_error e)
 {
@@ -33,14 +63,18 @@ static bool read_header(struct byte_reader *r, struct header *h, struct codec_er
         read_skip(r, 12);
         h->colors = read_le32(r);
         read_skip(r, 4);
-        read_skip(r, h->size > 40 ? h->size - 40 : 0);
+        const uint32_t more = h->size > 40 ? h->size - 40 : 0;
+        const uint8_t *masks = r->at;
+        if (!read_masks(r, h, more))
+            return codec_fail(e, "its colour masks make no sense");
+        read_skip(r, more > (size_t)(r->at - masks) ? more - (size_t)(r->at - masks) : 0);
     }
     if (r->ended || (h->size != 12 && h->size < 40))
         return codec_fail(e, "its header makes no sense");
     bool fits = h->compression == RGB || (h->compression == RLE8 && h->depth == 8) ||
-                (h->compression == RLE4 && h->depth == 4);
-    if (!fits || (h->depth != 1 && h->depth != 4 && h->depth != 8 && h->depth != 24 &&
-                  h->depth != 32))
+                (h->compression == RLE4 && h->depth == 4) || has_fields(h);
+    if (!fits || (h->depth != 1 && h->depth != 4 && h->depth != 8 && h->depth != 16 &&
+                  h->depth != 24 && h->depth != 32))
         return codec_fail(e, "BMP files of %u bits and compression %u cannot be read",
                           (unsigned)h->depth, (unsigned)h->compression);
     return true;
@@ -60,6 +94,25 @@ static bool read_palette(struct byte_reader *r, const struct header *h, struct t
             read_u8(r);
     }
     return true;
+}
+
+// A field's bits as 0..255.
+static uint8_t field_of(uint32_t pixel, uint32_t mask)
+{
+    const uint32_t low = mask & (~mask + 1), most = mask / low;
+    return (uint8_t)(((uint64_t)((pixel & mask) / low) * 255 + most / 2) / most);
+}
+
+static void read_field_row(struct byte_reader *r, const struct header *h,
+                           const struct texels *t, uint8_t *row)
+{
+    for (uint32_t x = 0; x < h->width; x++) {
+        const uint32_t pixel = h->depth == 16 ? read_le16(r) : read_le32(r);
+        for (int k = 0; k < t->channels; k++)
+            *row++ = field_of(pixel, h->mask[k]);
+    }
+    if (h->depth == 16 && h->width % 2)
+        read_skip(r, 2);
 }
 
 static void read_plain_row(struct byte_reader *r, const struct header *h,
@@ -127,12 +180,13 @@ bool bmp_texels(struct texels *t, const uint8_t *data, size_t size, struct codec
     struct header h = {0};
     if (!read_header(&r, &h, e) || (h.depth <= 8 && !read_palette(&r, &h, t, e)))
         return false;
-    const bool packed = h.compression != RGB;
+    const bool packed = h.compression == RLE8 || h.compression == RLE4;
+    const bool fields = h.depth == 16 || has_fields(&h);
     // Plain rows take the bits that they need; what jumps skip takes none at all.
     if (!texels_allocate(t, h.width, h.height,
-                         h.depth == 32   ? 4
-                         : h.depth == 24 ? 3
-                                         : 1,
+                         h.depth == 32 ? (fields && !h.mask[3] ? 3 : 4)
+                         : h.depth > 8 ? (h.mask[3] ? 4 : 3)
+                                       : 1,
                          TEXEL_U8, size, packed ? 65536 : 8.0 / h.depth, e))
         return false;
     r.at = data;
@@ -141,6 +195,7 @@ bool bmp_texels(struct texels *t, const uint8_t *data, size_t size, struct codec
     if (packed)
         ok = read_packed(&r, &h, t);
     for (int j = 0; !packed && j < t->height && !r.ended; j++)
-        read_plain_row(&r, &h, t, texels_row8(t, h.from_top ? j : t->height - 1 - j));
+        (fields ? read_field_row : read_plain_row)(
+            &r, &h, t, texels_row8(t, h.from_top ? j : t->height - 1 - j));
     return (ok && !r.ended) || codec_fail(e, "it is damaged or ends too early");
 }

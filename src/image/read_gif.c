@@ -1,5 +1,6 @@
 // GIF files: the first picture, as palette indices. A reader of our own: giflib leaves
 // the transparent colour and all checks to its caller, and what is left is this LZW.
+#include <stdlib.h>
 #include <string.h>
 
 #include "image/codec.h"
@@ -126,13 +127,28 @@ static bool read_palette(struct byte_reader *r, unsigned flags, struct texels *t
     return true;
 }
 
+// Interlaced rows come in four passes: every eighth, those between, and so on.
+static bool unweave(struct texels *t, struct codec_error e)
+{
+    static const int first[4] = {0, 4, 2, 1}, step[4] = {8, 8, 4, 2};
+    const size_t width = (size_t)t->width, size = width * (size_t)t->height;
+    uint8_t *woven = malloc(size);
+    if (!woven)
+        return codec_fail(e, "out of memory");
+    memcpy(woven, t->data, size);
+    const uint8_t *row = woven;
+    for (int pass = 0; pass < 4; pass++)
+        for (int y = first[pass]; y < t->height; y += step[pass], row += width)
+            memcpy(texels_row8(t, y), row, width);
+    free(woven);
+    return true;
+}
+
 static bool read_picture(struct byte_reader *r, struct texels *t, size_t size,
                          int transparent, struct codec_error e)
 {
     read_skip(r, 4);
     unsigned width = read_le16(r), height = read_le16(r), flags = read_u8(r);
-    if (flags & INTERLACED)
-        return codec_fail(e, "interlaced GIF files cannot be read");
     if (flags & LOCAL_PALETTE && !read_palette(r, flags, t, e))
         return false;
     if (!t->palette)
@@ -142,7 +158,8 @@ static bool read_picture(struct byte_reader *r, struct texels *t, size_t size,
     t->palette_alpha = true;
     // A code of 12 bits stands for up to 4096 texels.
     return texels_allocate(t, width, height, 1, TEXEL_U8, size, 4096, e) &&
-           decode(r, t->data, (size_t)t->width * (size_t)t->height, e);
+           decode(r, t->data, (size_t)t->width * (size_t)t->height, e) &&
+           (!(flags & INTERLACED) || unweave(t, e));
 }
 
 bool gif_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)

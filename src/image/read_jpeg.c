@@ -31,25 +31,43 @@ static void on_message(j_common_ptr c, int level)
         on_error(c);
 }
 
+// Cyan, magenta, yellow and black as light, without a colour profile. Adobe's files have
+// the light that passes the ink instead of the ink.
+static void from_inks(const uint8_t *ink, uint32_t width, bool light, uint8_t *row)
+{
+    for (uint32_t x = 0; x < width; x++, ink += 4)
+        for (int k = 0; k < 3; k++) {
+            const unsigned c = light ? ink[k] : 255u - ink[k];
+            const unsigned black = light ? ink[3] : 255u - ink[3];
+            row[3 * x + (uint32_t)k] = (uint8_t)((c * black + 127) / 255);
+        }
+}
+
 static bool read_all(struct jpeg_decompress_struct *c, struct texels *t,
                      const uint8_t *data, size_t size, struct codec_error e)
 {
     jpeg_mem_src(c, data, (unsigned long)size);
     jpeg_read_header(c, TRUE);
-    bool grey = c->jpeg_color_space == JCS_GRAYSCALE;
-    if (c->num_components != 1 && c->num_components != 3)
+    const bool grey = c->jpeg_color_space == JCS_GRAYSCALE;
+    const bool inks = c->num_components == 4;
+    if (c->num_components != 1 && c->num_components != 3 && !inks)
         return codec_fail(e, "JPEG files of %d colour channels cannot be read",
                           c->num_components);
-    c->out_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
+    c->out_color_space = grey ? JCS_GRAYSCALE : inks ? JCS_CMYK : JCS_RGB;
     // A block of 64 texels takes a bit at least, in the first scan; a block of the
     // coarsest sampling covers 16 times as many.
     if (!texels_allocate(t, c->image_width, c->image_height, grey ? 1 : 3, TEXEL_U8, size,
                          64 * 8 * 16, e))
         return false;
     jpeg_start_decompress(c);
+    JSAMPARRAY line = NULL; // freed with c
+    if (inks)
+        line = c->mem->alloc_sarray((j_common_ptr)c, JPOOL_IMAGE, 4 * c->output_width, 1);
     while (c->output_scanline < c->output_height) {
         JSAMPROW row = texels_row8(t, (int)c->output_scanline);
-        jpeg_read_scanlines(c, &row, 1);
+        jpeg_read_scanlines(c, inks ? line : &row, 1);
+        if (inks)
+            from_inks(line[0], c->output_width, c->saw_Adobe_marker, row);
     }
     jpeg_finish_decompress(c);
     return true;

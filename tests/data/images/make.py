@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the small images of this folder (all but the JPEG and OpenEXR ones, which were
+"""Writes the small images of this folder (all but the JPEG ones and photo.exr, which were
 encoded by libjpeg and OpenEXR). Texel i = width * row + column, row 0 on top, of a 5x4 image:
 red = 37i+11, green = 91i+30, blue = 151i+200, alpha = 67i+40, each modulo 256; 16-bit
 samples are 257v - 3*column, at least 0; grey is 53i+17 modulo 256; index 3i+1 modulo 5."""
@@ -71,10 +71,10 @@ def pngs():
     png("palette4.png", 4, 3, [pack_bits(r, 4) for r in rows(INDEX)], plte)
 
 
-def gif():
+def gif(name="palette.gif", flags=0, order=range(H)):
     # One clear code, then every index as it is: codes stay at four bits for 8 texels.
     codes, size, table = [(8, 4)], 4, 10
-    for i, v in enumerate(INDEX):
+    for i, v in enumerate(v for y in order for v in rows(INDEX)[y]):
         codes.append((v, size))
         if i:
             table += 1
@@ -92,9 +92,14 @@ def gif():
     if used:
         data.append(held)
     colors = b"".join(bytes(c) for c in PALETTE) + bytes(9)
-    body = b"!\xf9\x04\x01\0\0\x03\0" + b"," + struct.pack("<4HB", 0, 0, W, H, 0) + b"\x03"
-    save("palette.gif", b"GIF89a" + struct.pack("<HHBBB", W, H, 0xF2, 0, 0) + colors + body
+    body = b"!\xf9\x04\x01\0\0\x03\0" + b"," + struct.pack("<4HB", 0, 0, W, H, flags) + b"\x03"
+    save(name, b"GIF89a" + struct.pack("<HHBBB", W, H, 0xF2, 0, 0) + colors + body
          + bytes([len(data)]) + bytes(data) + b"\0;")
+
+
+def gifs():
+    gif()
+    gif("palette-interlaced.gif", 0x40, (0, 2, 1, 3))
 
 
 def bgr(c):
@@ -154,6 +159,32 @@ def bmp(name, depth, compression, data, colors=b"", height=H):
     save(name, b"BM" + struct.pack("<IHHI", start + len(data), 0, 0, start)
          + struct.pack("<IiiHHIIiiII", 40, W, height, 1, depth, compression, len(data), 2835, 2835, len(colors) // 4, 0)
          + colors + data)
+
+
+def field(v, bits):
+    return v >> (8 - bits)
+
+
+def fields(name, depth, masks, pixels):
+    code = "<H" if depth == 16 else "<I"
+    lines = [b"".join(struct.pack(code, v) for v in r) for r in reversed(rows(pixels))]
+    data = b"".join(line + bytes(-len(line) % 4) for line in lines)
+    extra = struct.pack("<%dI" % len(masks), *masks)
+    size = 40 if len(masks) < 4 else 56
+    start = 14 + 40 + len(extra)
+    save(name, b"BM" + struct.pack("<IHHI", start + len(data), 0, 0, start)
+         + struct.pack("<IiiHHIIiiII", size, W, H, 1, depth, 3 if masks else 0, len(data), 2835, 2835, 0, 0)
+         + extra + data)
+
+
+def field_bmps():
+    fields("rgb555.bmp", 16, (), [field(r, 5) << 10 | field(g, 5) << 5 | field(b, 5) for r, g, b in RGB])
+    fields("rgb565.bmp", 16, (0xF800, 0x07E0, 0x1F),
+           [field(r, 5) << 11 | field(g, 6) << 5 | field(b, 5) for r, g, b in RGB])
+    fields("argb4444.bmp", 16, (0xF00, 0xF0, 0xF, 0xF000),
+           [field(a, 4) << 12 | field(r, 4) << 8 | field(g, 4) << 4 | field(b, 4)
+            for (r, g, b), a in zip(RGB, ALPHA)])
+    fields("xbgr32.bmp", 32, (0xFF, 0xFF00, 0xFF0000), [r | g << 8 | b << 16 for r, g, b in RGB])
 
 
 def bmps():
@@ -257,5 +288,40 @@ def hdr():
     save("packed.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 10\n" + lines)
 
 
-for make in (pngs, gif, tgas, pnms, bmps, iffs, tiffs, hdr):
+def exr(name, channels, chunks, tile=None, width=W):
+    """Not compressed. channels: (name, sampling, value(x, y)); chunks: (place in the file's table, rows, columns)."""
+    def attribute(key, kind, data):
+        return key + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
+
+    box = struct.pack("<4i", 0, 0, width - 1, H - 1)
+    listed = b"".join(c.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, s, s) for c, s, _ in channels)
+    head = struct.pack("<II", 0x01312F76, 0x202 if tile else 2)
+    head += attribute(b"channels", b"chlist", listed + b"\0") + attribute(b"compression", b"compression", b"\0")
+    head += attribute(b"dataWindow", b"box2i", box) + attribute(b"displayWindow", b"box2i", box)
+    head += attribute(b"lineOrder", b"lineOrder", b"\0") + attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
+    head += attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0))
+    head += attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))
+    if tile:
+        head += attribute(b"tiles", b"tiledesc", struct.pack("<IIB", *tile, 0))
+    head += b"\0"
+    at, table, body = len(head) + 8 * len(chunks), b"", b""
+    for place, ys, xs in chunks:
+        data = b"".join(struct.pack("<f", value(x, y)) for y in ys for _, s, value in channels if y % s == 0
+                        for x in xs if x % s == 0)
+        table += struct.pack("<Q", at + len(body))
+        body += place + struct.pack("<i", len(data)) + data
+    save(name, head + table + body)
+
+
+def exrs():
+    part = lambda k: lambda x, y: (RGB[W * y + x] + (ALPHA[W * y + x],))[k] / 256
+    tiles = [(struct.pack("<4i", i, j, 0, 0), range(3 * j, min(3 * j + 3, H)), range(2 * i, min(2 * i + 2, W)))
+             for j in range(2) for i in range(3)]
+    exr("tiled.exr", [("A", 1, part(3)), ("B", 1, part(2)), ("G", 1, part(1)), ("R", 1, part(0))], tiles, (2, 3))
+    lines = [(struct.pack("<i", y), (y,), range(4)) for y in range(H)]
+    exr("luma.exr", [("BY", 2, lambda x, y: -0.25), ("RY", 2, lambda x, y: 0.25 * x + 0.5 * y),
+                     ("Y", 1, lambda x, y: (4 * y + x + 1) / 32)], lines, width=4)
+
+
+for make in (pngs, gifs, field_bmps, exrs, tgas, pnms, bmps, iffs, tiffs, hdr):
     make()

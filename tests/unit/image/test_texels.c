@@ -161,6 +161,107 @@ static void own_kinds(void **state)
     texels_free(&t);
 }
 
+static int scaled(int v, int bits)
+{
+    return ((v >> (8 - bits)) * 255 + (1 << bits) / 2 - 1) / ((1 << bits) - 1);
+}
+
+// Red, green, blue and alpha of texel i, of so many bits.
+static void has_fields(const char *name, const int bits[4])
+{
+    struct texels t;
+    load(&t, name);
+    assert_int_equal(t.channels, bits[3] ? 4 : 3);
+    for (int i = 0; i < 20; i++) {
+        const int value[4] = {(37 * i + 11) % 256, (91 * i + 30) % 256,
+                              (151 * i + 200) % 256, (67 * i + 40) % 256};
+        for (int k = 0; k < t.channels; k++)
+            if ((int)texels_raw(&t, i % 5, i / 5, k) != scaled(value[k], bits[k]))
+                fail_msg("%s, texel %d, channel %d: %d, not %d", name, i, k,
+                         (int)texels_raw(&t, i % 5, i / 5, k), scaled(value[k], bits[k]));
+    }
+    texels_free(&t);
+}
+
+static void fields_of_bmp(void **state)
+{
+    (void)state;
+    has_fields("rgb555.bmp", (const int[4]){5, 5, 5, 0});
+    has_fields("rgb565.bmp", (const int[4]){5, 6, 5, 0});
+    has_fields("argb4444.bmp", (const int[4]){4, 4, 4, 4});
+    has_fields("xbgr32.bmp", (const int[4]){8, 8, 8, 0});
+}
+
+static void interlaced_gif(void **state)
+{
+    (void)state;
+    struct texels t;
+    load(&t, "palette-interlaced.gif");
+    assert_true(t.indexed);
+    for (int i = 0; i < 20; i++)
+        assert_int_equal(texels_index(&t, i % 5, i / 5), (3 * i + 1) % 5);
+    texels_free(&t);
+}
+
+static void near(double got, double want)
+{
+    if (!(fabs(got - want) <= 1e-5 * fmax(1, fabs(want))))
+        fail_msg("%.9g, not %.9g", got, want);
+}
+
+static void tiled_exr(void **state)
+{
+    (void)state;
+    struct texels t;
+    load(&t, "tiled.exr");
+    assert_int_equal(t.channels, 4);
+    for (int i = 0; i < 20; i++) {
+        near(texels_raw(&t, i % 5, i / 5, 0), (37 * i + 11) % 256 / 256.);
+        near(texels_raw(&t, i % 5, i / 5, 1), (91 * i + 30) % 256 / 256.);
+        near(texels_raw(&t, i % 5, i / 5, 2), (151 * i + 200) % 256 / 256.);
+        near(texels_raw(&t, i % 5, i / 5, 3), (67 * i + 40) % 256 / 256.);
+    }
+    texels_free(&t);
+}
+
+// RY = (R - Y)/Y is 0.25 x + 0.5 y where there are samples, BY = (B - Y)/Y is -0.25
+// everywhere; Y is that of Rec. ITU-R BT.709.
+static void luminance_and_differences(void **state)
+{
+    (void)state;
+    struct texels t;
+    load(&t, "luma.exr");
+    assert_int_equal(t.channels, 3);
+    for (int i = 0; i < 16; i++) {
+        const int x = i % 4, y = i / 4;
+        const double luma = (i + 1) / 32., r = texels_raw(&t, x, y, 0),
+                     g = texels_raw(&t, x, y, 1), b = texels_raw(&t, x, y, 2);
+        near(b, 0.75 * luma);
+        if (fabs(0.2126 * r + 0.7152 * g + 0.0722 * b - luma) > 2e-4)
+            fail_msg("texel %d has luminance %.6f, not %.6f", i,
+                     0.2126 * r + 0.7152 * g + 0.0722 * b, luma);
+        if (x % 2 == 0 && y % 2 == 0)
+            near(r, (0.25 * x + 0.5 * y + 1) * luma);
+    }
+    texels_free(&t);
+}
+
+// Adobe's inks are inverted: pure cyan on the left, half magenta under a quarter of black
+// on the right.
+static void inks_of_jpeg(void **state)
+{
+    (void)state;
+    static const int want[2][3] = {{0, 255, 255}, {191, 95, 191}};
+    struct texels t;
+    load(&t, "cmyk.jpg");
+    assert_int_equal(t.channels, 3);
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < 3; k++)
+            assert_in_range((int)texels_raw(&t, 8 * side + 3, 4, k) + 3,
+                            want[side][k] + 1, want[side][k] + 5);
+    texels_free(&t);
+}
+
 static const struct {
     const char *text;
     size_t size;
@@ -203,10 +304,23 @@ static void bad_files_are_refused(void **state)
 static void truncated_files_are_refused(void **state)
 {
     (void)state;
-    static const char *const names[] = {
-        "rgb8.png",     "palette.gif",      "rgb24-rle.tga", "rgb16.ppm",
-        "palette8.bmp", "palette-rle8.bmp", "rgb24.iff",     "plain.hdr",
-        "packed.hdr",   "palette8.tif",     "photo.jpg",     "photo.exr"};
+    static const char *const names[] = {"rgb8.png",
+                                        "palette.gif",
+                                        "rgb24-rle.tga",
+                                        "rgb16.ppm",
+                                        "palette8.bmp",
+                                        "palette-rle8.bmp",
+                                        "rgb24.iff",
+                                        "plain.hdr",
+                                        "packed.hdr",
+                                        "palette8.tif",
+                                        "photo.jpg",
+                                        "photo.exr",
+                                        "tiled.exr",
+                                        "luma.exr",
+                                        "cmyk.jpg",
+                                        "rgb565.bmp",
+                                        "palette-interlaced.gif"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[1024], error[256] = "";
         path_of(path, sizeof path, names[i]);
@@ -239,6 +353,11 @@ int main(void)
         cmocka_unit_test(files_have_the_known_texels),
         cmocka_unit_test(raw_values_are_kept),
         cmocka_unit_test(own_kinds),
+        cmocka_unit_test(fields_of_bmp),
+        cmocka_unit_test(interlaced_gif),
+        cmocka_unit_test(tiled_exr),
+        cmocka_unit_test(luminance_and_differences),
+        cmocka_unit_test(inks_of_jpeg),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(truncated_files_are_refused),
     };
