@@ -40,7 +40,7 @@ static void tell(void *user, double share)
 struct bench {
     struct radiosity_options o;
     int runs;
-    bool print, progress;
+    bool interpolate, print, progress;
     char settings[256]; // as given, but for those with a column of their own
 };
 
@@ -76,6 +76,8 @@ static void set(struct bench *b, char *text)
         o->patches.threads = o->factors.threads = o->solver.threads = (int)number;
     else if (strcmp(text, "runs") == 0)
         b->runs = number < RUNS_MOST ? (int)number : RUNS_MOST;
+    else if (strcmp(text, "interpolate") == 0)
+        b->interpolate = number > 0;
     else if (strcmp(text, "print") == 0)
         b->print = number > 0;
     else if (strcmp(text, "progress") == 0)
@@ -122,7 +124,8 @@ static void run(const struct bench *b, const struct job *job, const char *name)
             exit(1);
         }
         user[k] = user_seconds() - start;
-        const double off = bins ? truth_error(r, b->print) : furnace_error(r, b->print);
+        const double off =
+            bins ? truth_error(r, b->interpolate, b->print) : furnace_error(r, b->print);
         square += off * off;
         estimate += r->report.error;
         spent += user[k];

@@ -69,7 +69,7 @@ double furnace_error(const struct radiosity *r, bool print)
 
 // The mean irradiance of the patches at points of a bin, for a light of radiosity 1.
 static void bin_value(const struct radiosity *r, struct trace_scratch *scratch,
-                      const struct bin *x, double light, double h[3])
+                      const struct bin *x, double light, bool interpolate, double h[3])
 {
     enum { SIDE = 6 };
     const struct vec3 up = vec3_normalize(vec3_cross(x->a, x->b));
@@ -81,15 +81,19 @@ static void bin_value(const struct radiosity *r, struct trace_scratch *scratch,
         const struct ray_query q = {{vec3_mad(p, height, up), vec3_neg(up), 0, INFINITY},
                                     OBJECT_NO_RADIOSITY};
         const struct hit hit = trace_closest_1(r->patches->job->world, scratch, &q);
-        const uint32_t e = hit.b.t < 2 * height
-                               ? patch_of_hit(r->patches, scratch, &q.ray, &hit)
-                               : ELEMENT_NONE;
-        for (int c = 0; c < 3 && e != ELEMENT_NONE; c++)
-            h[c] += r->solution.h[e][c] / light / (SIDE * SIDE);
+        uint32_t e[4], n = 0;
+        double weight[4] = {1};
+        if (hit.b.t < 2 * height && interpolate)
+            n = patch_around(r->patches, scratch, &q.ray, &hit, e, weight);
+        else if (hit.b.t < 2 * height)
+            n = (e[0] = patch_of_hit(r->patches, scratch, &q.ray, &hit)) != ELEMENT_NONE;
+        for (uint32_t i = 0; i < n; i++)
+            for (int c = 0; c < 3; c++)
+                h[c] += weight[i] * r->solution.h[e[i]][c] / light / (SIDE * SIDE);
     }
 }
 
-double truth_error(const struct radiosity *r, bool print)
+double truth_error(const struct radiosity *r, bool interpolate, bool print)
 {
     struct error_sum sum = {0, 0};
     struct trace_scratch *scratch = trace_scratch_new(r->patches->job->world);
@@ -98,7 +102,7 @@ double truth_error(const struct radiosity *r, bool print)
         light = fmax(light, (double)r->patches->element[i].emission.r);
     for (int k = 0; k < bins; k++) {
         double h[3];
-        bin_value(r, scratch, &bin[k], light, h);
+        bin_value(r, scratch, &bin[k], light, interpolate, h);
         error_add(&sum, vec3_length(vec3_cross(bin[k].a, bin[k].b)), bin[k].rho, h,
                   bin[k].h);
         if (print)

@@ -31,8 +31,8 @@ void error_add(struct error_sum *s, double area, const double rho[3], const doub
 double error_of(const struct error_sum *s);
 
 // The error of a solution against the bins that were read; of a furnace, whose every patch
-// receives 1. print: tells all differences on stderr.
-double truth_error(const struct radiosity *r, bool print);
+// receives 1. interpolate: between patches, as the picture does. print: tells all differences on stderr.
+double truth_error(const struct radiosity *r, bool interpolate, bool print);
 double furnace_error(const struct radiosity *r, bool print);
 
 #endif
