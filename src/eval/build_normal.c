@@ -1,5 +1,7 @@
 #include "eval/build.h"
 
+#include <string.h>
+
 // normal { } (spec/language 4.10, spec/textures 11).
 
 static const struct field normal_fields[] = {
@@ -50,9 +52,6 @@ const struct normal *build_normal_body(struct args *a, const struct normal *star
     pattern_finish(a, &n.pattern);
     if (!a->failed && n.kind == NORMAL_AVERAGE && !n.map)
         args_error(a, args_span(a), "average needs a map");
-    const bool kept = n.kind == NORMAL_PATTERN || n.kind == NORMAL_MAP || n.kind == NORMAL_SLOPES;
-    if (!a->failed && kept && !n.pattern.ops)
-        args_error(a, a->owner ? a->owner->where : args_span(a), "no pattern is given");
     if (a->failed)
         return NULL;
     struct normal *out = arena_new_struct(a->b->arena, struct normal);
@@ -60,9 +59,26 @@ const struct normal *build_normal_body(struct args *a, const struct normal *star
     return out;
 }
 
+// A default and a declared normal may leave the pattern to those who use them.
+static bool is_used(const struct args *a)
+{
+    return strcmp(a->name, "default") != 0 && strcmp(a->name, "right side") != 0;
+}
+
+static bool lacks_pattern(const struct normal *n)
+{
+    return !n->pattern.ops && (n->kind == NORMAL_PATTERN || n->kind == NORMAL_MAP ||
+                               n->kind == NORMAL_SLOPES);
+}
+
 const struct normal *build_normal(struct args *a, const struct ast *block,
                                   const struct normal *start)
 {
     struct args in = args_of(a->b, block, a);
-    return build_normal_body(&in, start);
+    const struct normal *n = build_normal_body(&in, start);
+    if (n && is_used(a) && lacks_pattern(n)) {
+        args_error(&in, block->where, "no pattern is given");
+        return NULL;
+    }
+    return n;
 }
