@@ -53,7 +53,6 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
     const struct real8 at = gather(t->hit->t, g, rays_in_row);
     const struct place_rays r = {
         .d = d,
-        .t = at,
         .dt = gather(t->hit->dt, g, rays_in_row),
         .part = gather(t->hit->part, g, rays_in_row),
         .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)))};

@@ -178,10 +178,10 @@ static void place_each(struct tracer *t, const struct simple_group *g, unsigned 
     x->error = r8_load(error);
 }
 
-// The rays of a group, and where they end.
+// What is known of the hits of a group.
 struct place_rays {
     struct vec8 d;
-    struct real8 t, dt, part;
+    struct real8 dt, part;
     struct real8 size; // of the coordinates of o + t d
 };
 
