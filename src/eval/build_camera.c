@@ -92,15 +92,14 @@ static void blur_samples(struct args *a, struct camera *c)
                    "blur_samples: the maximum must be at least 1 and the minimum");
 }
 
-static void bokeh(struct args *a)
+static void bokeh(struct args *a, struct camera *c)
 {
     const struct ast *block = args_next(a);
     struct args in = args_of(a->b, block, a);
     if (args_at_block(&in) == WORD_pigment)
-        build_pigment(&in, args_next(&in), a->b->default_texture->layer->pigment);
+        c->bokeh = build_pigment(&in, args_next(&in), a->b->default_texture->layer->pigment);
     if (in.at)
         args_unknown(&in, NULL, 0);
-    args_not_rendered(a, WORD_bokeh, block->where);
 }
 
 // Whether an object is a mesh and nothing else; its faces are in the space of *out.
@@ -177,7 +176,7 @@ static bool item(struct args *a, struct camera_state *c)
         return true;
     }
     if (args_at_block(a) == WORD_bokeh) {
-        bokeh(a);
+        bokeh(a, &c->camera);
         return true;
     }
     if (args_at_block(a) == WORD_mesh_camera) {

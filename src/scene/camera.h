@@ -6,6 +6,9 @@
 
 #include "math/vec.h"
 
+struct normal;
+struct pigment;
+
 enum camera_kind {
     CAMERA_PERSPECTIVE,
     CAMERA_ORTHOGRAPHIC,
@@ -30,6 +33,8 @@ struct camera {
     int blur_samples_min, blur_samples;
     const struct normal *normal;    // NULL: none
     const struct mesh_camera *mesh; // of CAMERA_MESH (scene/mesh_camera.h)
+    // Of the lens: how likely a place of it, x and y in 0..1, takes light. NULL: a disc.
+    const struct pigment *bokeh;
 };
 extern const struct camera camera_default;
 

@@ -6,8 +6,10 @@
 #include <stdint.h>
 
 #include "math/lanes.h"
+#include "math/quick_vectors.h"
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
+#include "scene/pattern_math.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
@@ -17,14 +19,24 @@
 #define NOISE_EDGE 1e-10
 #define NOISE_FAR  4611686018427387904.0
 
-// Cells and places in them; `row` leads to the table entries of the corners, whose bits
-// 0, 1 and 2 say which side of x, y and z they are at.
+// Places in the cells; `row` leads to the table entries of the corners, whose bits 0, 1
+// and 2 say which side of x, y and z they are at. Neighbouring points are mostly in few
+// cells: then there is one set of rows a cell, and the lanes that are in it.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+enum { CELLS_MAX = 4 };
+#else
+enum { CELLS_MAX = 2 };
+#endif
+
 struct lattice8 {
     struct real8 fx, fy, fz;
-    const double *row[8][8]; // [corner][lane]
+    int cells; // 0: more than CELLS_MAX, rows by lane
+    struct mask8 in[CELLS_MAX];
+    const double *cell_row[8][CELLS_MAX]; // [corner][cell]
+    const double *row[8][8];              // [corner][lane]
 };
 
-LANES_INLINE struct real8 split8(struct real8 v, double cell[8])
+LANES_INLINE struct real8 split8(struct real8 v, struct real8 *cell)
 {
     v = r8_select(r8_lt(r8_abs(v), r8_set(NOISE_FAR)), v, r8_set(0));
     const struct real8 below =
@@ -32,38 +44,110 @@ LANES_INLINE struct real8 split8(struct real8 v, double cell[8])
     const struct real8 x = r8_sub(v, below);
     // Towards zero; a sum with 0 has no negative zero.
     const struct real8 t = r8_add(r8_copysign(r8_floor(r8_abs(x)), x), r8_set(0));
-    r8_store(cell, t);
+    *cell = t;
     return r8_sub(v, t);
 }
 
-static inline unsigned cell_of(double t) { return (unsigned)((int64_t)t + 10000) & 4095; }
+// 10000 cells further, modulo 4096.
+LANES_INLINE void numbers8(struct real8 cell, uint32_t out[8])
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    const __m512i n =
+        _mm512_add_epi64(_mm512_cvttpd_epi64(cell.a), _mm512_set1_epi64(10000));
+    _mm256_storeu_si256((__m256i *)out, _mm512_cvtepi64_epi32(_mm512_and_si512(
+                                            n, _mm512_set1_epi64(4095))));
+#else
+    double t[8];
+    r8_store(t, cell);
+    for (int i = 0; i < 8; i++)
+        out[i] = (unsigned)((int64_t)t[i] + 10000) & 4095;
+#endif
+}
 
 static inline const double *corner(unsigned hash_xy, unsigned z)
 {
-    return noise_value_table + (noise_hash_table[hash_xy ^ z] & 255);
+    return noise_row_table[0] + noise_corner_table[hash_xy ^ z];
 }
 
-LANES_INLINE void lattice_of(struct vec8 p, double scale, struct lattice8 *l)
+// The rows of the corners of a cell; one every `step`.
+LANES_INLINE void rows_of(const uint32_t number[3][8], int lane, const double **row,
+                          int step)
 {
-    double cx[8], cy[8], cz[8];
+    const unsigned x = number[0][lane], y = number[1][lane], z = number[2][lane];
+    const unsigned h0 = noise_hash_table[x], h1 = noise_hash_table[x + 1];
+    const unsigned h00 = noise_hash_table[h0 ^ y], h10 = noise_hash_table[h1 ^ y];
+    const unsigned h01 = noise_hash_table[h0 ^ (y + 1)];
+    const unsigned h11 = noise_hash_table[h1 ^ (y + 1)];
+    row[0 * step] = corner(h00, z);
+    row[1 * step] = corner(h10, z);
+    row[2 * step] = corner(h01, z);
+    row[3 * step] = corner(h11, z);
+    row[4 * step] = corner(h00, z + 1);
+    row[5 * step] = corner(h10, z + 1);
+    row[6 * step] = corner(h01, z + 1);
+    row[7 * step] = corner(h11, z + 1);
+}
+
+// Splits the lanes by cells; false: into too many.
+LANES_INLINE bool cells_of(struct vec8 cell, const double c[3][8],
+                           const uint32_t number[3][8], struct lattice8 *l)
+{
+    unsigned left = 255;
+    l->cells = 0;
+    do {
+        if (l->cells == CELLS_MAX)
+            return false;
+        const int i = __builtin_ctz(left);
+        const struct mask8 in =
+            m8_and(m8_and(r8_eq(cell.x, r8_set(c[0][i])), r8_eq(cell.y, r8_set(c[1][i]))),
+                   r8_eq(cell.z, r8_set(c[2][i])));
+        l->in[l->cells] = in;
+        rows_of(number, i, &l->cell_row[0][l->cells++], CELLS_MAX);
+        left &= ~m8_bits(in);
+    } while (left);
+    return true;
+}
+
+// `scattered`: known to be in too many cells; told for the next octave, which has smaller
+// ones as a rule.
+LANES_INLINE void lattice_of(struct vec8 p, double scale, bool *scattered,
+                             struct lattice8 *l)
+{
+    struct vec8 cell;
+    double c[3][8];
+    uint32_t number[3][8];
     const struct real8 s = r8_set(scale);
-    l->fx = split8(r8_mul(s, p.x), cx);
-    l->fy = split8(r8_mul(s, p.y), cy);
-    l->fz = split8(r8_mul(s, p.z), cz);
-    for (int i = 0; i < 8; i++) {
-        const unsigned x = cell_of(cx[i]), y = cell_of(cy[i]), z = cell_of(cz[i]);
-        const unsigned h0 = noise_hash_table[x], h1 = noise_hash_table[x + 1];
-        const unsigned h00 = noise_hash_table[h0 ^ y], h10 = noise_hash_table[h1 ^ y];
-        const unsigned h01 = noise_hash_table[h0 ^ (y + 1)];
-        const unsigned h11 = noise_hash_table[h1 ^ (y + 1)];
-        l->row[0][i] = corner(h00, z);
-        l->row[1][i] = corner(h10, z);
-        l->row[2][i] = corner(h01, z);
-        l->row[3][i] = corner(h11, z);
-        l->row[4][i] = corner(h00, z + 1);
-        l->row[5][i] = corner(h10, z + 1);
-        l->row[6][i] = corner(h01, z + 1);
-        l->row[7][i] = corner(h11, z + 1);
+    l->fx = split8(r8_mul(s, p.x), &cell.x);
+    l->fy = split8(r8_mul(s, p.y), &cell.y);
+    l->fz = split8(r8_mul(s, p.z), &cell.z);
+    r8_store(c[0], cell.x);
+    r8_store(c[1], cell.y);
+    r8_store(c[2], cell.z);
+    numbers8(cell.x, number[0]);
+    numbers8(cell.y, number[1]);
+    numbers8(cell.z, number[2]);
+    if (!*scattered &&
+        cells_of(cell, (const double(*)[8])c, (const uint32_t(*)[8])number, l))
+        return;
+    *scattered = true;
+    l->cells = 0;
+    for (int i = 0; i < 8; i++)
+        rows_of((const uint32_t(*)[8])number, i, &l->row[0][i], 8);
+}
+
+// Entries past..past + 3 of the rows of a corner; `cells` as in the lattice.
+LANES_INLINE void entries_of(const struct lattice8 *l, int cells, int corner, int past,
+                             struct real8 t[4])
+{
+    if (!cells) {
+        r8_load_rows(l->row[corner], past, t);
+        return;
+    }
+#pragma GCC unroll 4
+    for (int k = 0; k < 4; k++) {
+        t[k] = r8_set(l->cell_row[corner][0][past + k]);
+        for (int i = 1; i < cells; i++)
+            t[k] = r8_select(l->in[i], r8_set(l->cell_row[corner][i][past + k]), t[k]);
     }
 }
 
@@ -75,7 +159,7 @@ LANES_INLINE struct real8 smooth8(struct real8 u)
 LANES_INLINE struct real8 blend8(const struct real8 t[4], struct real8 w, struct real8 dx,
                                  struct real8 dy, struct real8 dz)
 {
-    const struct real8 plane = r8_add(r8_mul(t[0], r8_set(0.5)), r8_mul(t[1], dx));
+    const struct real8 plane = r8_add(t[0], r8_mul(t[1], dx));
     return r8_mul(w, r8_add(r8_add(plane, r8_mul(t[2], dy)), r8_mul(t[3], dz)));
 }
 
@@ -105,21 +189,29 @@ LANES_INLINE struct real8 clamp8(struct real8 v)
     return r8_select(r8_lt(v, zero), zero, r8_select(r8_lt(one, v), one, v));
 }
 
-LANES_INLINE struct real8 value_sum8(struct vec8 p, double scale)
+LANES_INLINE struct real8 value_corners8(const struct lattice8 *l, int cells)
 {
-    struct lattice8 l;
     struct corner8 k[8];
     struct real8 t[4];
-    lattice_of(p, scale, &l);
-    corners_of(&l, k);
-    r8_load_rows(l.row[0], 0, t);
+    corners_of(l, k);
+    entries_of(l, cells, 0, 0, t);
     struct real8 sum = blend8(t, k[0].w, k[0].dx, k[0].dy, k[0].dz);
 #pragma GCC unroll 7
     for (int c = 1; c < 8; c++) {
-        r8_load_rows(l.row[c], 0, t);
+        entries_of(l, cells, c, 0, t);
         sum = r8_add(sum, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
     }
     return sum;
+}
+
+LANES_INLINE struct real8 value_sum8(struct vec8 p, double scale, bool *scattered)
+{
+    struct lattice8 l;
+    lattice_of(p, scale, scattered, &l);
+    return l.cells == 1   ? value_corners8(&l, 1)
+           : l.cells == 2 ? value_corners8(&l, 2)
+           : l.cells      ? value_corners8(&l, l.cells)
+                          : value_corners8(&l, 0);
 }
 
 // The gradient noise has no lanes.
@@ -138,11 +230,11 @@ LANES_INLINE struct vec8 load8(const double p[3][8])
 }
 
 LANES_INLINE struct real8 value8(const double p[3][8], struct vec8 at, double scale,
-                                 int generator)
+                                 int generator, bool *scattered)
 {
     if (generator == NOISE_PERLIN)
         return perlin8(p, scale);
-    const struct real8 sum = value_sum8(at, scale);
+    const struct real8 sum = value_sum8(at, scale, scattered);
     return clamp8(generator == NOISE_RANGE_CORRECTED
                       ? r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582))
                       : r8_add(sum, r8_set(0.5)));
@@ -150,30 +242,40 @@ LANES_INLINE struct real8 value8(const double p[3][8], struct vec8 at, double sc
 
 static void value(const double p[3][8], double scale, int generator, double out[8])
 {
-    r8_store(out, value8(p, load8(p), scale, generator));
+    bool scattered = false;
+    r8_store(out, value8(p, load8(p), scale, generator, &scattered));
 }
 
-LANES_INLINE struct vec8 vector8(struct vec8 p, double scale)
+// The second and third component begin four and eight entries further: rows of the table.
+LANES_INLINE struct vec8 vector_corners8(const struct lattice8 *l, int cells)
 {
     // The order of noise_vector: it is not that of noise_value.
     static const int order[8] = {0, 1, 3, 2, 6, 7, 5, 4};
-    struct lattice8 l;
     struct corner8 k[8];
-    lattice_of(p, scale, &l);
-    corners_of(&l, k);
+    corners_of(l, k);
     struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
 #pragma GCC unroll 8
     for (int i = 0; i < 8; i++) {
         const int c = order[i];
         struct real8 t[4];
-        r8_load_rows(l.row[c], 0, t);
+        entries_of(l, cells, c, 0, t);
         sum.x = r8_add(sum.x, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
-        r8_load_rows(l.row[c], 4, t);
+        entries_of(l, cells, c, 16, t);
         sum.y = r8_add(sum.y, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
-        r8_load_rows(l.row[c], 8, t);
+        entries_of(l, cells, c, 32, t);
         sum.z = r8_add(sum.z, blend8(t, k[c].w, k[c].dx, k[c].dy, k[c].dz));
     }
     return sum;
+}
+
+LANES_INLINE struct vec8 vector8(struct vec8 p, double scale, bool *scattered)
+{
+    struct lattice8 l;
+    lattice_of(p, scale, scattered, &l);
+    return l.cells == 1   ? vector_corners8(&l, 1)
+           : l.cells == 2 ? vector_corners8(&l, 2)
+           : l.cells      ? vector_corners8(&l, l.cells)
+                          : vector_corners8(&l, 0);
 }
 
 LANES_INLINE void store8(double out[3][8], struct vec8 v)
@@ -185,7 +287,8 @@ LANES_INLINE void store8(double out[3][8], struct vec8 v)
 
 static void vector(const double p[3][8], double scale, double out[3][8])
 {
-    store8(out, vector8(load8(p), scale));
+    bool scattered = false;
+    store8(out, vector8(load8(p), scale, &scattered));
 }
 
 // ---- octaves --------------------------------------------------------------------------
@@ -212,10 +315,11 @@ static void values(const double p[3][8], const struct noise_octaves *o, int gene
     const bool centred = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
     const struct vec8 at = load8(p);
     double scale = o->scale, weight = o->weight;
+    bool scattered = false;
     struct real8 sum = r8_set(0);
     int i = 0;
     do {
-        const struct real8 n = value8(p, at, scale, generator);
+        const struct real8 n = value8(p, at, scale, generator, &scattered);
         sum = r8_add(sum, r8_mul(r8_set(weight), octave8(n, o->kind, centred, i == 0)));
         scale *= o->lambda;
         weight *= o->omega;
@@ -227,10 +331,11 @@ static void vectors(const double p[3][8], const struct noise_octaves *o, double 
 {
     const struct vec8 at = load8(p);
     double scale = o->scale, weight = o->weight;
+    bool scattered = false;
     struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
     int i = 0;
     do {
-        struct vec8 v = vector8(at, scale);
+        struct vec8 v = vector8(at, scale, &scattered);
         if (o->kind == OCTAVES_FOLDED)
             v = (struct vec8){r8_abs(v.x), r8_abs(v.y), r8_abs(v.z)};
         sum = v8_mad(sum, r8_set(weight), v);
@@ -341,6 +446,24 @@ static void nearest(const double p[3][8], const double cell[3], unsigned lanes,
         r8_store(sum[k], s.sum[k]);
 }
 
-const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA), value,   vector,
-                                                         values,    vectors, nearest,
-                                                         PASTE(noise_bounds_, ISA)};
+// ---- elementary functions of patterns -------------------------------------------------
+
+static void cycloidals(const double v[8], double out[8])
+{
+    const struct real8 x = r8_load(v);
+    const struct mask8 up = r8_le(r8_set(0), x);
+    const struct real8 turn =
+        r8_select(up, r8_sub(x, r8_floor(x)), r8_neg(r8_add(x, r8_floor(r8_neg(x)))));
+    double angle[8], sine[8];
+    r8_store(angle, r8_mul(r8_div(r8_mul(turn, r8_set(50000.0)), r8_set(50000.0)),
+                           r8_set(2 * PATTERN_PI)));
+    quick_sin8(angle, sine);
+    const struct real8 s = r8_load(sine);
+    r8_store(out, r8_select(up, s, r8_neg(s)));
+}
+
+static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
+
+const struct noise_kernels PASTE(noise_kernels_, ISA) = {
+    TEXT(ISA), value, vector, values, vectors, nearest,
+    PASTE(noise_bounds_, ISA), cycloidals, powers};

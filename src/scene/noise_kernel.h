@@ -39,6 +39,9 @@ struct noise_kernels {
     void (*nearest)(const double p[3][8], const double cell[3], unsigned lanes,
                     int metric, int count, double sum[3][8]);
     noise_bounds_kernel *bounds;
+    // cycloidal_quick of scene/pattern_math.h, and quick_pow.
+    void (*cycloidal)(const double v[8], double out[8]);
+    void (*power)(const double x[8], double y, double out[8]);
 };
 
 extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,

@@ -7,6 +7,7 @@
 enum {
     NOISE_HASH_SIZE = 8192,
     NOISE_VALUE_COUNT = 267,
+    NOISE_ROW_COUNT = NOISE_VALUE_COUNT - 3,
     NOISE_GRADIENT_PERIOD = 2048,
     NOISE_GRADIENT_COUNT = 2 * NOISE_GRADIENT_PERIOD + 2,
     NOISE_RANDOM_COUNT = 32768,
@@ -15,6 +16,10 @@ enum {
 
 extern const uint16_t noise_hash_table[NOISE_HASH_SIZE];
 extern const double noise_value_table[NOISE_VALUE_COUNT];
+// The same modulo 256, times 4: places in noise_row_table in doubles.
+extern const uint16_t noise_corner_table[NOISE_HASH_SIZE];
+// Four values from each place on, the first of them halved.
+extern const double noise_row_table[NOISE_ROW_COUNT][4];
 extern const uint16_t noise_permutation[NOISE_GRADIENT_COUNT];
 extern const double noise_gradient[NOISE_GRADIENT_COUNT][3];
 extern const uint32_t noise_random_table[NOISE_RANDOM_COUNT]; // times 2^-32

@@ -1,7 +1,5 @@
 // Bumps: a surface normal turned by a pattern (spec/textures 11).
 
-#include <string.h>
-
 #include "base/arena.h"
 #include "scene/image_map.h"
 #include "scene/surface_eval.h"
@@ -12,7 +10,7 @@
 static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 place,
                            const struct texture_point *at);
 
-static double slope_height(const struct slope_map *m, double v)
+double normal_slope_height(const struct slope_map *m, double v)
 {
     uint32_t a, b;
     double t;
@@ -24,14 +22,14 @@ static double slope_height(const struct slope_map *m, double v)
            t * t * (2 * p.v + q.v + 3 * (p.u - q.u)) + t * p.v + p.u;
 }
 
-static const struct vec3 tetrahedron[4] = {
+const struct vec3 normal_sides[4] = {
     {0.942809041, -0.333333333, 0},
     {-0.471404521, -0.333333333, 0.816496581},
     {-0.471404521, -0.333333333, -0.816496581},
     {0, 1, 0},
 };
 
-static double difference_scale(const struct normal *n)
+double normal_difference_scale(const struct normal *n)
 {
     return n->amount * -5.0 * (ACCURACY_UNIT / n->delta);
 }
@@ -41,13 +39,13 @@ static struct vec3 by_differences(const struct normal *n, struct vec3 v, struct 
                                   const struct texture_point *at)
 {
     const struct pattern_context c = pattern_context_of(at);
-    const double scale = difference_scale(n);
+    const double scale = normal_difference_scale(n);
     for (int i = 0; i < 4; i++) {
-        const struct vec3 s = vec3_mad(q, n->delta, tetrahedron[i]);
+        const struct vec3 s = vec3_mad(q, n->delta, normal_sides[i]);
         double h = pattern_value_at(&n->pattern, s, &c);
         if (n->kind == NORMAL_SLOPES)
-            h = slope_height(n->slopes, h);
-        v = vec3_mad(v, h * scale, tetrahedron[i]);
+            h = normal_slope_height(n->slopes, h);
+        v = vec3_mad(v, h * scale, normal_sides[i]);
     }
     return v;
 }
@@ -108,54 +106,6 @@ static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 pl
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at)
 {
     return perturb(n, at->normal, texture_place(at), at);
-}
-
-static struct vec3 lane_of(const double v[3][8], int i)
-{
-    return vec3(v[0][i], v[1][i], v[2][i]);
-}
-
-static void set_lane(double v[3][8], int i, struct vec3 x)
-{
-    v[0][i] = x.x, v[1][i] = x.y, v[2][i] = x.z;
-}
-
-static void by_differences8(const struct normal *n, const struct pattern_packet *packet,
-                            const double q[3][8], double v[3][8])
-{
-    const double scale = difference_scale(n);
-    for (int k = 0; k < 4; k++) {
-        const struct vec3 side = tetrahedron[k];
-        double s[3][8], h[8];
-        for (int i = 0; i < 8; i++)
-            set_lane(s, i, vec3_mad(lane_of(q, i), n->delta, side));
-        pattern_values_at8(&n->pattern, packet, (const double(*)[8])s, h);
-        for (int i = 0; i < 8; i++)
-            set_lane(v, i,
-                     vec3_mad(lane_of((const double(*)[8])v, i), h[i] * scale, side));
-    }
-}
-
-void normal_perturb8(const struct normal *n, const struct pattern_packet *packet,
-                     const double place[3][8], double v[3][8])
-{
-    const struct pattern *p = &n->pattern;
-    const struct pattern_ops *ops = p->ops;
-    double warped[3][8];
-    const double(*q)[8] = (const double(*)[8])warped, (*from)[8] = (const double(*)[8])v;
-    memcpy(warped, place, sizeof warped);
-    pattern_warp8(p, packet->noise, warped);
-    for (int i = 0; i < 8; i++)
-        set_lane(v, i, pattern_normal_in(p, lane_of(from, i), n->no_bump_scale));
-    if (ops && ops->perturbs)
-        ops->perturbs(p, packet->noise, n->amount, q, v);
-    else if (ops && ops->perturb)
-        for (int i = 0; i < 8; i++)
-            set_lane(v, i, ops->perturb(p, n->amount, lane_of(from, i), lane_of(q, i)));
-    else if (ops)
-        by_differences8(n, packet, q, v);
-    for (int i = 0; i < 8; i++)
-        set_lane(v, i, pattern_normal_out(p, lane_of(from, i)));
 }
 
 const struct normal *normal_transform(struct arena *a, const struct normal *n,

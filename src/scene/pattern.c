@@ -14,9 +14,6 @@ const struct pattern_ops *const pattern_table[] = {
 };
 const size_t pattern_count = sizeof pattern_table / sizeof pattern_table[0];
 
-// Not 1: the language wraps at a little more, so that 1 itself stays 1.
-#define FREQUENCY_MODULUS 1.00001
-
 const struct pattern_ops *pattern_find(const char *keyword, size_t len)
 {
     for (size_t i = 0; i < pattern_count; i++) {
@@ -61,7 +58,7 @@ void pattern_set_kind(struct pattern *p, const struct pattern_ops *ops)
         ops->init(p);
 }
 
-static inline double wave_value(const struct pattern *p, double v)
+double pattern_wave(const struct pattern *p, double v)
 {
     switch (p->wave) {
     case WAVE_RAMP: return v;
@@ -78,39 +75,18 @@ static inline double finished(const struct pattern *p, double v)
 {
     if (p->frequency != 0) {
         v = v * p->frequency + p->phase;
-        if (fabs(v) >= FREQUENCY_MODULUS)
-            v = fmod(v, FREQUENCY_MODULUS);
+        if (fabs(v) >= PATTERN_MODULUS)
+            v = fmod(v, PATTERN_MODULUS);
     }
     if (v < 0)
         v -= floor(v);
-    return wave_value(p, v);
+    return pattern_wave(p, v);
 }
 
 double pattern_value_at(const struct pattern *p, struct vec3 q,
                         const struct pattern_context *c)
 {
     return finished(p, p->ops->value(p, q, c));
-}
-
-static struct vec3 lane_of(const double v[3][8], int i)
-{
-    return vec3(v[0][i], v[1][i], v[2][i]);
-}
-
-void pattern_values_at8(const struct pattern *p, const struct pattern_packet *packet,
-                        const double warped[3][8], double out[8])
-{
-    if (p->ops->values)
-        p->ops->values(p, packet->noise, warped, out);
-    for (int i = 0; i < 8; i++) {
-        if (!p->ops->values) {
-            const struct pattern_context c = {.p_world = lane_of(packet->p_world, i),
-                                              .normal = lane_of(packet->normal, i),
-                                              .ray_d = lane_of(packet->ray_d, i)};
-            out[i] = p->ops->value(p, lane_of(warped, i), &c);
-        }
-        out[i] = finished(p, out[i]);
-    }
 }
 
 double pattern_value(const struct pattern *p, struct vec3 at,

@@ -55,11 +55,10 @@ struct pattern_context {
     struct vec2 uv;      // for pigments inside patterns (pigment_pattern)
 };
 
-// Eight points that patterns are evaluated at together: what compiles their noise, and
-// their contexts in lanes (uv is 0).
+// The contexts of eight points that patterns are evaluated at together, in lanes.
 struct pattern_packet {
-    const struct noise_kernels *noise;
     const double (*p_world)[8], (*normal)[8], (*ray_d)[8];
+    const double (*uv)[8]; // NULL: all 0
 };
 
 // A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists
@@ -134,11 +133,6 @@ struct vec3 pattern_warp(const struct pattern *p, struct vec3 at);
 // The same at a point that pattern_warp gave.
 double pattern_value_at(const struct pattern *p, struct vec3 warped,
                         const struct pattern_context *c);
-// Both at eight points, with the same bits; pattern_warp8 moves them in place.
-void pattern_warp8(const struct pattern *p, const struct noise_kernels *k,
-                   double at[3][8]);
-void pattern_values_at8(const struct pattern *p, const struct pattern_packet *packet,
-                        const double warped[3][8], double out[8]);
 // A normal on its way to the pattern's space and back: through its transforms alone,
 // normalised as the language does (spec/textures 11.1).
 struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length);

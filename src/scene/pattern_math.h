@@ -10,6 +10,12 @@
 #include "scene/noise_kernel.h"
 #include "scene/pattern.h"
 
+// Not 1: the language wraps at a little more, so that 1 itself stays 1.
+#define PATTERN_MODULUS 1.00001
+
+// The pattern's wave of a value that frequency and phase are in.
+double pattern_wave(const struct pattern *p, double v);
+
 // The small functions that the formulas of spec/textures are written in (section 0).
 
 #define PATTERN_PI   3.14159265358979323846

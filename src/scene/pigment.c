@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "scene/image_map.h"
+#include "scene/pigment_tape.h"
 #include "scene/surface_eval.h"
 
 static bool color_at(const struct pigment *p, struct vec3 place,
@@ -100,13 +101,14 @@ bool pigment_color(const struct pigment *p, const struct texture_point *at,
     return color_at(p, texture_place(at), at, out);
 }
 
-void pigment_colors8(const struct pigment *p, const struct pattern_packet *packet,
-                     const double place[3][8], float out[3][8])
+void pigment_colors8(const struct surface_kernels *k, const struct pigment *p,
+                     const struct pattern_packet *packet, const double place[3][8],
+                     float out[3][8])
 {
     double at[3][8], v[8];
     memcpy(at, place, sizeof at);
-    pattern_warp8(p->pattern, packet->noise, at);
-    pattern_values_at8(p->pattern, packet, (const double(*)[8])at, v);
+    k->warp(p->pattern, at);
+    k->values(p->pattern, packet, (const double(*)[8])at, 255, v);
     for (int i = 0; i < 8; i++) {
         const struct rgbft c = map_color(p->colors, v[i]);
         out[0][i] = c.r;

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "scene/image_map.h"
+#include "scene/pigment_tape.h"
 #include "scene/surface_eval.h"
 
 // A colour that lets less than this through is opaque (spec/lighting 7.1).
@@ -147,18 +148,13 @@ const struct texture *texture_transform(struct arena *a, const struct texture *x
     return copy;
 }
 
-static bool layer_wants_uv(const struct texture_layer *l)
-{
-    const enum pigment_kind k = l->pigment->kind;
-    const bool plain = k == PIGMENT_NONE || k == PIGMENT_SOLID ||
-                       (k == PIGMENT_COLORS && !l->pigment->pattern->pigment);
-    return !plain || (l->normal && (l->normal->kind != NORMAL_PATTERN || l->normal->pattern.pigment));
-}
-
 bool texture_wants_uv(const struct texture *x)
 {
-    bool wants = x->kind != TEXTURE_PLAIN;
-    for (uint32_t i = 0; i < x->layer_count; i++)
-        wants |= layer_wants_uv(&x->layer[i]);
+    bool wants = x->kind == TEXTURE_UV || (x->pattern && x->pattern->pigment);
+    for (uint32_t i = 0; i < x->layer_count && !wants; i++)
+        wants = pigment_wants_uv(x->layer[i].pigment) ||
+                (x->layer[i].normal && normal_wants_uv(x->layer[i].normal));
+    for (uint32_t i = 0; x->map && i < x->map->count && !wants; i++)
+        wants = texture_wants_uv(x->map->entry[i]);
     return wants;
 }

@@ -154,17 +154,9 @@ struct texture_point {
 // False: the pigment gave no colour here (image_map `once` outside).
 bool pigment_color(const struct pigment *p, const struct texture_point *at,
                    struct rgbft *out);
-// The same of a pigment of kind PIGMENT_COLORS at eight points of the texture's outer
-// space; red, green and blue alone.
-void pigment_colors8(const struct pigment *p, const struct pattern_packet *packet,
-                     const double place[3][8], float out[3][8]);
 // The perturbed unit normal in the texture's outer space (to the world by
 // transform_normal, then normalise).
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at);
-// The same of a normal of kind NORMAL_PATTERN at eight points of the texture's outer
-// space; v: the texture_point's normals, then the perturbed ones.
-void normal_perturb8(const struct normal *n, const struct pattern_packet *packet,
-                     const double place[3][8], double v[3][8]);
 // The entries of a MAP/AVERAGE/MATERIAL texture that count at this point, with
 // their weights (sum 1); returns how many (at most max).
 int texture_select(const struct texture *x, const struct texture_point *at,

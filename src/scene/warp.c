@@ -3,12 +3,9 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "scene/noise_kernel.h"
 #include "scene/pattern.h"
 #include "scene/pattern_math.h"
-
-// Coordinates past this are of no use to any pattern.
-#define WARP_FAR 1e17
+#include "scene/warp.h"
 
 static struct vec3 turbulence_move(const struct turbulence *t, struct vec3 p)
 {
@@ -138,7 +135,7 @@ static struct vec3 cubic(struct vec3 p)
 #undef THIRD
 }
 
-static struct vec3 warp_point(const struct warp *w, struct vec3 p)
+struct vec3 warp_point(const struct warp *w, struct vec3 p)
 {
     switch (w->kind) {
     case WARP_TRANSFORM: return transform_inverse_point(&w->transform, p);
@@ -159,8 +156,7 @@ static inline double clamp_far(double v)
     return v > WARP_FAR ? WARP_FAR : v < -WARP_FAR ? -WARP_FAR : v;
 }
 
-// Whether the classic turbulence moves the point.
-static bool turbulence_is_warp(const struct pattern *p)
+bool turbulence_is_warp(const struct pattern *p)
 {
     const struct turbulence *t = p->turbulence;
     return t && p->ops && !p->ops->own_turbulence &&
@@ -174,38 +170,6 @@ struct vec3 pattern_warp(const struct pattern *p, struct vec3 at)
     if (turbulence_is_warp(p))
         at = turbulence_move(p->turbulence, at);
     return vec3(clamp_far(at.x), clamp_far(at.y), clamp_far(at.z));
-}
-
-static void turbulence_move8(const struct turbulence *t, const struct noise_kernels *k,
-                             double at[3][8])
-{
-    double d[3][8];
-    noise_dturbulence8(k, (const double(*)[8])at, t->lambda, t->omega, t->octaves, d);
-    for (int i = 0; i < 8; i++) {
-        at[0][i] += d[0][i] * t->amount.x;
-        at[1][i] += d[1][i] * t->amount.y;
-        at[2][i] += d[2][i] * t->amount.z;
-    }
-}
-
-void pattern_warp8(const struct pattern *p, const struct noise_kernels *k,
-                   double at[3][8])
-{
-    for (const struct warp *w = p->warps; w; w = w->next) {
-        if (w->kind == WARP_TURBULENCE) {
-            turbulence_move8(&w->turbulence, k, at);
-            continue;
-        }
-        for (int i = 0; i < 8; i++) {
-            const struct vec3 q = warp_point(w, vec3(at[0][i], at[1][i], at[2][i]));
-            at[0][i] = q.x, at[1][i] = q.y, at[2][i] = q.z;
-        }
-    }
-    if (turbulence_is_warp(p))
-        turbulence_move8(p->turbulence, k, at);
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i < 8; i++)
-            at[a][i] = clamp_far(at[a][i]);
 }
 
 struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length)

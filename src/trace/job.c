@@ -2,11 +2,12 @@
 
 #include "base/arena.h"
 #include "scene/mesh_camera.h"
-#include "scene/noise_kernel.h"
+#include "scene/pigment_tape.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
 #include "trace/photons.h"
 #include "trace/media.h"
+#include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
 
@@ -166,7 +167,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     job->hidden_by[0] = never ? never : (unsigned)OBJECT_NO_IMAGE;
     job->hidden_by[1] = never | (unsigned)OBJECT_NO_REFLECTION;
     job->reach = job->camera->mesh ? job->camera->mesh->max_distance : 0;
-    job->noise = noise_kernels_find(w->accel->kernels->name);
+    job->surface_kernels = surface_kernels_find(w->accel->kernels->name);
     lamps_init(job, a, w);
     spectrum_init(job);
     media_compile(job, a);
@@ -177,4 +178,5 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     sky_init(job);
     pass_init(job, a);
     simple_compile(job, a);
+    paint_compile(job, a);
 }

@@ -23,9 +23,10 @@ struct even_pass {
 
 struct media_threshold;
 struct photons;
-struct noise_kernels;
+struct surface_kernels;
 struct simple_surface;
 struct simple_class;
+struct paint_surface;
 struct shade_kernels;
 
 // Number of wavelengths at which the spectrum of dispersion is tabulated.
@@ -67,7 +68,7 @@ struct job {
     bool has_media, has_air_media; // somewhere; filling the scene
     const struct media_threshold *media_threshold;
     uint32_t media_threshold_count;
-    const struct noise_kernels *noise;
+    const struct surface_kernels *surface_kernels;
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
     double reach; // of rays with PATH_SHORT; 0: none has a limit
@@ -75,6 +76,9 @@ struct job {
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;
     uint32_t simple_class_count;
+    const struct paint_surface *paint; // per surface (trace/paint.h); NULL: none
+    uint32_t paint_count;
+    bool simple_uv; // some of these surfaces may ask for uv coordinates
 };
 
 void job_init(struct job *job, struct arena *a, const struct world *w,

@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "trace/cutaway.h"
+#include "trace/paint.h"
 
 void surface_view_init(struct surface_view *v, const struct interaction *at,
                        struct vec3 d)
@@ -9,7 +10,7 @@ void surface_view_init(struct surface_view *v, const struct interaction *at,
     const struct surface *s = at->surface;
     const bool turned = vec3_dot(at->ns, d) > 0;
     *v = (struct surface_view){at, d, turned ? vec3_neg(at->ns) : at->ns, s->texture,
-                               &s->texture_transform};
+                               &s->texture_transform, NULL, NULL};
     if (turned && s->interior_texture) {
         v->texture = s->interior_texture;
         v->transform = &s->interior_texture_transform;
@@ -36,13 +37,16 @@ struct walk {
 };
 
 static void walk(const struct walk *w, const struct texture *x,
-                 const struct texture_point *at, const struct texture_chain *chain,
+                 const struct texture_point *place, const struct texture_chain *chain,
                  double weight)
 {
     if (x->kind == TEXTURE_PLAIN) {
-        w->plain(w->user, w->v, x, at, chain, weight);
+        w->plain(w->user, w->v, x, place, chain, weight);
         return;
     }
+    struct texture_point here = *place;
+    const struct texture_point *at = &here;
+    here.normal_seen = *w->v->seen;
     enum { FEW = 8 };
     const struct texture *few[FEW];
     double few_weight[FEW];
@@ -73,8 +77,7 @@ static void walk_from(const struct walk *w, const struct texture *x,
                                   .uv = at->uv,
                                   .normal = w->v->n,
                                   .ray_d = w->v->d,
-                                  .p_world = at->p,
-                                  .normal_seen = w->v->n};
+                                  .p_world = at->p};
     if (uv) {
         point.p = vec3(at->uv.u, at->uv.v, 0);
     } else if (!transform->identity) {
@@ -103,7 +106,10 @@ static void walk_cut(void *user, const struct texture *x, const struct transform
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
                   void *user)
 {
-    struct walk w = {t, v, plain, user};
+    struct surface_view view = *v;
+    struct vec3 seen = v->n;
+    struct walk w = {t, &view, plain, user};
+    view.seen = &seen;
     const struct leaf *l = v->at->leaf;
     const struct surface *s = v->at->surface;
     if (s->cutaway && v->texture == s->texture)
@@ -115,17 +121,33 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
         walk_from(&w, v->texture, v->transform, 1);
 }
 
+static void layer_color(const struct tracer *t, struct rgbft c, struct layer *out)
+{
+    out->color = rgbft_rgb(c);
+    out->pass = rgbft_pass(c);
+    out->att = t->job->old_opacity ? 1 - (c.filter * rgb_max(out->color) + c.transmit)
+                                   : rgbft_opacity(c);
+}
+
 void layer_eval(const struct tracer *t, const struct surface_view *v,
                 const struct texture_layer *layer, const struct texture_point *at,
                 const struct texture_chain *chain, bool want_normal, struct layer *out)
 {
-    struct texture_point here = *at;
     out->finish = layer->finish;
-    out->n = v->n;
-    if (layer->normal && want_normal && t->job->normals) {
-        out->n = chain_up(chain, normal_perturb(layer->normal, at));
-        here.normal_seen = out->n;
+    const struct painted *painted =
+        v->painted ? &v->painted[layer - v->texture->layer] : NULL;
+    if (painted && painted->known) {
+        out->n = *v->seen = painted->n;
+        out->found = true;
+        layer_color(t, painted->color, out);
+        return;
     }
+    struct texture_point here = *at;
+    out->n = v->n;
+    here.normal_seen = *v->seen;
+    if (layer->normal && want_normal && t->job->normals)
+        out->n = chain_up(chain, normal_perturb(layer->normal, &here));
+    here.normal_seen = *v->seen = out->n;
     const struct pigment *pigment = layer->pigment;
     struct rgbft c = pigment->color;
     out->found = true;
@@ -133,8 +155,5 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
         c = pigment->quick_color;
     else if (pigment->kind != PIGMENT_SOLID)
         out->found = pigment_color(pigment, &here, &c);
-    out->color = rgbft_rgb(c);
-    out->pass = rgbft_pass(c);
-    out->att = t->job->old_opacity ? 1 - (c.filter * rgb_max(out->color) + c.transmit)
-                                   : rgbft_opacity(c);
+    layer_color(t, c, out);
 }

@@ -4,6 +4,8 @@
 #include "scene/texture.h"
 #include "trace/tracer.h"
 
+struct painted;
+
 // Where a texture is looked up while maps are walked downwards: the way back to the
 // world, for normals.
 struct texture_chain {
@@ -31,6 +33,10 @@ struct surface_view {
     struct vec3 n; // the surface's normal, towards the ray
     const struct texture *texture;
     const struct transform *transform;
+    // Set by texture_walk: the normal of the layer that was evaluated last. Maps by slope
+    // see it in the textures after it, as the language's first program has it.
+    struct vec3 *seen;
+    const struct painted *painted; // of the texture's layers; NULL: none
 };
 
 // Finds the texture of the side that was met and turns the normal to the ray.

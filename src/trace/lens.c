@@ -2,6 +2,8 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "scene/noise.h"
+#include "scene/texture.h"
 
 // Points of a triangular grid inside the lens, in steps of (a, b).
 static const signed char points_4[][2] = {{-1, 1}, {1, 1}, {-1, -1}, {1, -1}};
@@ -62,6 +64,27 @@ static int cell(struct vec2 p, int side)
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;
     return y * side + x;
+}
+
+// Places all over the square of the lens, as thick as the pigment is light (spec/lighting
+// 1.4): the more have been drawn, the less is refused.
+static void points_bokeh(struct lens *l, const struct pigment *bokeh)
+{
+    const double most = (double)l->count * l->count;
+    int drawn = 0;
+    for (int i = 0; i < l->count; i++) {
+        double chance, least;
+        do {
+            struct vec2 *p = &l->point[i];
+            *p = (struct vec2){halton(drawn, 2) - 0.5, halton(drawn, 3) - 0.5};
+            const struct texture_point at = {.p = {p->u + 0.5, p->v + 0.5, 0}};
+            struct rgbft c;
+            drawn++;
+            pigment_color(bokeh, &at, &c);
+            chance = (double)rgb_grey(rgbft_rgb(c)) + drawn / most;
+            least = noise_random((unsigned)drawn);
+        } while (!(chance >= least) && drawn < most);
+    }
 }
 
 static void points_init(struct lens *l, struct arena *a)
@@ -145,7 +168,10 @@ void lens_init(struct lens *l, struct arena *a, const struct camera *c)
                : n == 19 ? 0.096225
                : n == 37 ? 0.0721688
                          : 0.5 / sqrt(n);
-    points_init(l, a);
+    if (c->bokeh)
+        points_bokeh(l, c->bokeh);
+    else
+        points_init(l, a);
     const double whole = chi_square(c->confidence, n - 1);
     for (int k = 1; k <= n && c->variance > 0 && whole > 0; k++)
         l->threshold[k] = c->variance * chi_square(c->confidence, k) / whole;

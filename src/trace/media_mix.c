@@ -2,8 +2,7 @@
 
 #include "math/elementary.h"
 #include "scene/effects.h"
-#include "scene/noise_kernel.h"
-#include "scene/texture.h"
+#include "scene/pigment_tape.h"
 
 static bool is_even(const struct media *m)
 {
@@ -91,7 +90,7 @@ static void density_alone(const struct pigment *p, const struct places *w,
     }
 }
 
-// Patterns with a colour map have a form for eight points (scene/noise_kernel.h).
+// Patterns with a colour map have a form for eight points (scene/pigment_tape.h).
 static void density_times(const struct job *job, const struct pigment *p,
                           const struct places *w, double out[3][8])
 {
@@ -101,8 +100,8 @@ static void density_times(const struct job *job, const struct pigment *p,
         density_alone(p, w, out);
         return;
     }
-    const struct pattern_packet packet = {job->noise, w->at, w->normal, w->ray_d};
-    pigment_colors8(p, &packet, w->at, c);
+    const struct pattern_packet packet = {w->at, w->normal, w->ray_d, NULL};
+    pigment_colors8(job->surface_kernels, p, &packet, w->at, c);
     for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < w->count; i++)
             out[k][i] *= (double)c[k][i];

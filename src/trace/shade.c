@@ -135,7 +135,8 @@ static void shade_indirect(struct shading *s, const struct hit *hit,
     tracer_add(s->t, rgb_mul(s->path->through, rgb_mul(matt, c)));
 }
 
-void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
+void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
+                   const struct interaction *at, const struct painted *painted)
 {
     struct path here = *path;
     if (t->job->has_air || t->job->has_media) {
@@ -152,14 +153,15 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     s.t = t;
     s.path = &here;
     s.s = hit->b.t;
+    s.at = *at;
     s.layer = s.few;
     s.layer_count = 0;
     s.layer_capacity = HIT_LAYERS;
     s.dark = false;
     s.go_on = shade_transmit;
     const struct ray ray = {path->o, path->d, 0, INFINITY};
-    trace_interaction(t->job->world, &ray, hit, &s.at);
     surface_view_init(&s.view, &s.at, path->d);
+    s.view.painted = painted;
     texture_walk(t, &s.view, shade_plain, &s);
     if (!t->job->lights)
         return;
@@ -173,4 +175,12 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     for (uint32_t i = 0; t->job->subsurface && i < s.layer_count; i++)
         if (s.layer[i].finish->has_subsurface)
             shade_subsurface(&s, &s.layer[i]);
+}
+
+void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
+{
+    const struct ray ray = {path->o, path->d, 0, INFINITY};
+    struct interaction at;
+    trace_interaction(t->job->world, &ray, hit, &at);
+    shade_painted(t, path, hit, &at, NULL);
 }

@@ -25,6 +25,12 @@ struct shading {
 
 // The layers of one plain texture, for texture_walk; the user is the shading.
 plain_function shade_plain;
+
+struct painted;
+// shade_hit of a hit whose interaction is known, and some of whose layers are.
+void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
+                   const struct interaction *at, const struct painted *painted);
+
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
 // A hit as light by way of other surfaces is asked for: n is the layer's, towards the ray,

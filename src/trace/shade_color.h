@@ -2,7 +2,7 @@
 #define TRACE_SHADE_COLOR_H
 
 // Colours and normals of the patterns at eight hits.
-#include "scene/noise_kernel.h"
+#include "scene/pigment_tape.h"
 #include "trace/shade_kernel.h"
 #include "trace/shade_lanes.h"
 
@@ -37,20 +37,28 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
     return true;
 }
 
-// The points of a group as patterns see them, and in the space of the texture.
+// The points of a group as patterns see them, and in the space of the texture: surfaces
+// mapped by uv are textured in the plane of u and v.
 LANES_INLINE struct pattern_packet packet_of(const struct tracer *t,
                                              const struct simple_group *g)
 {
-    return (struct pattern_packet){t->job->kernels->noise, (const double(*)[8])g->p,
-                                   (const double(*)[8])g->n, (const double(*)[8])g->d};
+    return (struct pattern_packet){(const double(*)[8])g->p, (const double(*)[8])g->n,
+                                   (const double(*)[8])g->d,
+                                   t->job->simple_uv ? (const double(*)[8])g->uv : NULL};
 }
 
-LANES_INLINE struct vec8 texture_place8(const struct surface *s,
-                                        const struct simple_group *g)
+static const struct transform *texture_place8(const struct surface *s,
+                                              const struct simple_group *g,
+                                              double place[3][8])
 {
-    const struct transform *m = &s->texture_transform;
-    const struct vec8 p = v8_load((const double(*)[8])g->p);
-    return m->identity ? p : v8_row_times(v8_sub(p, V8_SET(m->offset)), &m->inverse);
+    if (s->flags & OBJECT_UV_MAPPING) {
+        memcpy(place, g->uv, sizeof g->uv);
+        memset(place[2], 0, sizeof place[2]);
+        return &transform_identity;
+    }
+    v8_store(place, v8_inverse_point(&s->texture_transform,
+                                     v8_load((const double(*)[8])g->p)));
+    return &s->texture_transform;
 }
 
 // The normals of a layer in the lanes of `bits`.
@@ -59,28 +67,30 @@ static void normals8(const struct tracer *t, const struct surface *s,
                      unsigned bits)
 {
     const struct pattern_packet packet = packet_of(t, g);
-    const struct transform *m = &s->texture_transform;
     const struct vec8 before = v8_load((const double(*)[8])g->n);
     double place[3][8], v[3][8];
-    v8_store(place, texture_place8(s, g));
-    v8_store(v, m->identity ? before : v8_times_column(&m->linear, before));
-    normal_perturb8(x->normal, &packet, (const double(*)[8])place, v);
-    struct vec8 n = v8_load((const double(*)[8])v);
-    if (!m->identity)
-        n = v8_times_column(&m->inverse, n);
+    const struct transform *m = texture_place8(s, g, place);
+    v8_store(v, v8_inverse_normal(m, before));
+    t->job->kernels->surface->perturb(x->normal, &packet, (const double(*)[8])place, bits, v);
+    const struct vec8 n = v8_normal(m, v8_load((const double(*)[8])v));
     v8_store(g->n, v8_select(m8_of(bits), v8_normalize(n), before));
 }
 
-// The colours of a pattern with its colour map, in the lanes of `bits`.
-static void pattern8(const struct tracer *t, const struct surface *s,
-                     const struct simple_surface *x, struct simple_group *g,
-                     unsigned bits)
+// The colours of a pigment in the lanes of `bits`.
+static void tape8(const struct tracer *t, const struct surface *s,
+                  const struct simple_surface *x, struct simple_group *g, unsigned bits)
 {
     const struct pattern_packet packet = packet_of(t, g);
     double place[3][8];
-    float color[3][8];
-    v8_store(place, texture_place8(s, g));
-    pigment_colors8(x->pigment, &packet, (const double(*)[8])place, color);
+    float color[5][8];
+    texture_place8(s, g, place);
+    const unsigned found = t->job->kernels->surface->colors(x->tape, &packet, (const double(*)[8])place,
+                                           bits, color);
+    g->bare |= bits & ~found;
+    if (bits == 255) {
+        memcpy(g->color, color, sizeof g->color);
+        return;
+    }
     for (; bits; bits &= bits - 1) {
         const int i = __builtin_ctz(bits);
         for (int c = 0; c < 3; c++)
@@ -105,10 +115,11 @@ LANES_INLINE void colors_of(struct tracer *t, uint32_t surface, struct simple_gr
     }
     f8_store(g->att, bits == 255 ? f8_set(x->att)
                                  : f8_select(bits, f8_set(x->att), f8_load(g->att)));
-    if (x->kind == SIMPLE_CHECKER && checker8(s, x, g, bits))
+    if (x->kind == SIMPLE_CHECKER && !(s->flags & OBJECT_UV_MAPPING) &&
+        checker8(s, x, g, bits))
         return;
     if (x->kind != SIMPLE_SOLID) {
-        pattern8(t, s, x, g, bits);
+        tape8(t, s, x, g, bits);
         return;
     }
     for (; bits; bits &= bits - 1) {

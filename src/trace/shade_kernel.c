@@ -28,6 +28,14 @@ LANES_INLINE struct real8 gather(const double *from, const struct simple_group *
     return r8_load(v);
 }
 
+static bool wants_uv(const struct tracer *t, const struct leaf *const leaf[8])
+{
+    bool wants = false;
+    for (int i = 0; i < 8 && t->job->simple_uv; i++)
+        wants |= t->job->world->surface[leaf[i]->surface].wants_uv;
+    return wants;
+}
+
 static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
                   struct simple_group *g)
 {
@@ -57,11 +65,16 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
         .part = gather(t->hit->part, g, rays_in_row),
         .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)))};
     struct place8 x = {.p = v8_mad(o, at, d)};
-    if ((!differ && place_leaf(leaf[0], r.part, &x)) || place_spheres(leaf, &x)) {
+    const bool uv = wants_uv(t, leaf);
+    if (!uv && ((!differ && place_leaf(leaf[0], r.part, &x)) || place_spheres(leaf, &x))) {
         x.ns = x.ng;
         x.error = place_error_of(leaf[0], &r, x.ng);
     } else {
-        place_mixed(t, leaf, g, &r, &x);
+        if (uv)
+            place_each(t, g, 255, &x);
+        else
+            place_mixed(t, leaf, g, &r, &x);
+        memcpy(g->uv, x.uv, sizeof g->uv);
     }
     v8_store(g->d, d);
     v8_store(g->p, x.p);
@@ -80,10 +93,13 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
             for (uint32_t i = 0; i < 8; i++)
                 g->through[c][i] = through[g->slot[i]];
     }
+    g->bare = 0;
     if (!differ)
         colors_of(t, leaf[0]->surface, g, 255);
     else
         colors(t, leaf, g);
+    g->bare &= g->live;
+    g->live &= ~g->bare;
 }
 
 // ---- light ------------------------------------------------------------------------------
@@ -265,5 +281,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 }
 
 const struct shade_kernels PASTE(shade_kernels_, ISA) = {
-    TEXT(ISA), &PASTE(noise_kernels_, ISA), camera, place, own, light, bounce, sums,
+    TEXT(ISA), &PASTE(surface_kernels_, ISA), camera, place, own, light, bounce, sums,
     meets};

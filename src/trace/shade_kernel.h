@@ -3,12 +3,12 @@
 
 #include "trace/simple.h"
 
-struct noise_kernels;
+struct surface_kernels;
 
 // What shading compiles once per instruction set, as trace/packet.h.
 struct shade_kernels {
     const char *name;
-    const struct noise_kernels *noise; // of the same instruction set
+    const struct surface_kernels *surface; // of the same instruction set
     // The rays of a camera with quick_camera, as camera_ray gives them.
     void (*camera)(const struct job *job, const struct vec2 *position, uint32_t count,
                    struct ray_batch *out);

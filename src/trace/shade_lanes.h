@@ -11,35 +11,9 @@
 #include "math/elementary.h"
 #include "math/single.h"
 #include "math/transform.h"
-#include "math/lanes.h"
+#include "math/lanes_vec.h"
 
 static const double zero = 1e-10; // spec/lighting.md 0
-
-#if defined(__AVX__)
-#define Q_SPREAD _mm256_add_ps
-#elif defined(__SSE2__)
-#define Q_SPREAD _mm_add_ps
-#else
-#define Q_SPREAD P_ADD
-#endif
-LANES_2(float8, float8, f8_add, F2, Q_SPREAD)
-#undef Q_SPREAD
-
-LANES_INLINE struct float8 f8_of(struct real8 x)
-{
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    return (struct float8){_mm512_cvtpd_ps(x.a)};
-#elif defined(__AVX2__)
-    return (struct float8){_mm256_set_m128(_mm256_cvtpd_ps(x.b), _mm256_cvtpd_ps(x.a))};
-#elif defined(__SSE2__)
-    return (struct float8){_mm_movelh_ps(_mm_cvtpd_ps(x.a), _mm_cvtpd_ps(x.b)),
-                           _mm_movelh_ps(_mm_cvtpd_ps(x.c), _mm_cvtpd_ps(x.d))};
-#else
-    float v[8];
-    r8_store_floats(v, x);
-    return f8_load(v);
-#endif
-}
 
 // x in the lanes of `bits`, else y.
 LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct float8 y)
@@ -140,56 +114,6 @@ LANES_INLINE struct rgb8 rgb8_mul(struct rgb8 a, struct rgb8 b)
 LANES_INLINE struct rgb8 rgb8_scale(struct float8 s, struct rgb8 a)
 {
     return (struct rgb8){f8_mul(s, a.r), f8_mul(s, a.g), f8_mul(s, a.b)};
-}
-
-LANES_INLINE struct vec8 v8_load(const double v[3][8])
-{
-    return (struct vec8){r8_load(v[0]), r8_load(v[1]), r8_load(v[2])};
-}
-LANES_INLINE void v8_store(double v[3][8], struct vec8 x)
-{
-    r8_store(v[0], x.x);
-    r8_store(v[1], x.y);
-    r8_store(v[2], x.z);
-}
-LANES_INLINE struct vec8 v8_add(struct vec8 a, struct vec8 b)
-{
-    return (struct vec8){r8_add(a.x, b.x), r8_add(a.y, b.y), r8_add(a.z, b.z)};
-}
-LANES_INLINE struct vec8 v8_neg(struct vec8 a)
-{
-    return (struct vec8){r8_neg(a.x), r8_neg(a.y), r8_neg(a.z)};
-}
-LANES_INLINE struct vec8 v8_select(struct mask8 m, struct vec8 a, struct vec8 b)
-{
-    return (struct vec8){r8_select(m, a.x, b.x), r8_select(m, a.y, b.y),
-                         r8_select(m, a.z, b.z)};
-}
-// As vec3_normalize.
-LANES_INLINE struct vec8 v8_normalize(struct vec8 a)
-{
-    const struct real8 l = r8_sqrt(v8_dot(a, a));
-    const struct mask8 some = r8_lt(r8_set(0), l);
-    const struct vec8 u = {r8_div(a.x, l), r8_div(a.y, l), r8_div(a.z, l)};
-    return v8_select(some, u, a);
-}
-// As row_times and times_column of math/transform.c, which points and normals go through.
-LANES_INLINE struct real8 v8_times(struct vec8 v, double x, double y, double z)
-{
-    return r8_add(r8_add(r8_mul(v.x, r8_set(x)), r8_mul(v.y, r8_set(y))),
-                  r8_mul(v.z, r8_set(z)));
-}
-LANES_INLINE struct vec8 v8_row_times(struct vec8 v, const struct mat3 *m)
-{
-    return (struct vec8){v8_times(v, m->m[0][0], m->m[1][0], m->m[2][0]),
-                         v8_times(v, m->m[0][1], m->m[1][1], m->m[2][1]),
-                         v8_times(v, m->m[0][2], m->m[1][2], m->m[2][2])};
-}
-LANES_INLINE struct vec8 v8_times_column(const struct mat3 *m, struct vec8 v)
-{
-    return (struct vec8){v8_times(v, m->m[0][0], m->m[0][1], m->m[0][2]),
-                         v8_times(v, m->m[1][0], m->m[1][1], m->m[1][2]),
-                         v8_times(v, m->m[2][0], m->m[2][1], m->m[2][2])};
 }
 
 #endif

@@ -15,6 +15,7 @@
 struct place8 {
     struct vec8 p, ng, ns;
     struct real8 error;
+    double uv[2][8]; // by place_each alone
 };
 
 LANES_INLINE void place_sphere(struct vec8 centre, struct real8 radius, struct place8 *x)
@@ -171,6 +172,8 @@ static void place_each(struct tracer *t, const struct simple_group *g, unsigned 
         ng[0][i] = at.ng.x, ng[1][i] = at.ng.y, ng[2][i] = at.ng.z;
         ns[0][i] = at.ns.x, ns[1][i] = at.ns.y, ns[2][i] = at.ns.z;
         error[i] = at.error;
+        x->uv[0][i] = at.uv.u;
+        x->uv[1][i] = at.uv.v;
     }
     x->p = v8_load((const double(*)[8])p);
     x->ng = v8_load((const double(*)[8])ng);

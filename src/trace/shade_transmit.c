@@ -187,7 +187,8 @@ static float hue(const struct job *job, double wavelength, double width, int k)
 struct bending {
     const struct plain_result *r;
     struct crossing_sides sides;
-    struct vec3 n;   // of the top layer, against the ray
+    struct vec3 top; // normal of the top layer
+    struct vec3 n;   // the same against the ray
     struct rgb fade; // A of spec/lighting.md 6.4
     float weight;
 };
@@ -213,12 +214,15 @@ static bool bend(struct shading *s, const struct bending *b, double eta, struct 
     const double k = 1 + eta * eta * (c * c - 1);
     const struct rgb factor = rgb_mul(s->path->through, rgb_mul(b->fade, share));
     if (k < 0) {
-        struct path p = path_from(s, mirrored(d, b->n, s->view.n), way);
+        struct path p = path_from(s, mirrored(d, b->top, s->view.n), way);
         p.flags |= PATH_REFLECTED;
         p.weight = b->weight;
         p.wavelength = wavelength;
         p.through = rgb_scale(b->r->weight, factor);
         p.through_t = 0;
+        const struct finish *f = s->layer[b->r->begin].finish;
+        if (f->irid != 0)
+            p.through = rgb_mul(p.through, irid_factor(s, f, b->top, p.d));
         path_emit(s->t, &p);
         return false;
     }
@@ -281,6 +285,7 @@ bool shade_refract(struct shading *s, const struct plain_result *r)
     const struct vec3 top = s->layer[r->begin].n;
     b.r = r;
     b.sides = interior_cross(s->t, s->path->inside, s->at.surface->interior);
+    b.top = top;
     b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
     b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
     b.weight = s->path->weight;

@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "scene/effects.h"
+#include "scene/pigment_tape.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
 #include "trace/media.h"
@@ -28,18 +29,6 @@ static const struct shade_kernels *kernels_named(const char *name)
 
 static bool is_solid(struct rgbft c) { return c.filter == 0 && c.transmit == 0; }
 
-static bool pigment_is_simple(const struct pigment *p)
-{
-    if (p->kind == PIGMENT_SOLID)
-        return true;
-    if (p->kind != PIGMENT_COLORS || p->pattern->pigment)
-        return false;
-    for (uint32_t i = 0; i < p->colors->count; i++)
-        if (!is_solid(p->colors->color[i]))
-            return false;
-    return true;
-}
-
 static bool only_moved(const struct pattern *p)
 {
     for (const struct warp *w = p->warps; w; w = w->next)
@@ -52,12 +41,14 @@ static enum simple_pigment pigment_kind(const struct pigment *p)
 {
     if (p->kind == PIGMENT_SOLID)
         return SIMPLE_SOLID;
+    if (p->kind != PIGMENT_COLORS)
+        return SIMPLE_TAPE;
     const struct color_map *m = p->colors;
     const bool two = m->count == 2 && m->key[0] == 0 && m->key[1] == 1;
     return p->pattern->ops == &checker_pattern_ops && p->pattern->frequency == 0 &&
                    p->pattern->wave == WAVE_RAMP && two && only_moved(p->pattern)
                ? SIMPLE_CHECKER
-               : SIMPLE_PATTERN;
+               : SIMPLE_TAPE;
 }
 
 static bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
@@ -92,8 +83,7 @@ static bool normal_is_simple(const struct job *job, const struct texture_layer *
 {
     if (!l->normal || !job->normals)
         return true;
-    return l->normal->kind == NORMAL_PATTERN && !l->normal->pattern.pigment &&
-           !pigment_is_clear(l->pigment) &&
+    return !pigment_is_clear(l->pigment) &&
            !(job->mirrors && finish_has_mirror(l->finish));
 }
 
@@ -102,13 +92,13 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
-        s->wants_uv || s->parts ||
+        s->parts || s->cutaway ||
         (job->shoots && (!s->photons || s->photons->collect)))
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
-    return normal_is_simple(job, l) && pigment_is_simple(l->pigment) &&
-           !(dispersion && pigment_is_clear(l->pigment)) && f->irid == 0 && !(f->has_subsurface && job->subsurface) &&
+    return normal_is_simple(job, l) && !(dispersion && pigment_is_clear(l->pigment)) &&
+           f->irid == 0 && !(f->has_subsurface && job->subsurface) &&
            f->crand <= 0 && f->reflection_exponent == 1 &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
@@ -160,9 +150,33 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
     return job->simple_class_count++;
 }
 
+// False: its colours are not opaque, or it is nested too deeply.
+static bool color_compile(const struct job *job, struct pigment_compiler *c,
+                          const struct pigment *p, struct simple_surface *x)
+{
+    x->pigment = p;
+    x->att = 1;
+    if (p->kind == PIGMENT_SOLID) {
+        const struct rgbft color = p->color;
+        x->kind = SIMPLE_SOLID;
+        x->color[0] = rgbft_rgb(color);
+        x->pass = rgbft_pass(color);
+        x->att = job->old_opacity
+                     ? 1 - (color.filter * rgb_max(rgbft_rgb(color)) + color.transmit)
+                     : rgbft_opacity(color);
+        return true;
+    }
+    x->kind = pigment_kind(p);
+    x->tape = pigment_compile(c, p);
+    for (uint32_t k = 0; k < 2 && x->kind == SIMPLE_CHECKER; k++)
+        x->color[k] = rgbft_rgb(p->colors->color[k]);
+    return x->tape && x->tape->channels == 3;
+}
+
 void simple_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
+    struct pigment_compiler compiler = {.arena = a};
     // For tests: everything by the general rule.
     const char *wish = getenv("LAMBERT_SHADING");
     const bool general = wish && strcmp(wish, "general") == 0;
@@ -185,23 +199,18 @@ void simple_compile(struct job *job, struct arena *a)
         simple[i].class = SIMPLE_NONE;
         if (!surface_is_simple(job, &w->surface[i], dispersion))
             continue;
-        const struct pigment *p = w->surface[i].texture->layer[0].pigment;
-        simple[i] = (struct simple_surface){.class = class_of(job, all, &w->surface[i]),
-                                            .kind = pigment_kind(p),
-                                            .pigment = p};
-        simple[i].normal = job->normals ? w->surface[i].texture->layer[0].normal : NULL;
-        simple[i].att = 1;
-        if (simple[i].kind == SIMPLE_SOLID) {
-            const struct rgbft x = p->color;
-            simple[i].color[0] = rgbft_rgb(x);
-            simple[i].pass = rgbft_pass(x);
-            simple[i].att = job->old_opacity
-                                ? 1 - (x.filter * rgb_max(rgbft_rgb(x)) + x.transmit)
-                                : rgbft_opacity(x);
-        } else {
-            for (uint32_t k = 0; k < 2 && k < p->colors->count; k++)
-                simple[i].color[k] = rgbft_rgb(p->colors->color[k]);
-        }
+        const struct texture_layer *l = &w->surface[i].texture->layer[0];
+        struct simple_surface x = {0};
+        if (i && w->surface[i - 1].texture->kind == TEXTURE_PLAIN &&
+            w->surface[i - 1].texture->layer[0].pigment == l->pigment &&
+            simple[i - 1].class != SIMPLE_NONE)
+            x = simple[i - 1];
+        else if (!color_compile(job, &compiler, l->pigment, &x))
+            continue;
+        x.class = class_of(job, all, &w->surface[i]);
+        x.normal = job->normals ? l->normal : NULL;
+        job->simple_uv |= w->surface[i].wants_uv;
+        simple[i] = x;
     }
     job->simple_class = all;
     job->simple = job->simple_class_count ? simple : NULL;
@@ -303,6 +312,18 @@ static void group_indirect(struct tracer *t, const struct simple_class *c,
     }
 }
 
+// An image does not reach there.
+static void shade_bare(struct tracer *t, const struct simple_group *g)
+{
+    for (unsigned bits = g->bare; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        t->slot = g->slot[i];
+        const struct path p = wave_path(t, t->slot);
+        const struct hit hit = hit_batch_at(t->hit, g->ray[i]);
+        shade_hit(t, &p, &hit);
+    }
+}
+
 static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t first,
                         uint32_t *queued)
 {
@@ -315,6 +336,8 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
     for (uint32_t i = 0; i < groups; i++) {
         const uint32_t left = count - 8 * i;
         kernels->place(t, t->class_ray + 8 * i, left < 8 ? left : 8, &t->group[i]);
+        if (t->group[i].bare)
+            shade_bare(t, &t->group[i]);
         kernels->own(t, c, &t->group[i]);
         if (t->job->settings.indirect.data)
             group_indirect(t, c, &t->group[i]);

@@ -3,8 +3,8 @@
 
 #include "trace/tracer.h"
 
-// Simple surfaces have one layer, with a normal of a pattern at most, and their light follows from finish,
-// lamps and the colour at the point; what lets light through has one colour everywhere.
+// Simple surfaces have one layer, and their light follows from finish, lamps, and the
+// colour and normal at the point; what lets light through has one colour everywhere.
 // Their hits are shaded eight at a time (trace/shade_kernel.h), with the arithmetic, and
 // hence the bits, of trace/shade.c.
 
@@ -24,7 +24,7 @@ struct simple_class {
 enum simple_pigment {
     SIMPLE_SOLID,
     SIMPLE_CHECKER, // two colours, moved by transforms alone
-    SIMPLE_PATTERN, // any other pattern through a colour map
+    SIMPLE_TAPE,    // any other pigment that lets no light through
 };
 
 struct simple_surface {
@@ -34,17 +34,20 @@ struct simple_surface {
     float att;       // opacity
     struct rgb pass; // of the pigment
     const struct pigment *pigment;
-    const struct normal *normal; // NULL: none
+    const struct pigment_tape *tape; // SIMPLE_CHECKER, SIMPLE_TAPE
+    const struct normal *normal;     // NULL: none
 };
 
 // Eight hits of one class. Lanes that are not live repeat one that is.
 struct simple_group {
     double d[3][8], p[3][8], error[8]; // of the ray; the point, as struct interaction
     double n[3][8], ng[3][8];          // n: towards the ray
+    double uv[2][8];                   // where a surface may ask for them
     float color[3][8], att[8], through[3][8];
     uint16_t slot[8];
     uint32_t ray[8];
     unsigned live;
+    unsigned bare; // lanes whose pigment has no colour there: they are not live
     bool in_row; // eight slots in a row
 };
 

@@ -8,6 +8,7 @@
 #include "trace/mesh_samples.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
+#include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/wave.h"
 
@@ -41,6 +42,7 @@ struct tracer *tracer_new(const struct job *job)
     t->hit = hit_batch_new(BATCH_SIZE);
     shadow_init(t);
     simple_init(t);
+    paint_init(t);
     if (job->settings.indirect.begin)
         t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
     media_init(t);
@@ -66,6 +68,7 @@ void tracer_free(struct tracer *t)
     simple_end(t);
     media_end(t);
     free(t->near_photons);
+    paint_end(t);
     hit_batch_free(t->hit);
     free(t->sum);
     free(t->power);

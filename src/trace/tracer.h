@@ -141,6 +141,8 @@ struct tracer {
     struct hit_run *run;
     uint32_t run_count;
     uint32_t *class_seen, class_count;
+    uint16_t *paint_head, *paint_link; // trace/paint.c
+    uint32_t *paint_seen, paint_count;
     struct sample_sum *sum;
     uint32_t sum_count, sum_capacity;
     struct power_request *power;

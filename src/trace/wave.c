@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/elementary.h"
+#include "trace/paint.h"
 #include "trace/shade_kernel.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
@@ -255,6 +256,8 @@ static void first_keep(struct tracer *t)
 static void shade_alone(struct tracer *t, uint32_t k, uint32_t end)
 {
     for (; k < end; k++) {
+        if (paint_take(t, k))
+            continue;
         t->slot = t->wave.slot[k];
         const struct path p = wave_path(t, t->slot);
         const struct hit hit = hit_batch_at(t->hit, k);
@@ -287,6 +290,7 @@ static void wave_trace(struct tracer *t)
         if (!simple_take(t, k, end - k))
             shade_alone(t, k, end);
     }
+    paint_shade(t);
     simple_shade(t);
     shadow_flush(t);
     sums_add(t);

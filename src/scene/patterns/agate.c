@@ -30,8 +30,18 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
     const struct turbulence *t = p->turbulence ? p->turbulence : &usual;
     noise_turbulence8(k, at, t->lambda, t->omega, t->octaves, pattern_noise_generator(p),
                       out);
+    double v[8];
     for (int i = 0; i < 8; i++)
-        out[i] = band(p, out[i], at[2][i]);
+        v[i] = 1.3 * (p->value[0] * out[i]) + 1.1 * at[2][i];
+    k->cycloidal(v, out);
+    for (int i = 0; i < 8; i++) {
+        out[i] = 0.5 * (out[i] + 1);
+        v[i] = out[i] < DBL_MIN || out[i] > 1 ? 1 : out[i];
+    }
+    double powers[8];
+    k->power(v, 0.77, powers);
+    for (int i = 0; i < 8; i++)
+        out[i] = out[i] < DBL_MIN ? 0 : powers[i];
 }
 
 const struct pattern_ops agate_pattern_ops = {

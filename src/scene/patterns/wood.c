@@ -1,5 +1,7 @@
 // wood: rings around the z axis, moved by turbulence
 
+#include <string.h>
+
 #include "scene/pattern_math.h"
 
 static inline double ring(const struct turbulence *t, double x, double y, double dx,
@@ -25,12 +27,21 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
     const struct turbulence *t = p->turbulence;
-    double d[3][8];
-    if (t)
+    double x[2][8], d[3][8], move[8];
+    memcpy(x, at, sizeof x);
+    if (t) {
+        const double amount[2] = {t->amount.x, t->amount.y};
         noise_dturbulence8(k, at, t->lambda, t->omega, t->octaves, d);
+        for (int a = 0; a < 2; a++) {
+            for (int i = 0; i < 8; i++)
+                d[a][i] = (x[a][i] + d[a][i]) * amount[a];
+            k->cycloidal(d[a], move);
+            for (int i = 0; i < 8; i++)
+                x[a][i] += move[i];
+        }
+    }
     for (int i = 0; i < 8; i++)
-        out[i] = t ? ring(t, at[0][i], at[1][i], d[0][i], d[1][i])
-                   : sqrt(at[0][i] * at[0][i] + at[1][i] * at[1][i]);
+        out[i] = sqrt(x[0][i] * x[0][i] + x[1][i] * x[1][i]);
 }
 
 const struct pattern_ops wood_pattern_ops = {.keyword = "wood",

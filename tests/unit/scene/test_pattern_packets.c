@@ -8,6 +8,7 @@
 #include "scene/noise.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern.h"
+#include "scene/pigment_tape.h"
 #include "scene/texture.h"
 
 static uint64_t state_of_random = 88172645463325252u;
@@ -144,18 +145,20 @@ static struct pattern variant(const struct pattern_ops *ops, unsigned turn)
 
 static void check_pattern(const struct noise_kernels *k, const struct pattern_ops *ops)
 {
+    const struct surface_kernels *surface = surface_kernels_find(k->name);
+    assert_string_equal(surface->name, k->name);
     for (unsigned turn = 0; turn < 240; turn++) {
         const struct pattern p = variant(ops, turn);
         double at[3][8], normal[3][8], ray[3][8], q[3][8], v[8];
         random_points(at, turn);
         random_points(normal, 0);
         random_points(ray, 0);
-        const struct pattern_packet packet = {k, (const double(*)[8])at,
+        const struct pattern_packet packet = {(const double(*)[8])at,
                                               (const double(*)[8])normal,
-                                              (const double(*)[8])ray};
+                                              (const double(*)[8])ray, NULL};
         memcpy(q, at, sizeof q);
-        pattern_warp8(&p, k, q);
-        pattern_values_at8(&p, &packet, (const double(*)[8])q, v);
+        surface->warp(&p, q);
+        surface->values(&p, &packet, (const double(*)[8])q, 255, v);
         for (int i = 0; i < 8; i++) {
             const struct vec3 place = lane((const double(*)[8])at, i);
             const struct pattern_context c = {.p_world = place,
