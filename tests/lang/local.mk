@@ -193,6 +193,7 @@ lang_scenes = \
 	%D%/321-error-macros-in-place.scn \
 	%D%/322-error-rainbow.scn \
 	%D%/323-warning-deprecated.scn \
+	%D%/324-trace-isosurface.scn \
 	%D%/311-error-cone-equal.scn \
 	%D%/312-error-undefined-macro.scn \
 	%D%/314-error-array-access.scn \

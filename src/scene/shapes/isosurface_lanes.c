@@ -462,7 +462,8 @@ LANES_INLINE void slab(struct real8 o, struct real8 d, double min, double max,
     const struct real8 inverse = r8_div(r8_set(1), d);
     const struct real8 p = r8_mul(r8_sub(r8_set(min), o), inverse);
     const struct real8 q = r8_mul(r8_sub(r8_set(max), o), inverse);
-    const struct mask8 back = r8_lt(d, r8_set(0));
+    // Of the inverse, since a direction may be -0.
+    const struct mask8 back = r8_lt(inverse, r8_set(0));
     // NaN, of a ray in a face, changes nothing.
     *enter = r8_max(r8_select(back, q, p), *enter);
     *leave = r8_min(r8_select(back, p, q), *leave);
@@ -759,10 +760,6 @@ static unsigned closest(const struct isosurface *s, const struct shape_rays *ray
         out->u[l] = out->v[l] = 0;
     }
     unsigned hit = faces(&w, rays, out);
-    if (any && getenv("DBG"))
-        for (int q = 0; q < 8; q++)
-            fprintf(stderr, "lane %d found %d a %g b %g fa %g fb %g\n", q,
-                    w.found >> q & 1, w.a[q], w.b[q], w.fa[q], w.fb[q]);
     const unsigned told = any ? settle_any(&w, rays, out) : 0;
     if (w.found & ~told)
         hit |= settle_roots(&w, rays, w.found & ~told, out);
