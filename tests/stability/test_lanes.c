@@ -54,7 +54,7 @@ static double unit(uint64_t *s)
 // through the middle.
 static void random_rays(uint64_t *s, struct shape_rays *r)
 {
-    double p[3], d[3];
+    double p[3] = {0}, d[3] = {0};
     const bool together = unit(s) < .6, inside = unit(s) < .3, axis = unit(s) < .15;
     const int along = (int)(3 * unit(s));
     for (int l = 0; l < 8; l++) {
