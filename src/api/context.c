@@ -1,10 +1,11 @@
 // Contexts: their life, their errors, their messages.
 #include "api/context.h"
 
+#include "base/clock.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #ifndef LAMBERT_VERSION
 #define LAMBERT_VERSION "unknown"
@@ -58,9 +59,7 @@ enum lambert_status context_fail(struct lambert_context *ctx, enum lambert_statu
 
 double context_seconds(void)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+    return clock_seconds(CLOCK_MONOTONIC);
 }
 
 void lambert_set_message_function(struct lambert_context *ctx, lambert_message_fn fn,

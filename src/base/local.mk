@@ -1,5 +1,6 @@
 liblambert_a_SOURCES += \
 	%D%/arena.c %D%/arena.h \
+	%D%/clock.h %D%/memory.h \
 	%D%/diag.c %D%/diag.h %D%/diagnostics.def \
 	%D%/parallel.c %D%/parallel.h \
 	%D%/read_text.c %D%/read_text.h \

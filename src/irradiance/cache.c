@@ -2,22 +2,12 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/arena.h"
+#include "base/clock.h"
 #include "irradiance/fill.h"
 #include "math/elementary.h"
-
-// The fraction whose digits in this base are those of n, mirrored (Halton 1960).
-static double radical_inverse(uint32_t n, uint32_t base)
-{
-    double x = 0, digit = 1;
-    for (; n; n /= base) {
-        digit /= base;
-        x += digit * (n % base);
-    }
-    return x;
-}
+#include "math/halton.h"
 
 // About y, with density proportional to the cosine (spec/lighting.md 12.3).
 static void directions_init(struct irradiance_cache *c)
@@ -28,8 +18,7 @@ static void directions_init(struct irradiance_cache *c)
     c->direction_count = (uint32_t)most;
     c->direction = arena_new_array(c->arena, struct vec3, (size_t)most);
     for (uint32_t k = 0; k < c->direction_count; k++) {
-        const double h = radical_inverse(k + 1, 2),
-                     angle = turn * radical_inverse(k + 1, 3);
+        const double h = halton(k + 1, 2), angle = turn * halton(k + 1, 3);
         const double r = sqrt(h);
         c->direction[k] = vec3(r * det_cos(angle), sqrt(1 - h), r * det_sin(angle));
     }
@@ -50,7 +39,8 @@ struct indirect irradiance_cache_indirect(const struct irradiance_cache *c)
     };
 }
 
-// Jobs of the camera's rays and of those that gather, which ask for the next depth.
+// Jobs of the camera's rays and of those that gather: all but the last ask for the next
+// depth.
 static void jobs_init(struct irradiance_cache *c, const struct world *w,
                       const struct render_settings *settings)
 {
@@ -63,21 +53,10 @@ static void jobs_init(struct irradiance_cache *c, const struct world *w,
     s.purpose = RENDER_SCOUT;
     job_init(&c->scout, c->arena, w, &s);
     s.purpose = RENDER_GATHER;
-    c->gather = arena_new_array(c->arena, struct job, c->depths);
-    for (uint32_t k = 0; k < c->depths; k++) {
-        if (k + 1 == c->depths) {
-            s.indirect.data = NULL;
-            s.indirect.both_sides = false;
-        }
-        job_init(&c->gather[k], c->arena, w, &s);
-    }
-}
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    job_init(&c->gather, c->arena, w, &s);
+    s.indirect.data = NULL;
+    s.indirect.both_sides = false;
+    job_init(&c->gather_last, c->arena, w, &s);
 }
 
 struct irradiance_cache *irradiance_cache_new(const struct world *w,
@@ -87,7 +66,7 @@ struct irradiance_cache *irradiance_cache_new(const struct world *w,
 {
     struct arena *a = arena_new(64 * 1024);
     struct irradiance_cache *c = arena_new_struct(a, struct irradiance_cache);
-    const double begin = now();
+    const double begin = clock_seconds(CLOCK_MONOTONIC);
     *report = (struct irradiance_report){0};
     c->arena = a;
     c->settings = &w->scene->settings.radiosity_settings;
@@ -101,7 +80,7 @@ struct irradiance_cache *irradiance_cache_new(const struct world *w,
         return NULL;
     }
     report->samples = c->store.count;
-    report->seconds = now() - begin;
+    report->seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
     return c;
 }
 

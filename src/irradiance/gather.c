@@ -3,13 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void *must_alloc(size_t count, size_t size)
-{
-    void *p = calloc(count, size);
-    if (!p)
-        abort();
-    return p;
-}
+#include "base/memory.h"
 
 uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth)
 {
@@ -20,9 +14,9 @@ uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth)
 
 struct gatherer *gatherer_new(const struct irradiance_cache *c)
 {
-    struct gatherer *g = must_alloc(1, sizeof *g);
+    struct gatherer *g = must_calloc(1, sizeof *g);
     g->cache = c;
-    g->level = must_alloc(c->depths, sizeof *g->level);
+    g->level = must_calloc(c->depths, sizeof *g->level);
     for (uint32_t k = 0; k < c->depths; k++)
         g->level[k] = (struct gather_level){.owner = g, .depth = k};
     return g;
@@ -72,14 +66,15 @@ static void level_prepare(struct gather_level *l)
 {
     const struct irradiance_cache *c = l->owner->cache;
     const uint32_t n = gather_count(c, l->depth);
-    l->tracer = tracer_new(&c->gather[l->depth]);
-    if (l->depth + 1 < c->depths)
+    const bool last = l->depth + 1 == c->depths;
+    l->tracer = tracer_new(last ? &c->gather_last : &c->gather);
+    if (!last)
         l->tracer->indirect = &l->owner->level[l->depth + 1];
-    l->path = must_alloc(n, sizeof *l->path);
-    l->to = must_alloc(n, sizeof *l->to);
-    l->first = must_alloc(n, sizeof *l->first);
-    l->color = must_alloc(n, sizeof *l->color);
-    l->quality = must_alloc(n, sizeof *l->quality);
+    l->path = must_calloc(n, sizeof *l->path);
+    l->to = must_calloc(n, sizeof *l->to);
+    l->first = must_calloc(n, sizeof *l->first);
+    l->color = must_calloc(n, sizeof *l->color);
+    l->quality = must_calloc(n, sizeof *l->quality);
 }
 
 // ---- one sample -------------------------------------------------------------------------

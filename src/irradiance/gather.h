@@ -11,8 +11,8 @@ struct irradiance_cache {
     struct arena *arena;
     const struct radiosity_settings *settings;
     struct vec3 eye;
-    struct job scout;   // the camera's rays, before the picture
-    struct job *gather; // of each depth
+    struct job scout;               // the camera's rays, before the picture
+    struct job gather, gather_last; // of every depth but the last, and of that
     uint32_t depths;
     struct store store;
     struct vec3 *direction; // about y, cosine-weighted

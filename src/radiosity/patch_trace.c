@@ -219,7 +219,7 @@ uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
 struct of_thread {
     const struct patches *p;
     struct trace_scratch *scratch;
-    struct hit *hit;
+    struct hit_batch *hit;
 };
 
 enum { ENCLOSURE_BATCH = 1024 };
@@ -231,9 +231,7 @@ static void *thread_begin(void *user)
         abort();
     t->p = user;
     t->scratch = trace_scratch_new(t->p->job->world);
-    t->hit = calloc(ENCLOSURE_BATCH, sizeof *t->hit);
-    if (!t->hit)
-        abort();
+    t->hit = hit_batch_new(ENCLOSURE_BATCH);
     return t;
 }
 
@@ -241,7 +239,7 @@ static void thread_end(void *state)
 {
     struct of_thread *t = state;
     trace_scratch_free(t->scratch);
-    free(t->hit);
+    hit_batch_free(t->hit);
     free(t);
 }
 
@@ -312,9 +310,9 @@ static void closest(void *state, const struct ray_batch *rays, uint32_t *out)
         const struct ray ray = {vec3(rays->o[0][i], rays->o[1][i], rays->o[2][i]),
                                 vec3(rays->d[0][i], rays->d[1][i], rays->d[2][i]), 0,
                                 INFINITY};
-        out[i] = t->hit[i].b.t < INFINITY
-                     ? patch_of_hit(t->p, t->scratch, &ray, &t->hit[i])
-                     : ELEMENT_NONE;
+        const struct hit hit = hit_batch_at(t->hit, i);
+        out[i] = hit.b.t < INFINITY ? patch_of_hit(t->p, t->scratch, &ray, &hit)
+                                    : ELEMENT_NONE;
     }
 }
 

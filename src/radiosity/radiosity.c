@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 
@@ -29,13 +29,6 @@ const struct radiosity_options radiosity_defaults = {
 
 enum { DENSE_MOST = 500 }; // elements up to which `auto` stores the matrix
 static const double gib = 1073741824.0;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double memory_limit(const struct radiosity_options *s)
 {
@@ -236,7 +229,7 @@ struct radiosity *radiosity_new(const struct job *job,
                                 const char *saved, char *error, size_t error_size)
 {
     struct radiosity *r = calloc(1, sizeof *r);
-    const double start = now();
+    const double start = clock_seconds(CLOCK_MONOTONIC);
     if (!r)
         abort();
     r->settings = *settings;
@@ -253,7 +246,7 @@ struct radiosity *radiosity_new(const struct job *job,
     if (!r->report.levels)
         r->report.levels = 1;
     r->report.elements = r->patches->element_count;
-    r->report.seconds = now() - start;
+    r->report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
     find_emitters(r);
     find_shown(r);
     return r;

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "math/lanes.h"
-#include "math/quick_vectors.h"
+#include "math/quick_lanes.h"
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 #include "scene/pattern_math.h"
@@ -454,16 +454,15 @@ static void cycloidals(const double v[8], double out[8])
     const struct mask8 up = r8_le(r8_set(0), x);
     const struct real8 turn =
         r8_select(up, r8_sub(x, r8_floor(x)), r8_neg(r8_add(x, r8_floor(r8_neg(x)))));
-    double angle[8], sine[8];
-    r8_store(angle, r8_mul(r8_div(r8_mul(turn, r8_set(50000.0)), r8_set(50000.0)),
-                           r8_set(2 * PATTERN_PI)));
-    quick_sin8(angle, sine);
-    const struct real8 s = r8_load(sine);
+    struct real8 s, cosine;
+    quick_sincos8(r8_mul(r8_div(r8_mul(turn, r8_set(50000.0)), r8_set(50000.0)),
+                         r8_set(2 * PATTERN_PI)),
+                  &s, &cosine);
     r8_store(out, r8_select(up, s, r8_neg(s)));
 }
 
 static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
 
 const struct noise_kernels PASTE(noise_kernels_, ISA) = {
-    TEXT(ISA), value, vector, values, vectors, nearest,
-    PASTE(noise_bounds_, ISA), cycloidals, powers};
+    TEXT(ISA),  value, vector, values, vectors, nearest, PASTE(noise_bounds_, ISA),
+    cycloidals, powers};

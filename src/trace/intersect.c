@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "math/gamma.h"
 #include "scene/shape_kernels.h"
 #include "trace/accel.h"
@@ -11,21 +12,13 @@
 
 // ---- scratch, batches ---------------------------------------------------------------
 
-static void *must_alloc(size_t count, size_t size)
-{
-    void *p = calloc(count ? count : 1, size);
-    if (!p)
-        abort();
-    return p;
-}
-
 struct trace_scratch *trace_scratch_new(const struct world *w)
 {
-    struct trace_scratch *s = must_alloc(1, sizeof *s);
-    s->inside = must_alloc(w->accel->nodes_max, sizeof *s->inside);
-    s->before = must_alloc(w->accel->nodes_max, sizeof *s->before);
-    s->stamp = must_alloc(w->accel->nodes_max, sizeof *s->stamp);
-    s->leaves = must_alloc(w->accel->leaves_max, sizeof *s->leaves);
+    struct trace_scratch *s = must_calloc(1, sizeof *s);
+    s->inside = must_calloc(w->accel->nodes_max, sizeof *s->inside);
+    s->before = must_calloc(w->accel->nodes_max, sizeof *s->before);
+    s->stamp = must_calloc(w->accel->nodes_max, sizeof *s->stamp);
+    s->leaves = must_calloc(w->accel->leaves_max, sizeof *s->leaves);
     return s;
 }
 
@@ -58,7 +51,7 @@ static void *aligned(size_t size)
 
 struct ray_batch *ray_batch_new(uint32_t capacity)
 {
-    struct ray_batch *b = must_alloc(1, sizeof *b);
+    struct ray_batch *b = must_calloc(1, sizeof *b);
     b->capacity = (capacity + 7) & ~7u;
     for (int i = 0; i < 3; i++) {
         b->o[i] = aligned(b->capacity * sizeof(double));
@@ -72,7 +65,7 @@ struct ray_batch *ray_batch_new(uint32_t capacity)
 
 struct hit_batch *hit_batch_new(uint32_t capacity)
 {
-    struct hit_batch *b = must_alloc(1, sizeof *b);
+    struct hit_batch *b = must_calloc(1, sizeof *b);
     capacity = (capacity + 7) & ~7u;
     double **const number[] = {&b->t, &b->dt, &b->part, &b->u, &b->v};
     for (int i = 0; i < 5; i++)

@@ -40,10 +40,6 @@ struct ray_batch {
 struct ray_batch *ray_batch_new(uint32_t capacity);
 void ray_batch_free(struct ray_batch *b);
 
-// The nearest drawn boundary with t_min < t < t_max of each ray. Same bits for
-// every ISA and for one ray at a time.
-void trace_closest(const struct world *w, struct trace_scratch *s,
-                   const struct ray_batch *rays, struct hit *out);
 // Hits in structure-of-arrays form: the members of a boundary that is drawn, `part` as a
 // number. Of misses only t is set. Arrays as those of ray_batch.
 struct hit_batch {
@@ -54,9 +50,10 @@ struct hit_batch {
 struct hit_batch *hit_batch_new(uint32_t capacity);
 void hit_batch_free(struct hit_batch *b);
 struct hit hit_batch_at(const struct hit_batch *b, uint32_t i);
-// As trace_closest.
-void trace_hits(const struct world *w, struct trace_scratch *s,
-                const struct ray_batch *rays, const struct hit_batch *out);
+// The nearest drawn boundary with t_min < t < t_max of each ray. Same bits for
+// every ISA and for one ray at a time.
+void trace_closest(const struct world *w, struct trace_scratch *s,
+                   const struct ray_batch *rays, const struct hit_batch *out);
 struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
                            const struct ray_query *q);
 

@@ -1,5 +1,8 @@
 #include "trace/job.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/arena.h"
 #include "scene/mesh_camera.h"
 #include "scene/pigment_tape.h"
@@ -168,6 +171,8 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     job->hidden_by[1] = never | (unsigned)OBJECT_NO_REFLECTION;
     job->reach = job->camera->mesh ? job->camera->mesh->max_distance : 0;
     job->surface_kernels = surface_kernels_find(w->accel->kernels->name);
+    const char *shading = getenv("LAMBERT_SHADING");
+    job->general = shading && strcmp(shading, "general") == 0;
     lamps_init(job, a, w);
     spectrum_init(job);
     media_compile(job, a);

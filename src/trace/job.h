@@ -72,6 +72,7 @@ struct job {
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
     double reach; // of rays with PATH_SHORT; 0: none has a limit
+    bool general;                        // for tests: no hit is shaded in lanes
     bool quick_camera;                   // its rays are made eight at a time
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;

@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "math/halton.h"
 #include "scene/noise.h"
 #include "scene/texture.h"
 
@@ -48,16 +49,6 @@ static int points_fixed(struct lens *l)
     return n;
 }
 
-static double halton(int k, int base)
-{
-    double v = 0, part = 1.0 / base;
-    for (int i = k + 1; i > 0; i /= base) {
-        v += part * (i % base);
-        part /= base;
-    }
-    return v;
-}
-
 static int cell(struct vec2 p, int side)
 {
     int x = (int)floor((p.u + 0.5) * side), y = (int)floor((p.v + 0.5) * side);
@@ -76,7 +67,8 @@ static void points_bokeh(struct lens *l, const struct pigment *bokeh)
         double chance, least;
         do {
             struct vec2 *p = &l->point[i];
-            *p = (struct vec2){halton(drawn, 2) - 0.5, halton(drawn, 3) - 0.5};
+            *p = (struct vec2){halton((uint32_t)drawn + 1, 2) - 0.5,
+                               halton((uint32_t)drawn + 1, 3) - 0.5};
             const struct texture_point at = {.p = {p->u + 0.5, p->v + 0.5, 0}};
             struct rgbft c;
             drawn++;
@@ -102,7 +94,8 @@ static void points_init(struct lens *l, struct arena *a)
         bool bad;
         do {
             const int k = drawn++ % draws;
-            const double r = sqrt(halton(k, 2) / 4), angle = 2 * pi * halton(k, 3);
+            const double r = sqrt(halton((uint32_t)k + 1, 2) / 4),
+                         angle = 2 * pi * halton((uint32_t)k + 1, 3);
             p = (struct vec2){r * det_cos(angle), r * det_sin(angle)};
             bad = taken[cell(p, side)] || p.u * p.u + p.v * p.v > 0.25;
         } while (bad && draws - drawn > n - i);

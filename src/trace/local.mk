@@ -18,6 +18,7 @@ liblambert_a_SOURCES += \
 packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_bounds_kernel.c \
 	src/scene/surface_kernel.c src/scene/shape_kernels.c src/scene/tape_kernel.c src/scene/tape_kernel.h \
 	src/scene/shapes/isosurface_lanes.c src/scene/shapes/isosurface_lanes.h \
+	src/scene/shapes/isosurface_lane_roots.h src/scene/shapes/isosurface_lane_values.h \
 	%D%/packet_kernel.c %D%/packet_product.h %D%/packet_quick.h \
 	%D%/packet.h %D%/packet_cross.h %D%/packet_objects.h %D%/packet_shapes.h \
 	%D%/packet_lanes.h %D%/packet_mesh.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \

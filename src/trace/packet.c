@@ -103,20 +103,10 @@ struct boundary packet_lane_hit(struct packet *p, int lane)
 
 // ---- batches --------------------------------------------------------------------------
 
-void trace_hits(const struct world *w, struct trace_scratch *s,
-                const struct ray_batch *rays, const struct hit_batch *out)
+void trace_closest(const struct world *w, struct trace_scratch *s,
+                   const struct ray_batch *rays, const struct hit_batch *out)
 {
     w->accel->kernels->hits(w, s, rays, out);
-}
-
-void trace_closest(const struct world *w, struct trace_scratch *s,
-                   const struct ray_batch *rays, struct hit *out)
-{
-    struct hit_batch *b = hit_batch_new(rays->count);
-    trace_hits(w, s, rays, b);
-    for (uint32_t i = 0; i < rays->count; i++)
-        out[i] = hit_batch_at(b, i);
-    hit_batch_free(b);
 }
 
 void trace_occluded(const struct world *w, struct trace_scratch *s,

@@ -82,7 +82,7 @@ static inline uint8_t crossing_of_leaf(uint8_t crossing, bool inverted)
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
-    // trace_hits and trace_occluded.
+    // trace_closest and trace_occluded.
     void (*hits)(const struct world *w, struct trace_scratch *s,
                  const struct ray_batch *rays, const struct hit_batch *out);
     void (*occluded)(const struct world *w, struct trace_scratch *s,

@@ -341,7 +341,7 @@ static void hits_from(struct packet *p, const struct ray_batch *r, uint32_t firs
     hits(&e, out);
 }
 
-static void trace_hits8(const struct world *w, struct trace_scratch *s,
+static void trace_closest8(const struct world *w, struct trace_scratch *s,
                         const struct ray_batch *rays, const struct hit_batch *out)
 {
     struct packet p;
@@ -391,6 +391,6 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
     }
 }
 
-const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace_hits8,
+const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace_closest8,
                                                            trace_occluded8, walk,
                                                            &PASTE(shape_kernels_, ISA)};

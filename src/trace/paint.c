@@ -49,8 +49,7 @@ static bool surface_compile(const struct job *job, struct pigment_compiler *c,
 void paint_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
-    const char *wish = getenv("LAMBERT_SHADING"); // as trace/simple.c
-    if ((wish && strcmp(wish, "general") == 0) || !job->pigments || !job->lights)
+    if (job->general || !job->pigments || !job->lights)
         return;
     struct pigment_compiler compiler = {.arena = a};
     struct paint_surface *all = NULL;

@@ -4,10 +4,10 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/arena.h"
+#include "base/clock.h"
 #include "base/stack.h"
 #include "trace/photons.h"
 #include "trace/scratch.h"
@@ -191,13 +191,6 @@ struct render_tile render_tile_at(const struct render_settings *settings, uint32
     return tile_at(&s, i);
 }
 
-static double now(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 struct shooting {
     const struct job *job;
     const volatile bool *cancel;
@@ -251,14 +244,14 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     for (uint32_t i = 0; progress && progress->have && i < r.tiles_total; i++)
         r.stats.tiles_done += progress->have[i];
     pthread_mutex_init(&r.lock, NULL);
-    const double begin = now(CLOCK_MONOTONIC), cpu_begin = now(CLOCK_PROCESS_CPUTIME_ID);
+    const double begin = clock_seconds(CLOCK_MONOTONIC), cpu_begin = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     struct photons *photons = NULL;
     if (r.tiles_total && !job.photons)
         job.photons = photons = shot(&job, progress ? progress->cancel : NULL);
     if (r.tiles_total)
         work_in_threads(&r);
-    r.stats.seconds = now(CLOCK_MONOTONIC) - begin;
-    r.stats.cpu_seconds = now(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
+    r.stats.seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
+    r.stats.cpu_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
     r.stats.tiles_total = r.tiles_total;
     pthread_mutex_destroy(&r.lock);
     photons_free(photons);

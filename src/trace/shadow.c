@@ -1,5 +1,6 @@
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
@@ -188,8 +189,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
         uint32_t left = 0;
         for (uint32_t i = 0; i < n; i++) {
             const struct ray ray = batch_ray(t->walk_rays, i);
-            const bool on = t->walk_hit[i].b.t < ray.t_max &&
-                            walk_on(t, &s[i], &ray, &t->walk_hit[i]);
+            const struct hit hit = hit_batch_at(t->walk_hit, i);
+            const bool on = hit.b.t < ray.t_max && walk_on(t, &s[i], &ray, &hit);
             b->pass[s[i].ray] = s[i].pass;
             if (on)
                 s[left++] = s[i];
@@ -228,14 +229,6 @@ struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
 
 // ---- batches -------------------------------------------------------------------------
 
-static void *must_alloc(size_t count, size_t size)
-{
-    void *p = calloc(count, size);
-    if (!p)
-        abort();
-    return p;
-}
-
 static struct ray_batch *shadow_rays_new(void)
 {
     struct ray_batch *b = ray_batch_new(BATCH_SIZE);
@@ -251,16 +244,16 @@ void shadow_init(struct tracer *t)
     t->simple.rays = shadow_rays_new();
     t->rest.rays = shadow_rays_new();
     t->near.rays = shadow_rays_new();
-    t->shadow = must_alloc(BATCH_SIZE, sizeof *t->shadow);
-    t->shadow_order = must_alloc(BATCH_SIZE, sizeof *t->shadow_order);
-    t->lamp_begin = must_alloc(t->job->lamp_count + 1, sizeof *t->lamp_begin);
+    t->shadow = must_calloc(BATCH_SIZE, sizeof *t->shadow);
+    t->shadow_order = must_calloc(BATCH_SIZE, sizeof *t->shadow_order);
+    t->lamp_begin = must_calloc(t->job->lamp_count + 1, sizeof *t->lamp_begin);
     if (!t->job->world->has_transparent)
         return;
-    t->simple.pass = must_alloc(BATCH_SIZE, sizeof *t->simple.pass);
-    t->rest.pass = must_alloc(BATCH_SIZE, sizeof *t->rest.pass);
-    t->near.pass = must_alloc(BATCH_SIZE, sizeof *t->near.pass);
-    t->walk = must_alloc(BATCH_SIZE, sizeof *t->walk);
-    t->walk_hit = must_alloc(BATCH_SIZE, sizeof *t->walk_hit);
+    t->simple.pass = must_calloc(BATCH_SIZE, sizeof *t->simple.pass);
+    t->rest.pass = must_calloc(BATCH_SIZE, sizeof *t->rest.pass);
+    t->near.pass = must_calloc(BATCH_SIZE, sizeof *t->near.pass);
+    t->walk = must_calloc(BATCH_SIZE, sizeof *t->walk);
+    t->walk_hit = hit_batch_new(BATCH_SIZE);
     t->walk_rays = shadow_rays_new();
 }
 
@@ -274,7 +267,7 @@ void shadow_end(struct tracer *t)
     free(t->rest.pass);
     free(t->near.pass);
     free(t->walk);
-    free(t->walk_hit);
+    hit_batch_free(t->walk_hit);
     free(t->shadow);
     free(t->shadow_order);
     free(t->lamp_begin);

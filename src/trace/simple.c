@@ -177,9 +177,7 @@ void simple_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
     struct pigment_compiler compiler = {.arena = a};
-    // For tests: everything by the general rule.
-    const char *wish = getenv("LAMBERT_SHADING");
-    const bool general = wish && strcmp(wish, "general") == 0;
+    const bool general = job->general;
     const struct camera *c = job->camera;
     job->kernels = kernels_named(w->accel->kernels->name);
     // Where light by way of others is collected, the order of hits counts: one order only.

@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "math/halton.h"
 #include "trace/inside.h"
 
 static const double pi = 3.14159265358979323846;
@@ -130,14 +131,6 @@ static double reflectance(const struct channel *c, double r2)
     return c->albedo / (4 * pi) * sum;
 }
 
-static double radical_inverse(uint32_t i, uint32_t base)
-{
-    double v = 0, part = 1.0 / base;
-    for (; i; i /= base, part /= base)
-        v += part * (i % base);
-    return v;
-}
-
 static double turned(double v, uint32_t hash) { return fmod(v + hash_unit(hash), 1); }
 
 // Directions around a point below the surface find the places.
@@ -155,8 +148,8 @@ static uint32_t entries(const struct sss *x, uint32_t count, struct entry *out)
     const struct vec3 base = vec3_mad(s->at.p, -depth, x->n);
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const double u = turned(radical_inverse(i + 1, 2), hash_mix(s->path->hash, 201));
-        const double v = turned(radical_inverse(i + 1, 3), hash_mix(s->path->hash, 202));
+        const double u = turned(halton(i + 1, 2), hash_mix(s->path->hash, 201));
+        const double v = turned(halton(i + 1, 3), hash_mix(s->path->hash, 202));
         const double y = 1 - 2 * u, r = sqrt(fmax(0, 1 - y * y));
         const struct vec3 d = {r * det_cos(2 * pi * v), y, r * det_sin(2 * pi * v)};
         double t;

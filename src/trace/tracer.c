@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "trace/inside.h"
 #include "trace/media.h"
 #include "trace/mesh_samples.h"
@@ -11,14 +12,6 @@
 #include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/wave.h"
-
-static void *must_alloc(size_t count, size_t size)
-{
-    void *p = calloc(count ? count : 1, size);
-    if (!p)
-        abort();
-    return p;
-}
 
 // Rays that start at their origin and end nowhere.
 static struct ray_batch *endless_new(void)
@@ -33,7 +26,7 @@ static struct ray_batch *endless_new(void)
 
 struct tracer *tracer_new(const struct job *job)
 {
-    struct tracer *t = must_alloc(1, sizeof *t);
+    struct tracer *t = must_calloc(1, sizeof *t);
     t->job = job;
     t->scratch = trace_scratch_new(job->world);
     t->arena = arena_new(64 * 1024);
@@ -48,7 +41,7 @@ struct tracer *tracer_new(const struct job *job)
     media_init(t);
     if (job->photons)
         t->near_photons =
-            must_alloc(job->photons->gather.max, sizeof *t->near_photons);
+            must_calloc(job->photons->gather.max, sizeof *t->near_photons);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
     return t;

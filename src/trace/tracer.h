@@ -135,7 +135,7 @@ struct tracer {
     struct shadow_batch near; // rays to one lamp from one point
     struct shadow_walk *walk; // shadow rays among transparent things
     struct ray_batch *walk_rays;
-    struct hit *walk_hit;
+    struct hit_batch *walk_hit;
     struct simple_group *group;                                 // BATCH_SIZE / 8 of them
     uint16_t *class_head, *class_tail, *class_ray; // trace/simple.c
     struct hit_run *run;

@@ -275,7 +275,7 @@ static void wave_trace(struct tracer *t)
     }
     memset(w->t, 0, w->count * sizeof w->t[0]);
     const uint32_t first = w->next->count;
-    trace_hits(t->job->world, t->scratch, t->rays, t->hit);
+    trace_closest(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
     for (uint32_t k = 0, end; k < w->count; k = end) {

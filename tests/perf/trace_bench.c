@@ -116,7 +116,7 @@ static void run(const struct world *w, struct trace_scratch *s, int width,
                 struct totals *sum)
 {
     struct ray_batch *b = ray_batch_new(BATCH), *l = ray_batch_new(BATCH);
-    struct hit hit[BATCH];
+    struct hit_batch *hits = hit_batch_new(BATCH);
     uint8_t dark[BATCH];
     const struct vec3 eye = vec3(3, 4, -14), sun = vec3_normalize(vec3(4, 9, -6));
     for (int first = 0; first < width * width; first += BATCH) {
@@ -127,15 +127,16 @@ static void run(const struct world *w, struct trace_scratch *s, int width,
             set_ray(b, b->count++, eye, vec3_normalize(d));
         }
         double t0 = seconds();
-        trace_closest(w, s, b, hit);
+        trace_closest(w, s, b, hits);
         double t1 = seconds();
         l->count = 0;
         for (uint32_t i = 0; i < b->count; i++) {
             struct interaction at;
             struct ray r = {eye, vec3(b->d[0][i], b->d[1][i], b->d[2][i]), 0, INFINITY};
-            if (isinf(hit[i].b.t))
+            const struct hit hit = hit_batch_at(hits, i);
+            if (isinf(hit.b.t))
                 continue;
-            trace_interaction(w, &r, &hit[i], &at);
+            trace_interaction(w, &r, &hit, &at);
             set_ray(l, l->count++, trace_offset(&at, sun), sun);
         }
         double t2 = seconds();
@@ -145,6 +146,7 @@ static void run(const struct world *w, struct trace_scratch *s, int width,
         sum->rays += b->count;
         sum->shadows += l->count;
     }
+    hit_batch_free(hits);
     ray_batch_free(b);
     ray_batch_free(l);
 }

@@ -98,7 +98,11 @@ static void trace_all(struct loaded *l, struct shots *f)
         f->batch->t_max[i] = HUGE_VAL;
         f->batch->hidden_by[i] = 0;
     }
-    trace_closest(l->world, l->scratch, f->batch, f->hit);
+    struct hit_batch *hits = hit_batch_new(RAYS);
+    trace_closest(l->world, l->scratch, f->batch, hits);
+    for (uint32_t i = 0; i < RAYS; i++)
+        f->hit[i] = hit_batch_at(hits, i);
+    hit_batch_free(hits);
     f->met = 0;
     for (int i = 0; i < RAYS; i++) {
         const struct ray_batch *b = f->batch;

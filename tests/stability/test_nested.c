@@ -311,7 +311,11 @@ static void compare_rays(struct loaded *l, const struct tree *t, const struct pl
         batch->t_max[i] = HUGE_VAL;
         batch->hidden_by[i] = 0;
     }
-    trace_closest(l->world, l->scratch, batch, packet);
+    struct hit_batch *hits = hit_batch_new(RAYS);
+    trace_closest(l->world, l->scratch, batch, hits);
+    for (uint32_t i = 0; i < RAYS; i++)
+        packet[i] = hit_batch_at(hits, i);
+    hit_batch_free(hits);
     for (int i = 0; i < RAYS; i++) {
         const struct ray_query q = {
             .ray = {vec3(batch->o[0][i], batch->o[1][i], batch->o[2][i]),

@@ -271,7 +271,7 @@ static int check_world(struct world *w, struct maker *m)
 {
     struct trace_scratch *s = trace_scratch_new(w);
     struct ray_batch *b = ray_batch_new(RAYS);
-    struct hit hit[RAYS];
+    struct hit_batch *hit = hit_batch_new(RAYS);
     uint8_t dark[RAYS];
     int hits = 0;
     for (int kind = 0; kind < 4; kind++) {
@@ -284,7 +284,8 @@ static int check_world(struct world *w, struct maker *m)
             const struct boundary want =
                 m->alone ? one.b : brute(w, s, &q, SWEEP_CLOSEST);
             assert_same(&want, &one.b);
-            assert_same(&want, &hit[i].b);
+            const struct hit in_batch = hit_batch_at(hit, i);
+            assert_same(&want, &in_batch.b);
             const bool shadowed = m->alone ? trace_occluded_1(w, s, &q)
                                            : !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
             assert_int_equal(shadowed, trace_occluded_1(w, s, &q));
@@ -292,6 +293,7 @@ static int check_world(struct world *w, struct maker *m)
             hits += !isinf(want.t);
         }
     }
+    hit_batch_free(hit);
     ray_batch_free(b);
     trace_scratch_free(s);
     return hits;
