@@ -2,11 +2,11 @@
 #define ISOSURFACE_LANE_VALUES_H
 
 // Eight rays in an isosurface: what is kept of them, f at points and its bounds over stretches.
-#include "scene/shapes/isosurface_lanes.h"
 #include "math/gamma.h"
 #include "math/lanes.h"
 #include "scene/shape_kernels.h"
 #include "scene/shapes/isosurface.h"
+#include "scene/shapes/isosurface_lanes.h"
 #include "scene/tape_kernel.h"
 
 #ifndef ISA // the build names it; anything that reads this header alone gets the portable one
