@@ -192,6 +192,10 @@ LAMBERT_API const float *lambert_image_pixels(const struct lambert_image *image)
 
 // Writes with the context's options (file type, bits, gamma, alpha); "-" is standard
 // output. An older file stays whole when this fails.
+// By the extension of a file's name, in upper or lower case: whether pictures of that type
+// are read and written. Files are read by what is in them, whatever they are called.
+LAMBERT_API bool lambert_image_can_read(const char *path);
+LAMBERT_API bool lambert_image_can_write(const char *path);
 LAMBERT_API enum lambert_status lambert_image_write(struct lambert_context *ctx,
                                                     const struct lambert_image *image,
                                                     const char *path);

@@ -97,15 +97,8 @@ static const char *parse_choice(struct arena *a, const char *choices, const char
 // POV-Ray's letters for file types.
 static const char *file_type_word(const char *text)
 {
-    static const struct {
-        char letter;
-        const char *word;
-    } words[] = {{'N', "png"}, {'S', "png"}, {'E', "exr"}, {'P', "ppm"}};
-    if (text[0] && !text[1])
-        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-            if ((text[0] & ~0x20) == words[i].letter)
-                return words[i].word;
-    return text;
+    const char *word = text[0] && !text[1] ? image_type_word_of_letter(text[0]) : NULL;
+    return word ? word : text;
 }
 
 static enum lambert_status bad_value(struct lambert_context *ctx,

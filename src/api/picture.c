@@ -1,5 +1,6 @@
 // Pictures as the public interface has them.
 #include "api/context.h"
+#include "image/texels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,13 +27,21 @@ const float *lambert_image_pixels(const struct lambert_image *image)
     return image->im.pixel;
 }
 
+bool lambert_image_can_read(const char *path)
+{
+    return texels_type_of(path) != IMAGE_UNKNOWN;
+}
+
+bool lambert_image_can_write(const char *path)
+{
+    return image_type_of(path) != IMAGE_UNKNOWN;
+}
+
 static enum image_type type_of(const struct lambert_context *ctx, const char *path)
 {
     const char *word = lambert_option_text(ctx, "type");
-    enum image_type by_name = image_type_of(path);
-    if (word)
-        return word[0] == 'e' ? IMAGE_EXR : word[1] == 'p' ? IMAGE_PPM : IMAGE_PNG;
-    return by_name == IMAGE_UNKNOWN ? IMAGE_PNG : by_name;
+    const enum image_type type = word ? image_type_of_word(word) : image_type_of(path);
+    return type == IMAGE_UNKNOWN ? IMAGE_PNG : type;
 }
 
 // Grey PNG files have 16 bits unless told (spec/lighting.md 3.4).
@@ -68,17 +77,16 @@ enum lambert_status lambert_image_write(struct lambert_context *ctx,
     static const char *const keys[] = {"Software"};
     static const char *const texts[] = {"lambert"};
     enum image_type type = type_of(ctx, path);
-    bool grey = option_flag(ctx, "grey");
-    int compression = (int)option_number(ctx, "compression");
+    const bool grey = option_flag(ctx, "grey"), light = image_type_is_light(type);
     struct image_write_options o = {
         .type = type,
         .dither = dither_of(ctx),
         .bits = bits_of(ctx, type, grey),
         .alpha = option_flag(ctx, "alpha"),
-        .grey = grey && type != IMAGE_EXR,
-        .compression = compression > 9 ? 9 : compression,
-        .transfer = option_transfer(
-            ctx, image->unmanaged && type == IMAGE_EXR ? "display-gamma" : "file-gamma"),
+        .grey = grey && !light,
+        .compression = (int)option_number(ctx, "compression"),
+        .transfer = option_transfer(ctx, image->unmanaged && light ? "display-gamma"
+                                                                   : "file-gamma"),
         .working = image->working,
         .unmanaged = image->unmanaged,
         .metadata = {keys, texts, 1},
@@ -102,7 +110,7 @@ enum lambert_status lambert_image_read(struct lambert_context *ctx, const char *
         free(image);
         return context_fail(ctx, LAMBERT_ERROR_INPUT, "%s: %s", path, error);
     }
-    image->unmanaged = image_type_of_file(path) != IMAGE_EXR;
+    image->unmanaged = !image_type_is_light(image_type_of_file(path));
     *out = image;
     return LAMBERT_OK;
 }

@@ -41,18 +41,21 @@ static int set_named(struct cmd *c, const char *name, const char *value)
     return cmdline_set(c, lambert_option_find(name), value);
 }
 
+// POV-Ray's C is Targa with packed runs, its T plain.
+static int set_type(struct cmd *c, const struct lambert_option *o, const char *value)
+{
+    const bool packed = strcmp(value, "C") == 0 || strcmp(value, "c") == 0;
+    const int code = packed ? set_named(c, "compression", "1") : CMD_OK;
+    return code ? code : cmdline_set(c, o, value);
+}
+
 // +F[type][bits][g], the parts behind the type in any order.
 static int set_format(struct cmd *c, const char *switch_text, const char *rest, bool on)
 {
     int code = set_named(c, "write", on ? "on" : "off");
-    if (*rest && strchr("tTcCjJbBhH", *rest))
-        return cmd_fail(CMD_USAGE,
-                        "'%s': only the file types N (PNG), E (EXR) and P (PPM) "
-                        "are built",
-                        switch_text);
-    if (*rest && strchr("nNeEpPsS", *rest) && !code) {
+    if (*rest && strchr("nNeEpPsStTcCjJbBhH", *rest) && !code) {
         char type[2] = {*rest++, 0};
-        code = set_named(c, "type", type);
+        code = set_type(c, lambert_option_find("type"), type);
     }
     while (*rest && !code) {
         if (*rest == 'g' || *rest == 'G') {
@@ -134,12 +137,8 @@ int cmdline_keyword(struct cmd *c, const char *keyword, const char *value)
         return cmd_fail(CMD_USAGE, "'%s' is no INI keyword", keyword);
     if (strcmp(o->name, "include-ini") == 0)
         return ini_read(c, value, NULL, 1);
-    if (strcmp(o->name, "type") == 0 && value[0] && strchr("tTcCjJbBhH", value[0]) &&
-        !value[1])
-        return cmd_fail(CMD_USAGE,
-                        "%s=%s: only the file types N (PNG), E (EXR) and P "
-                        "(PPM) are built",
-                        keyword, value);
+    if (strcmp(o->name, "type") == 0)
+        return set_type(c, o, value);
     return cmdline_set(c, o, value);
 }
 

@@ -4,18 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
-
-static bool is_picture(const char *name)
-{
-    static const char *const extensions[] = {".png", ".exr", ".ppm", ".pgm", ".pnm"};
-    size_t n = strlen(name);
-    for (size_t i = 0; i < sizeof extensions / sizeof extensions[0]; i++)
-        if (n > 4 && strcasecmp(name + n - 4, extensions[i]) == 0)
-            return true;
-    return false;
-}
 
 static void print_result(struct cmd *c, const struct lambert_difference *d)
 {
@@ -79,9 +68,10 @@ static int compare_pictures(struct cmd *c)
 
 int cmd_compare(struct cmd *c)
 {
-    if (c->file_count == 2 && is_picture(c->file[0]) && is_picture(c->file[1]))
+    if (c->file_count == 2 && lambert_image_can_read(c->file[0]) &&
+        lambert_image_can_read(c->file[1]))
         return compare_pictures(c);
-    if (c->file_count && !is_picture(c->file[0]))
+    if (c->file_count && !lambert_image_can_read(c->file[0]))
         return compare_scenes(c);
     return cmd_fail(CMD_USAGE, "compare takes two pictures, or scenes");
 }

@@ -47,29 +47,21 @@ static bool is_special(const char *path)
     return stat(path, &st) == 0 && !S_ISREG(st.st_mode) && !S_ISDIR(st.st_mode);
 }
 
-static bool is_word(const char *word, const char *const *list)
-{
-    for (; *list; list++)
-        if (strcasecmp(word, *list) == 0)
-            return true;
-    return false;
-}
-
 // The extension of the file: that of the type when one is set, else that of the name.
 // Sets *stem to the length of the name without an extension that is the type's own.
 static const char *extension_of(struct cmd *c, const char *name, size_t *stem, int *code)
 {
-    static const char *const ours[] = {"png", "exr", "ppm", "pgm", "pnm", NULL};
-    static const char *const others[] = {"jpg", "jpeg", "tga",  "bmp",  "hdr",
-                                         "gif", "tif",  "tiff", "webp", NULL};
     const char *type = lambert_option_text(c->ctx, "type");
     const char *slash = strrchr(name, '/');
     const char *dot = strrchr(slash ? slash : name, '.');
     *stem = strlen(name);
-    if (dot && !type && is_word(dot + 1, others))
-        *code = cmd_fail(CMD_USAGE,
-                         "'%s': no such file type; there are .png, .exr and .ppm", name);
-    if (dot && (type ? strcasecmp(dot + 1, type) == 0 : is_word(dot + 1, ours))) {
+    if (dot && !type && lambert_image_can_read(name) && !lambert_image_can_write(name))
+        *code =
+            cmd_fail(CMD_USAGE,
+                     "'%s' cannot be written; there are .png, .exr, .ppm, .jpg, .tga, "
+                     ".bmp and .hdr",
+                     name);
+    if (dot && (type ? strcasecmp(dot + 1, type) == 0 : lambert_image_can_write(name))) {
         *stem = (size_t)(dot - name);
         return dot + 1;
     }

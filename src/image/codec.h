@@ -36,18 +36,34 @@ void quantizer_free(struct quantizer *q);
 void quantize_row(const struct quantizer *q, const struct image *im, int y,
                   const struct image_write_options *o, uint16_t *out);
 
-bool png_encode(const struct image *im, const struct image_write_options *o,
-                struct byte_buffer *out, struct codec_error e);
-bool ppm_encode(const struct image *im, const struct image_write_options *o,
-                struct byte_buffer *out, struct codec_error e);
-bool exr_encode(const struct image *im, const struct image_write_options *o,
-                struct byte_buffer *out, struct codec_error e);
+// The rows of an integer file, quantized one after the other from the top (dithering
+// hands errors on).
+struct sample_rows {
+    const struct image *im;
+    struct image_write_options o;
+    struct quantizer *quantizer;
+    size_t count; // samples in a row
+    uint16_t *samples;
+    uint8_t *bytes;
+};
+bool sample_rows_begin(struct sample_rows *r, const struct image *im,
+                       const struct image_write_options *o); // false: out of memory
+void sample_rows_end(struct sample_rows *r);
+// Row y as bytes, two a sample, high byte first, when it has more than 8 bits; samples
+// are moved up by `shift` bits.
+const uint8_t *sample_rows_bytes(struct sample_rows *r, int y, int shift);
+// The same with blue first, for 8 bits.
+const uint8_t *sample_rows_bgr(struct sample_rows *r, int y);
 
-bool png_decode(struct image *im, const uint8_t *data, size_t size, struct transfer t,
-                struct codec_error e);
-bool ppm_decode(struct image *im, const uint8_t *data, size_t size, struct transfer t,
-                struct codec_error e);
-bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec_error e);
+// The picture as linear light of three or four channels, to be freed; false: no memory.
+bool image_linear(struct image *to, const struct image *im,
+                  const struct image_write_options *o, int channels);
+
+// One writer per file type (writers.def).
+typedef bool image_encoder(const struct image *im, const struct image_write_options *o,
+                           struct byte_buffer *out, struct codec_error e);
+image_encoder png_encode, ppm_encode, exr_encode, jpeg_encode, tga_encode, bmp_encode,
+    hdr_encode;
 
 enum image_type image_type_of_bytes(const uint8_t *data, size_t size);
 // The whole file, to be freed.

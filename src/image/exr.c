@@ -37,7 +37,10 @@ static exr_context_initializer_t context_initializer(struct memory_file *m)
 }
 
 // Of a file that is written: R, G, B and A in this order.
-static int channel_index(const char *name) { return (int)(strchr("RGBA", name[0]) - "RGBA"); }
+static int channel_index(const char *name)
+{
+    return (int)(strchr("RGBA", name[0]) - "RGBA");
+}
 
 static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct image *im,
                          int y)
@@ -114,33 +117,11 @@ static exr_result_t write_chunks(exr_context_t f, int part, const struct image *
     return r;
 }
 
-// The picture as linear light, with as many channels as are written.
-static bool linear_copy(struct image *to, const struct image *im,
-                        const struct image_write_options *o)
-{
-    struct transfer t = o->unmanaged ? o->transfer : o->working;
-    if (!image_init(to, im->width, im->height, o->alpha ? 4 : 3))
-        return false;
-    for (int y = 0; y < im->height; y++) {
-        for (int x = 0; x < im->width; x++) {
-            const float *from = image_at(im, x, y);
-            float *p = image_at(to, x, y);
-            for (int k = 0; k < 3; k++) {
-                float v = from[im->channels >= 3 ? k : 0];
-                p[k] = t.kind == TRANSFER_NONE ? v : (float)transfer_decode(t, (double)v);
-            }
-            if (o->alpha)
-                p[3] = im->channels == 4 ? from[3] : 1;
-        }
-    }
-    return true;
-}
-
 bool exr_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e)
 {
     struct image linear;
-    if (!linear_copy(&linear, im, o))
+    if (!image_linear(&linear, im, o, o->alpha ? 4 : 3))
         return codec_fail(e, "out of memory");
     struct memory_file m = {.out = out};
     exr_context_initializer_t init = context_initializer(&m);

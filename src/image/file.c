@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -125,23 +126,83 @@ bool file_write(const char *path, const struct byte_buffer *b, struct codec_erro
     return ok;
 }
 
+static const struct writer {
+    enum image_type type;
+    const char *word, *letters, *more;
+    bool light;
+    image_encoder *encode;
+} writers[] = {
+#define WRITER(type, word, letters, more, light, encode)                                 \
+    {type, word, letters, more, light, encode},
+#include "image/writers.def"
+#undef WRITER
+};
+enum { WRITERS = sizeof writers / sizeof writers[0] };
+
+static const struct writer *writer_of(enum image_type type)
+{
+    for (int i = 0; i < WRITERS; i++)
+        if (writers[i].type == type)
+            return &writers[i];
+    return NULL;
+}
+
 bool image_write(const struct image *im, const char *path,
                  const struct image_write_options *options, char *error,
                  size_t error_size)
 {
     struct codec_error e = {error, error_size};
     struct byte_buffer bytes = {0};
-    bool ok = false;
-    switch (options->type) {
-    case IMAGE_PNG: ok = png_encode(im, options, &bytes, e); break;
-    case IMAGE_PPM: ok = ppm_encode(im, options, &bytes, e); break;
-    case IMAGE_EXR: ok = exr_encode(im, options, &bytes, e); break;
-    default: codec_fail(e, "no such file type"); break;
-    }
+    const struct writer *writer = writer_of(options->type);
+    bool ok = writer ? writer->encode(im, options, &bytes, e)
+                     : codec_fail(e, "no such file type");
     if (ok)
         ok = file_write(path, &bytes, e);
     free(bytes.data);
     return ok;
+}
+
+enum image_type image_type_of_word(const char *word)
+{
+    for (int i = 0; i < WRITERS; i++)
+        if (strcmp(word, writers[i].word) == 0)
+            return writers[i].type;
+    return IMAGE_UNKNOWN;
+}
+
+const char *image_type_word_of_letter(char letter)
+{
+    for (int i = 0; i < WRITERS; i++)
+        if (letter && strchr(writers[i].letters, letter & ~0x20))
+            return writers[i].word;
+    return NULL;
+}
+
+bool image_type_is_light(enum image_type type)
+{
+    const struct writer *writer = writer_of(type);
+    return writer && writer->light;
+}
+
+static bool same_word(const char *a, const char *b, size_t n)
+{
+    return strlen(b) == n && strncasecmp(a, b, n) == 0;
+}
+
+enum image_type image_type_of(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (int i = 0; dot && i < WRITERS; i++) {
+        if (same_word(writers[i].word, dot + 1, strlen(writers[i].word)))
+            return writers[i].type;
+        for (const char *at = writers[i].more; *at;) {
+            const size_t n = strcspn(at, " ");
+            if (same_word(at, dot + 1, n))
+                return writers[i].type;
+            at += n + (at[n] == ' ');
+        }
+    }
+    return IMAGE_UNKNOWN;
 }
 
 bool file_bytes(const char *path, struct byte_buffer *b, struct codec_error e)
@@ -187,7 +248,7 @@ enum image_type image_type_of_bytes(const uint8_t *data, size_t size)
 
 enum image_type image_type_of_file(const char *path)
 {
-    uint8_t start[8];
+    uint8_t start[16];
     FILE *f = fopen(path, "rb");
     size_t n = f ? fread(start, 1, sizeof start, f) : 0;
     if (f)
@@ -195,20 +256,44 @@ enum image_type image_type_of_file(const char *path)
     return image_type_of_bytes(start, n);
 }
 
+// Colours of integer files are plain; pictures in memory are premultiplied.
+static bool image_of_texels(struct image *im, const struct texels *t,
+                            struct transfer transfer)
+{
+    static const int place[5][4] = {
+        [1] = {0, 0, 0, -1}, [2] = {0, 0, 0, 1}, [3] = {0, 1, 2, -1}, [4] = {0, 1, 2, 3}};
+    const bool alpha = t->indexed ? t->palette_alpha : t->channels % 2 == 0;
+    if (!image_init(im, t->width, t->height, alpha ? 4 : 3))
+        return false;
+    for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < t->width; x++) {
+            float *p = image_at(im, x, y);
+            for (int k = 0; k < im->channels; k++)
+                p[k] = t->indexed ? (float)(t->palette[texels_index(t, x, y)][k] / 255.0)
+                                  : (float)(texels_raw(t, x, y, place[t->channels][k]) /
+                                            (double)t->max);
+            for (int k = 0; k < 3; k++) {
+                if (t->format != TEXEL_F32)
+                    p[k] = (float)transfer_decode(transfer, (double)p[k]);
+                if (alpha && !t->premultiplied)
+                    p[k] *= p[3];
+            }
+        }
+    return true;
+}
+
 bool image_read(struct image *im, const char *path, struct transfer transfer, char *error,
                 size_t error_size)
 {
     struct codec_error e = {error, error_size};
     struct byte_buffer b = {0};
+    struct texels t;
     *im = (struct image){0};
-    bool ok = file_bytes(path, &b, e);
+    bool ok = file_bytes(path, &b, e) &&
+              texels_decode(&t, b.data, b.size, texels_type_of(path), error, error_size);
     if (ok) {
-        switch (image_type_of_bytes(b.data, b.size)) {
-        case IMAGE_PNG: ok = png_decode(im, b.data, b.size, transfer, e); break;
-        case IMAGE_EXR: ok = exr_decode(im, b.data, b.size, e); break;
-        case IMAGE_PPM: ok = ppm_decode(im, b.data, b.size, transfer, e); break;
-        default: ok = codec_fail(e, "not a PNG, EXR or PPM file"); break;
-        }
+        ok = image_of_texels(im, &t, transfer) || codec_fail(e, "out of memory");
+        texels_free(&t);
     }
     free(b.data);
     return ok;

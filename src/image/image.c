@@ -80,26 +80,3 @@ bool transfer_equal(struct transfer a, struct transfer b)
 {
     return a.kind == b.kind && (a.kind != TRANSFER_POWER || a.gamma == b.gamma);
 }
-
-enum image_type image_type_of(const char *path)
-{
-    static const struct {
-        const char *extension;
-        enum image_type type;
-    } types[] = {{".png", IMAGE_PNG},
-                 {".exr", IMAGE_EXR},
-                 {".ppm", IMAGE_PPM},
-                 {".pgm", IMAGE_PPM},
-                 {".pnm", IMAGE_PPM}};
-    const char *dot = strrchr(path, '.');
-    if (!dot || strlen(dot) != 4)
-        return IMAGE_UNKNOWN;
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
-        bool same = true;
-        for (int k = 1; k < 4; k++) // lower case: the letters are ASCII
-            same = same && (dot[k] | 0x20) == types[i].extension[k];
-        if (same)
-            return types[i].type;
-    }
-    return IMAGE_UNKNOWN;
-}

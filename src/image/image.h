@@ -29,7 +29,7 @@ double transfer_encode(struct transfer t, double linear);
 double transfer_decode(struct transfer t, double encoded);
 bool transfer_equal(struct transfer a, struct transfer b);
 
-// The first three can be written; image/texels.h reads all.
+// image/writers.def tells which can be written; image/texels.h reads all.
 enum image_type {
     IMAGE_PNG,
     IMAGE_EXR,
@@ -44,6 +44,9 @@ enum image_type {
     IMAGE_UNKNOWN
 };
 enum image_type image_type_of(const char *path); // by extension, if it can be written
+enum image_type image_type_of_word(const char *word); // "png", "jpg", ... or UNKNOWN
+const char *image_type_word_of_letter(char letter); // POV-Ray's; NULL: none, in any case
+bool image_type_is_light(enum image_type type);     // its files hold linear light
 
 struct image_metadata {
     const char *const *key;
@@ -64,10 +67,11 @@ enum dither_method {
 struct image_write_options {
     enum dither_method dither; // of integer samples
     enum image_type type;
-    int bits;   // PNG: 8 or 16; EXR: 16 half or 32 float
-    bool alpha; // write the fourth channel
+    int bits;   // PNG, PPM: 5 to 16; EXR: 16 half or 32 float; other types have theirs
+    bool alpha; // write the fourth channel, where the type has one
     bool grey;
-    int compression;          // PNG: 1..9; 0: the library's default
+    // PNG: 1..9; JPEG: quality 2..100; TGA: not 0 packs runs. 0: the usual
+    int compression;
     struct transfer transfer; // of integer files
     // How the picture's own numbers are encoded; NONE: they are linear light. When it
     // equals `transfer`, integer files get the numbers unchanged.
@@ -84,7 +88,8 @@ struct image_write_options {
 bool image_write(const struct image *im, const char *path,
                  const struct image_write_options *options, char *error,
                  size_t error_size);
-// Reads PNG, EXR or PPM to linear floats (integer files decoded by `transfer`).
+// Reads a file of any type to floats: colours of integer files decoded by `transfer` and,
+// where there is alpha, premultiplied.
 bool image_read(struct image *im, const char *path, struct transfer transfer, char *error,
                 size_t error_size);
 enum image_type image_type_of_file(const char *path); // by its first bytes

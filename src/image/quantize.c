@@ -1,4 +1,4 @@
-// From floats to the integers of PNG and PPM files.
+// From floats to the integers of files.
 #include "image/codec.h"
 #include "image/dither.h"
 
@@ -215,4 +215,50 @@ void quantize_row(const struct quantizer *q, const struct image *im, int y,
         if (o->alpha)
             *out++ = quantize(alpha, q->max);
     }
+}
+
+// ---- rows -------------------------------------------------------------------------------
+
+bool sample_rows_begin(struct sample_rows *r, const struct image *im,
+                       const struct image_write_options *o)
+{
+    *r = (struct sample_rows){.im = im, .o = *o};
+    r->count = (size_t)im->width * (size_t)quantize_channels(o);
+    r->quantizer = quantizer_new(o, im->width);
+    r->samples = malloc(r->count * sizeof *r->samples);
+    r->bytes = malloc(r->count * 2);
+    return r->quantizer && r->samples && r->bytes;
+}
+
+void sample_rows_end(struct sample_rows *r)
+{
+    quantizer_free(r->quantizer);
+    free(r->samples);
+    free(r->bytes);
+    *r = (struct sample_rows){0};
+}
+
+const uint8_t *sample_rows_bytes(struct sample_rows *r, int y, int shift)
+{
+    quantize_row(r->quantizer, r->im, y, &r->o, r->samples);
+    uint8_t *to = r->bytes;
+    for (size_t i = 0; i < r->count; i++) {
+        const unsigned v = (unsigned)r->samples[i] << shift;
+        if (r->o.bits > 8)
+            *to++ = (uint8_t)(v >> 8);
+        *to++ = (uint8_t)v;
+    }
+    return r->bytes;
+}
+
+const uint8_t *sample_rows_bgr(struct sample_rows *r, int y)
+{
+    sample_rows_bytes(r, y, 0);
+    const size_t channels = (size_t)quantize_channels(&r->o);
+    for (size_t i = 0; channels >= 3 && i < r->count; i += channels) {
+        const uint8_t red = r->bytes[i];
+        r->bytes[i] = r->bytes[i + 2];
+        r->bytes[i + 2] = red;
+    }
+    return r->bytes;
 }

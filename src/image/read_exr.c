@@ -337,7 +337,8 @@ static bool read_opened(exr_context_t f, struct image *im, size_t size,
     return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
 }
 
-bool exr_decode(struct image *im, const uint8_t *data, size_t size, struct codec_error e)
+static bool exr_decode(struct image *im, const uint8_t *data, size_t size,
+                       struct codec_error e)
 {
     *im = (struct image){0};
     struct memory_file m = {data, size};

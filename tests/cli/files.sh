@@ -22,7 +22,7 @@ check "no scene" exits 64 "$lambert"
 check "missing scene" exits 66 "$lambert" nowhere.pov
 check "missing INI file" exits 66 "$lambert" nowhere.ini
 check "folder that is not there" exits 73 "$lambert" sphere.pov -o nowhere/x.png
-check "unknown file type" exits 64 "$lambert" sphere.pov -o x.jpg
+check "a file type that is only read" exits 64 "$lambert" sphere.pov -o x.gif
 echo 'sphere { 0, 1 pigmnt { rgb 1 } }' >bad.pov
 gcc_style() { exits 1 "$lambert" bad.pov --diagnostics=gcc && has err '^bad.pov:1:[0-9]*: error: '; }
 check "errors of the scene" gcc_style
@@ -40,6 +40,21 @@ differ() { exits 1 "$lambert" compare a.png c.png --out heat && test -s heat/hea
 check "different pictures, with a heat map" differ
 check "tolerance" exits 0 "$lambert" compare a.png c.png --tolerance 100
 check "a picture that is missing" exits 66 "$lambert" compare a.png nowhere.png
+# Every type by its letter, its name and from the name; the light of HDR is the same picture.
+types()
+{
+  for pair in N:png E:exr P:ppm J:jpg T:tga C:tga B:bmp H:hdr; do
+    letter=${pair%:*} word=${pair#*:}
+    rm -f t.* u.*
+    exits 0 "$lambert" $small sphere.pov +F$letter +Ot && test -s t.$word || return 1
+    exits 0 "$lambert" $small sphere.pov -o u.$word || return 1
+    test $letter = C || cmp t.$word u.$word || return 1
+    exits 0 "$lambert" compare a.png t.$word --tolerance 0 --threshold 25 || return 1
+    printf 'Output_File_Type=%s\nOutput_File_Name=i\n' $letter >t.ini
+    exits 0 "$lambert" $small t.ini sphere.pov && cmp i.$word t.$word || return 1
+  done
+}
+check "file types" types
 stats() { exits 0 "$lambert" $small sphere.pov --stats=json && has out '^{"v":1,.*"pixels":768,.*}$'; }
 check "counts as JSON" stats
 

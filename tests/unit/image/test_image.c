@@ -186,16 +186,18 @@ static void exr_round_trip(void **state)
 }
 
 static void check_integer(enum image_type type, const char *path, int bits, int channels,
-                          bool grey)
+                          bool grey, int compression)
 {
     struct image im = sample(channels), back;
     struct image_write_options o = options(type, bits);
+    const bool alpha = channels == 4 && (type == IMAGE_PNG || !grey);
     o.alpha = channels == 4;
+    o.compression = compression;
     o.grey = grey;
     o.transfer = none;
     write_file(&im, path, o);
     read_file(&back, path, none);
-    assert_int_equal(back.channels, type == IMAGE_PNG ? channels : 3);
+    assert_int_equal(back.channels, alpha ? 4 : 3);
     double step = 1.0 / ((1 << bits) - 1);
     for (int y = 0; y < 23; y++)
         for (int x = 0; x < 37; x++) {
@@ -218,19 +220,108 @@ static void integer_round_trips(void **state)
     (void)state;
     for (int bits = 8; bits <= 16; bits += 8)
         for (int grey = 0; grey < 2; grey++) {
-            check_integer(IMAGE_PNG, "t_image.png", bits, 3, grey);
-            check_integer(IMAGE_PNG, "t_image.png", bits, 4, grey);
-            check_integer(IMAGE_PPM, "t_image.ppm", bits, 3, grey);
+            check_integer(IMAGE_PNG, "t_image.png", bits, 3, grey, 0);
+            check_integer(IMAGE_PNG, "t_image.png", bits, 4, grey, 9);
+            check_integer(IMAGE_PPM, "t_image.ppm", bits, 3, grey, 0);
         }
+    for (int channels = 3; channels <= 4; channels++)
+        for (int grey = 0; grey < 2; grey++) {
+            check_integer(IMAGE_BMP, "t_image.bmp", 8, channels, grey, 0);
+            check_integer(IMAGE_TGA, "t_image.tga", 8, channels, grey, 0);
+            check_integer(IMAGE_TGA, "t_image.tga", 8, channels, grey, 1);
+        }
+}
+
+// Rows of every mixture of runs and differences, in widths around the longest run.
+static void packed_runs(void **state)
+{
+    (void)state;
+    uint32_t s = 7;
+    for (int width = 1; width < 400; width += width < 20 ? 1 : 37) {
+        struct image im, back;
+        assert_true(image_init(&im, width, 5, 3));
+        for (int i = 0; i < width * 5; i++) {
+            s = s * 1664525 + 1013904223;
+            const bool repeat = i > 0 && s >> 29 < (uint32_t)(i / width) * 2;
+            for (int k = 0; k < 3; k++)
+                im.pixel[3 * i + k] =
+                    repeat ? im.pixel[3 * i + k - 3] : (float)(s >> (8 + k) & 7) / 8;
+        }
+        struct image_write_options o = options(IMAGE_TGA, 8);
+        o.transfer = none;
+        o.compression = 1;
+        write_file(&im, "t_runs.tga", o);
+        read_file(&back, "t_runs.tga", none);
+        for (int i = 0; i < width * 15; i++)
+            assert_near((double)back.pixel[i], (double)im.pixel[i], 0.5 / 255 + 1e-6);
+        image_free(&back);
+        write_file(&im, "t_runs.hdr", options(IMAGE_HDR, 8));
+        read_file(&back, "t_runs.hdr", none);
+        for (int i = 0; i < width * 5; i++) {
+            const float *p = im.pixel + 3 * i;
+            const double most = (double)fmaxf(p[0], fmaxf(p[1], p[2]));
+            for (int k = 0; k < 3; k++)
+                assert_near((double)back.pixel[3 * i + k], (double)p[k], most / 256);
+        }
+        image_free(&back);
+        image_free(&im);
+    }
+    unlink("t_runs.tga");
+    unlink("t_runs.hdr");
+}
+
+// Light far outside of 0..1 keeps its size; what is no light is none.
+static void hdr_extremes(void **state)
+{
+    (void)state;
+    const float in[] = {1e30f, 1e-30f, 3e5f, -1, NAN, 0, 1e-38f, 0, 0, 0.5f, 0.5f, 0.5f};
+    struct image im, back;
+    assert_true(image_init(&im, 4, 1, 3));
+    memcpy(im.pixel, in, sizeof in);
+    write_file(&im, "t_image.hdr", options(IMAGE_HDR, 8));
+    read_file(&back, "t_image.hdr", none);
+    assert_near((double)back.pixel[0], 1e30, 1e30 / 256);
+    assert_near((double)back.pixel[9], 0.5, 0.5 / 256);
+    for (int i = 1; i < 9; i++)
+        assert_near((double)back.pixel[i], 0, i < 3 ? 1e30 / 256 : 1e-37);
+    image_free(&im);
+    image_free(&back);
+    unlink("t_image.hdr");
+}
+
+// JPEG loses something: little at the usual quality, more at a low one.
+static void jpeg_quality(void **state)
+{
+    (void)state;
+    struct image im = sample(3), back;
+    double error[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        struct image_write_options o = options(IMAGE_JPEG, 8);
+        o.compression = i ? 20 : 0;
+        o.transfer = none;
+        write_file(&im, "t_image.jpg", o);
+        read_file(&back, "t_image.jpg", none);
+        assert_int_equal(back.width, im.width);
+        for (int k = 0; k < im.width * im.height * 3; k++) {
+            const double d = (double)back.pixel[k] - fmax((double)im.pixel[k], 0);
+            error[i] += d * d / (im.width * im.height * 3);
+        }
+        image_free(&back);
+    }
+    assert_true(sqrt(error[0]) < 0.03);
+    assert_true(error[1] > 4 * error[0]);
+    image_free(&im);
+    unlink("t_image.jpg");
 }
 
 static void same_picture_same_bytes(void **state)
 {
     (void)state;
-    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM};
+    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM, IMAGE_JPEG,
+                                            IMAGE_TGA, IMAGE_BMP, IMAGE_HDR};
     static const char *const key[] = {"Software"}, *const text[] = {"lambert"};
     struct image im = sample(4);
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
         struct image_write_options o = options(types[i], 8);
         o.alpha = true;
         o.metadata = (struct image_metadata){key, text, 1};
@@ -276,10 +367,13 @@ static void old_file_survives_failure(void **state)
 static void damaged_files_are_refused(void **state)
 {
     (void)state;
-    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM};
+    static const enum image_type types[] = {IMAGE_PNG, IMAGE_EXR, IMAGE_PPM, IMAGE_JPEG,
+                                            IMAGE_TGA, IMAGE_BMP, IMAGE_HDR};
     struct image im = sample(3), back;
     char error[256];
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        if (types[i] == IMAGE_TGA)
+            continue; // its type is in its name only; see packed_runs
         size_t n;
         write_file(&im, "t_cut", options(types[i], 8));
         char *bytes = contents("t_cut", &n);
@@ -303,7 +397,15 @@ static void types_by_name(void **state)
     assert_int_equal(image_type_of("a.png"), IMAGE_PNG);
     assert_int_equal(image_type_of("dir.exr/a.EXR"), IMAGE_EXR);
     assert_int_equal(image_type_of("a.ppm"), IMAGE_PPM);
-    assert_int_equal(image_type_of("a.jpeg"), IMAGE_UNKNOWN);
+    assert_int_equal(image_type_of("a.jpeg"), IMAGE_JPEG);
+    assert_int_equal(image_type_of("a.Tga"), IMAGE_TGA);
+    assert_int_equal(image_type_of("a.tiff"), IMAGE_UNKNOWN);
+    assert_int_equal(image_type_of("a.jp"), IMAGE_UNKNOWN);
+    assert_string_equal(image_type_word_of_letter('c'), "tga");
+    assert_null(image_type_word_of_letter('x'));
+    assert_int_equal(image_type_of_word("bmp"), IMAGE_BMP);
+    assert_int_equal(image_type_of_word("gif"), IMAGE_UNKNOWN);
+    assert_true(image_type_is_light(IMAGE_HDR) && !image_type_is_light(IMAGE_TGA));
     assert_int_equal(image_type_of("png"), IMAGE_UNKNOWN);
 }
 
@@ -317,6 +419,9 @@ int main(void)
         cmocka_unit_test(exr_round_trip),
         cmocka_unit_test(exr_of_few_pixels),
         cmocka_unit_test(integer_round_trips),
+        cmocka_unit_test(packed_runs),
+        cmocka_unit_test(hdr_extremes),
+        cmocka_unit_test(jpeg_quality),
         cmocka_unit_test(same_picture_same_bytes),
         cmocka_unit_test(old_file_survives_failure),
         cmocka_unit_test(damaged_files_are_refused),
