@@ -10,6 +10,7 @@
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 #include "scene/pattern_math.h"
+#include "scene/tape_kernel.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
@@ -463,6 +464,13 @@ static void cycloidals(const double v[8], double out[8])
 
 static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
 
-const struct noise_kernels PASTE(noise_kernels_, ISA) = {
-    TEXT(ISA),  value, vector, values, vectors, nearest, PASTE(noise_bounds_, ISA),
-    cycloidals, powers};
+const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
+                                                         value,
+                                                         vector,
+                                                         values,
+                                                         vectors,
+                                                         nearest,
+                                                         PASTE(noise_bounds_, ISA),
+                                                         cycloidals,
+                                                         powers,
+                                                         &PASTE(tape_kernels_, ISA)};

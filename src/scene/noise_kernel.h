@@ -23,6 +23,7 @@ typedef void noise_bounds_kernel(const double lo[3][8], const double hi[3][8],
                                  int generator, struct noise_bounds8 *out);
 noise_bounds_kernel noise_bounds_base, noise_bounds_avx2, noise_bounds_avx512;
 
+struct tape_kernels; // scene/tape_kernel.h
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -42,6 +43,7 @@ struct noise_kernels {
     // cycloidal_quick of scene/pattern_math.h, and quick_pow.
     void (*cycloidal)(const double v[8], double out[8]);
     void (*power)(const double x[8], double y, double out[8]);
+    const struct tape_kernels *tapes; // functions of the same instruction set
 };
 
 extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,

@@ -397,7 +397,7 @@ struct finish {
     uint16_t *free; // registers in nobody's use
     uint32_t free_count, registers, steps, list;
     int depth;
-    bool opaque;
+    bool opaque, calls;
 };
 
 static uint32_t operands(const struct tape_node *n)
@@ -522,6 +522,7 @@ static void look_into(struct finish *f, const struct tape_node *n)
     if (n->op == TAPE_CALL || n->op == TAPE_SUM || n->op == TAPE_PRODUCT) {
         const struct tape *t = n->callee;
         f->opaque |= t->opaque;
+        f->calls = true;
         if (t->depth >= f->depth)
             f->depth = t->depth + 1;
     }
@@ -604,6 +605,7 @@ struct tape *tape_finish(struct tape_builder *b, struct arena *a, int arguments,
     t->register_count = f.registers;
     t->depth = f.depth;
     t->opaque = f.opaque;
+    t->calls = f.calls;
     for (int i = 0; i < width; i++)
         t->result[i] = f.reg[t->node_result[i]];
     return t;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "math/lanes.h"
+#include "math/trig_lanes.h"
 #include "scene/noise_kernel.h"
 #include "scene/range_lanes.h"
 #include "scene/tape_steps.h"
@@ -532,7 +533,9 @@ LANES_INLINE struct real8 chosen(struct real8 a, struct real8 b, struct real8 c,
     return r8_select(r8_lt(a, zero), b, r8_select(r8_eq(a, zero), c, d));
 }
 
-static void values(const struct tape *t, const double at[3][8], double out[8])
+// exact: the bits of tape_run.
+LANES_INLINE void run_values(const struct tape *t, bool exact, const double at[3][8],
+                             double out[8])
 {
     struct real8 r[TAPE_LANE_REGISTERS_MAX];
     for (uint32_t i = 0; i < t->constant_count; i++)
@@ -547,13 +550,15 @@ static void values(const struct tape *t, const double at[3][8], double out[8])
         case TAPE_ABS: r[s->to] = r8_abs(a); break;
         case TAPE_LENGTH:
         case TAPE_SQRT: r[s->to] = r8_sqrt(a); break;
-        case TAPE_SIN:
-        case TAPE_COS: r[s->to] = wave_value((enum tape_op)s->op, a); break;
+        case TAPE_SIN: r[s->to] = exact ? det_sin8(a) : wave_value(TAPE_SIN, a); break;
+        case TAPE_COS: r[s->to] = exact ? det_cos8(a) : wave_value(TAPE_COS, a); break;
         case TAPE_ADD: r[s->to] = r8_add(a, b); break;
         case TAPE_SUBTRACT: r[s->to] = r8_sub(a, b); break;
         case TAPE_MULTIPLY: r[s->to] = r8_mul(a, b); break;
         case TAPE_DIVIDE: r[s->to] = r8_div(a, b); break;
-        case TAPE_ATAN2: r[s->to] = quick_atan2_8(a, b); break;
+        case TAPE_ATAN2:
+            r[s->to] = exact ? value_by_lanes(TAPE_ATAN2, a, b) : quick_atan2_8(a, b);
+            break;
         case TAPE_MOD: r[s->to] = quick_fmod8(a, b); break;
         case TAPE_FLOOR: r[s->to] = r8_floor(a); break;
         case TAPE_LESS: r[s->to] = one_where(r8_lt(a, b)); break;
@@ -574,4 +579,14 @@ static void values(const struct tape *t, const double at[3][8], double out[8])
     r8_store(out, r[t->result[0]]);
 }
 
-const struct tape_kernels PASTE(tape_kernels_, ISA) = {values, bounds, along};
+static void values(const struct tape *t, const double at[3][8], double out[8])
+{
+    run_values(t, false, at, out);
+}
+
+static void exact(const struct tape *t, const double at[3][8], double out[8])
+{
+    run_values(t, true, at, out);
+}
+
+const struct tape_kernels PASTE(tape_kernels_, ISA) = {values, exact, bounds, along};

@@ -9,6 +9,8 @@ struct tape_kernels {
     // out[0] at eight points: within the bounds that tape_bounds gives there, not always
     // the bits of tape_run (sines are computed to a few roundings).
     void (*values)(const struct tape *t, const double at[3][8], double out[8]);
+    // The bits of tape_run, of tapes that fit and call no others: tape_is_flat.
+    void (*exact)(const struct tape *t, const double at[3][8], double out[8]);
     // As tape_bounds_packet.
     void (*bounds)(const struct tape *t, const struct tape_boxes *in, bool slopes,
                    struct tape_slopes *out);
@@ -23,6 +25,7 @@ extern const struct tape_kernels tape_kernels_base, tape_kernels_avx2,
 
 enum { TAPE_LANE_REGISTERS_MAX = 256 };
 bool tape_has_lanes(const struct tape *t);
+bool tape_is_flat(const struct tape *t);
 
 // Whether the machine can run what the build has for it.
 const struct tape_kernels *tape_kernels_best(void);

@@ -7,6 +7,8 @@ bool tape_has_lanes(const struct tape *t)
     return t->register_count <= TAPE_LANE_REGISTERS_MAX && t->arguments <= 3;
 }
 
+bool tape_is_flat(const struct tape *t) { return tape_has_lanes(t) && !t->calls; }
+
 const struct tape_kernels *tape_kernels_best(void)
 {
 #ifdef LAMBERT_X86

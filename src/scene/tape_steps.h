@@ -51,6 +51,7 @@ struct tape {
     uint16_t result[TAPE_WIDTH_MAX];
     int arguments, width, depth; // depth: of calls inside calls
     bool opaque;
+    bool calls; // other tapes
     uint32_t node_count, node_result[TAPE_WIDTH_MAX];
     const struct tape_node *node;
 };

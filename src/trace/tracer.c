@@ -44,6 +44,8 @@ struct tracer *tracer_new(const struct job *job)
             must_calloc(job->photons->gather.max, sizeof *t->near_photons);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
+    else if (job->quick_camera)
+        t->eye_inside = must_calloc(BATCH_SIZE, sizeof *t->eye_inside);
     return t;
 }
 
@@ -61,6 +63,7 @@ void tracer_free(struct tracer *t)
     simple_end(t);
     media_end(t);
     free(t->near_photons);
+    free(t->eye_inside);
     paint_end(t);
     hit_batch_free(t->hit);
     free(t->sum);
@@ -165,6 +168,10 @@ const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *posit
     if (job->quick_camera) {
         begin(t, count);
         job->kernels->camera(job, position, count, t->rays);
+        for (uint32_t i = 0; i < count && t->eye_inside; i++)
+            t->eye_inside[i] =
+                inside_at(t->arena, job->world,
+                          vec3(t->rays->o[0][i], t->rays->o[1][i], t->rays->o[2][i]));
         wave_run_camera(t, position, count);
     } else {
         samples_one_by_one(t, position, count);

@@ -157,6 +157,8 @@ struct tracer {
     uint16_t first_level;
     struct arena *camera_arena;
     const struct inside *camera_inside; // of a camera with one eye
+    const struct inside **eye_inside;   // by slot, of one without whose rays are made
+                                        // eight at a time; else NULL
     uint64_t samples;
 };
 

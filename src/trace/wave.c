@@ -128,7 +128,7 @@ struct path wave_path(const struct tracer *t, uint32_t slot)
     return (struct path){
         .o = {t->rays->o[0][slot], t->rays->o[1][slot], t->rays->o[2][slot]},
         .d = {t->rays->d[0][slot], t->rays->d[1][slot], t->rays->d[2][slot]},
-        .inside = t->camera_inside,
+        .inside = wave_inside(t, slot),
         .through = {1, 1, 1},
         .through_t = 1,
         .weight = 1,
@@ -139,7 +139,9 @@ struct path wave_path(const struct tracer *t, uint32_t slot)
 const struct inside *wave_inside(const struct tracer *t, uint32_t slot)
 {
     const struct wavefront *w = &t->wave;
-    return w->path ? w->path[w->order[slot]].inside : t->camera_inside;
+    return w->path         ? w->path[w->order[slot]].inside
+           : t->eye_inside ? t->eye_inside[slot]
+                           : t->camera_inside;
 }
 
 // Rays that leave in similar directions side by side, so that packets stay together.

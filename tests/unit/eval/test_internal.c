@@ -6,7 +6,9 @@
 
 #include "base/arena.h"
 #include "eval/internal.h"
+#include "scene/noise_kernel.h"
 #include "scene/pattern.h"
+#include "scene/tape_kernel.h"
 
 static const struct {
     int number;
@@ -129,16 +131,32 @@ static bool holds(struct interval a, double v)
     return interval_has(a, v) || (isnan(v) && interval_is_whole(a));
 }
 
-// Eight points at once are the same bits as one.
+static void check_eight(const struct tape *t, const char *name,
+                        const double (*in)[TAPE_LANES], const double out[TAPE_LANES])
+{
+    for (int l = 0; l < TAPE_LANES; l++) {
+        double one;
+        tape_run(t, (const double[]){in[0][l], in[1][l], in[2][l]}, &one);
+        if (memcmp(&one, &out[l], sizeof one) && !(isnan(one) && isnan(out[l])))
+            fail_msg("%s(%a, %a, %a): eight points give %.17g, one %.17g", name, in[0][l],
+                     in[1][l], in[2][l], out[l], one);
+    }
+}
+
+// Eight points at once are the same bits as one, with every instruction set that is there.
 static void check_packet(const struct tape *t, const char *name,
                          const double (*in)[TAPE_LANES])
 {
-    double out[1][TAPE_LANES], one;
+    static const char *const isa[] = {"base", "avx2", "avx512"};
+    double out[1][TAPE_LANES];
     tape_run_packet(t, in, out);
-    for (int l = 0; l < TAPE_LANES; l++) {
-        tape_run(t, (const double[]){in[0][l], in[1][l], in[2][l]}, &one);
-        if (memcmp(&one, &out[0][l], sizeof one) && !(isnan(one) && isnan(out[0][l])))
-            fail_msg("%s: eight points give %.17g, one %.17g", name, out[0][l], one);
+    check_eight(t, name, in, out[0]);
+    for (int i = 0; i < 3 && tape_is_flat(t); i++) {
+        const struct noise_kernels *k = noise_kernels_find(isa[i]);
+        if (!k)
+            continue;
+        k->tapes->exact(t, in, out[0]);
+        check_eight(t, name, in, out[0]);
     }
 }
 
@@ -215,6 +233,36 @@ static void internals_keep_promises(void **state)
         char name[64];
         snprintf(name, sizeof name, "f_%s", internal_function(rows[i].number)->name);
         check_tape(special(a, i), name, 1, 1000 + i);
+    }
+    arena_free(a);
+}
+
+// Sines and cosines of what is tiny, huge, next to a quarter turn, or no number.
+static void waves_are_the_same_in_lanes(void **state)
+{
+    (void)state;
+    static const double quarter = 1.57079632679489661923;
+    static const double odd[] = {
+        0.0, -0.0, 0x1p20, 0x1.0000000000001p20, 1e300, -1e300, 5e-324, HUGE_VAL, NAN};
+    struct arena *a = arena_new(1 << 16);
+    const enum tape_op op[] = {TAPE_SIN, TAPE_COS};
+    uint64_t seed = 5;
+    for (int i = 0; i < 2; i++) {
+        struct tape_builder *b = tape_builder_new(a);
+        const uint32_t out = tape_unary(b, op[i], tape_argument(b, 0));
+        const struct tape *t = tape_finish(b, a, 3, &out, 1);
+        for (int n = 0; n < 5000; n++) {
+            double in[3][TAPE_LANES] = {{0}};
+            for (int l = 0; l < TAPE_LANES; l++) {
+                const double u = 2 * uniform(&seed) - 1;
+                const double turns = floor(exp2(22 * uniform(&seed)));
+                in[0][l] = n % 4 == 0   ? odd[(n + l) % 9]
+                           : n % 4 == 1 ? u * exp2(60 * uniform(&seed) - 30)
+                           : n % 4 == 2 ? quarter * turns * (1 + u * 0x1p-50)
+                                        : 20 * u;
+            }
+            check_packet(t, i ? "cos" : "sin", (const double(*)[TAPE_LANES])in);
+        }
     }
     arena_free(a);
 }
@@ -401,6 +449,7 @@ int main(void)
         cmocka_unit_test(check_numbers),
         cmocka_unit_test(internals_keep_promises),
         cmocka_unit_test(operations_keep_promises),
+        cmocka_unit_test(waves_are_the_same_in_lanes),
         cmocka_unit_test(code_is_shared),
         cmocka_unit_test(code_does_not_explode),
         cmocka_unit_test(loops_count),
