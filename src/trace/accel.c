@@ -168,7 +168,7 @@ static bool is_product(const struct accel *accel, const struct world_object *o)
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
         if (!packet_is_product_shape(accel->leaf_shape[i]))
             return false;
-    return o->leaf_count < LARGE_OBJECT;
+    return o->leaf_count <= PRODUCT_LEAVES;
 }
 
 static bool is_sponge(const struct world *w, const struct world_object *o)
@@ -194,10 +194,10 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
         const struct world_object *o = &w->object[i];
         if (!o->is_csg && !o->bound_count && w->leaf[o->first_leaf].drawn)
             accel->object_shape[i] = accel->leaf_shape[o->first_leaf];
-        else if (is_intersection(w, o) && is_product(accel, o))
-            accel->object_shape[i] = PACKET_PRODUCT;
         else if (is_intersection(w, o) && is_sponge(w, o))
             accel->object_shape[i] = PACKET_SPONGE;
+        else if (is_intersection(w, o) && is_product(accel, o))
+            accel->object_shape[i] = PACKET_PRODUCT;
     }
 }
 

@@ -83,7 +83,10 @@ struct accel {
     uint32_t nodes_max, leaves_max; // of one object: what scratch must hold
 };
 
-enum { LARGE_OBJECT = 12 }; // leaves from which an object gets a tree of its own
+enum {
+    LARGE_OBJECT = 12,  // leaves from which an object gets a tree of its own
+    PRODUCT_LEAVES = 32 // the most of a PACKET_PRODUCT
+};
 
 static inline const struct accel_large *
 accel_large(const struct accel *a, const struct world_object *o, uint32_t object)

@@ -277,28 +277,39 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
     return won;
 }
 
-static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
+// The spans of the leaves that are complements, or of those that are not; returns the lanes
+// that can still meet the object.
+static unsigned exact_leaves(struct eight *e, struct product *x, bool complements,
+                             const struct world_object *o, unsigned bits)
 {
-    struct packet *p = e->p;
-    const struct world *w = p->w;
-    const struct world_object *o = &w->object[object];
-    bool complement[PRODUCT_LEAVES];
-    struct product x;
-    product_begin(&x, e->t_min, e->t_max);
-    for (uint32_t i = 0; i < o->leaf_count; i++) {
+    const struct world *w = e->p->w;
+    for (uint32_t i = 0; i < o->leaf_count && bits; i++) {
         const struct leaf *l = &w->leaf[o->first_leaf + i];
+        if (l->inverted != complements)
+            continue;
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
         struct mask8 odd;
         const struct span8 s = leaf_span(e, l, shape, &odd);
-        x.unsure = m8_or(x.unsure, odd);
-        complement[i] = l->inverted;
-        bits &= product_add(&x, l->inverted, shape != PACKET_PLANE, &s);
-        if (!bits)
-            return 0;
+        x->unsure = m8_or(x->unsure, odd);
+        bits &= product_add(x, i, l->inverted, shape != PACKET_PLANE, &s);
     }
+    return bits;
+}
+
+static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world_object *o = &p->w->object[object];
+    struct product x;
+    product_begin(&x, e->t_min, e->t_max);
+    bits = exact_leaves(e, &x, false, o, bits);
+    product_solids_end(&x);
+    bits = exact_leaves(e, &x, true, o, bits);
+    if (!bits)
+        return 0;
     struct real8 t, at;
     unsigned unsure;
-    const unsigned found = product_first(&x, complement, bits, &t, &at, &unsure);
+    const unsigned found = product_first(&x, bits, &t, &at, &unsure);
     const unsigned won = take_leaves(e, found, t, at, object);
     return unsure ? won | packet_try_object(p, unsure, object) : won;
 }

@@ -13,15 +13,14 @@
 #include "trace/accel.h"
 #include "trace/packet_shapes.h"
 
-enum { PRODUCT_LEAVES = LARGE_OBJECT };
-
 struct product_leaf {
     struct real8 in, out, in_e, out_e;
+    struct real8 in_at, out_at; // as in_at and out_at of product
 };
 
 struct product {
     struct product_leaf leaf[PRODUCT_LEAVES];
-    uint32_t count;
+    uint32_t count, solids; // the first are no complements
     struct real8 t_min, t_max;
     // The span of the leaves that are no complements, and where it begins and ends:
     // 2 i for the entry of leaf i, 2 i + 1 for its exit, -1 for t_min.
@@ -33,7 +32,7 @@ struct product {
 // Leaves are not set to zero: most products have few of them.
 LANES_INLINE void product_begin(struct product *p, struct real8 t_min, struct real8 t_max)
 {
-    p->count = 0;
+    p->count = p->solids = 0;
     p->t_min = t_min;
     p->t_max = t_max;
     p->in = r8_set(-INFINITY);
@@ -43,12 +42,14 @@ LANES_INLINE void product_begin(struct product *p, struct real8 t_min, struct re
     p->unsure = m8_of(0);
 }
 
-// A leaf's span joins; returns the lanes that can still meet the object.
-LANES_INLINE unsigned product_add(struct product *p, bool complement, bool bounded,
-                                  const struct span8 *x)
+// The span of leaf i joins, those of complements last; returns the lanes that can still
+// meet the object.
+LANES_INLINE unsigned product_add(struct product *p, uint32_t i, bool complement,
+                                  bool bounded, const struct span8 *x)
 {
-    const uint32_t i = p->count++;
-    struct product_leaf *l = &p->leaf[i];
+    struct product_leaf *l = &p->leaf[p->count++];
+    l->in_at = r8_set(2 * i);
+    l->out_at = r8_set(2 * i + 1);
     const struct real8 none = r8_set(0);
     // A line that meets no boundary is outside, but of an unbounded leaf: see below.
     const double beyond = bounded || complement ? INFINITY : -INFINITY;
@@ -67,23 +68,22 @@ LANES_INLINE unsigned product_add(struct product *p, bool complement, bool bound
     const struct mask8 later = r8_lt(p->in, l->in), sooner = r8_lt(l->out, p->out);
     p->in = r8_select(later, l->in, p->in);
     p->in_e = r8_select(later, l->in_e, p->in_e);
-    p->in_at = r8_select(later, r8_set(2 * i), p->in_at);
+    p->in_at = r8_select(later, l->in_at, p->in_at);
     p->out = r8_select(sooner, l->out, p->out);
     p->out_e = r8_select(sooner, l->out_e, p->out_e);
-    p->out_at = r8_select(sooner, r8_set(2 * i + 1), p->out_at);
+    p->out_at = r8_select(sooner, l->out_at, p->out_at);
     return m8_bits(r8_le(p->in, p->out));
 }
 
+LANES_INLINE void product_solids_end(struct product *p) { p->solids = p->count; }
+
 // Moves t out of the complements; lanes that begin inside stay at t_min.
-LANES_INLINE void product_advance(const struct product *p, const bool *complement,
-                                  unsigned lanes, struct real8 *t, struct real8 *e,
-                                  struct real8 *at)
+LANES_INLINE void product_advance(const struct product *p, unsigned lanes,
+                                  struct real8 *t, struct real8 *e, struct real8 *at)
 {
     for (unsigned moved = lanes; moved;) {
         moved = 0;
-        for (uint32_t i = 0; i < p->count; i++) {
-            if (!complement[i])
-                continue;
+        for (uint32_t i = p->solids; i < p->count; i++) {
             const struct product_leaf *l = &p->leaf[i];
             const struct mask8 m = m8_and(r8_lt(l->in, *t), r8_lt(*t, l->out));
             const unsigned bits = m8_bits(m) & lanes;
@@ -92,7 +92,7 @@ LANES_INLINE void product_advance(const struct product *p, const bool *complemen
             moved |= bits;
             *t = r8_select(m, l->out, *t);
             *e = r8_select(m, l->out_e, *e);
-            *at = r8_select(m, r8_set(2 * i + 1), *at);
+            *at = r8_select(m, l->out_at, *at);
         }
         moved &= m8_bits(r8_lt(*t, p->out));
     }
@@ -100,9 +100,8 @@ LANES_INLINE void product_advance(const struct product *p, const bool *complemen
 
 // The first surface of `lanes` in t, and which crossing it is in at; the lanes that have
 // one and those for which the sweep must tell.
-LANES_INLINE unsigned product_first(const struct product *p, const bool *complement,
-                                    unsigned lanes, struct real8 *t, struct real8 *at,
-                                    unsigned *unsure)
+LANES_INLINE unsigned product_first(const struct product *p, unsigned lanes,
+                                    struct real8 *t, struct real8 *at, unsigned *unsure)
 {
     lanes &= m8_bits(r8_le(p->in, p->out)); // else empty, whatever the errors
     *unsure = lanes & m8_bits(p->unsure);
@@ -110,7 +109,7 @@ LANES_INLINE unsigned product_first(const struct product *p, const bool *complem
     *t = r8_select(ahead, p->in, p->t_min);
     *at = r8_select(ahead, p->in_at, r8_set(-1));
     struct real8 e = r8_select(ahead, p->in_e, r8_set(0));
-    product_advance(p, complement, lanes, t, &e, at);
+    product_advance(p, lanes, t, &e, at);
     const struct mask8 found = r8_lt(*t, p->out);
     const struct mask8 within = m8_and(found, r8_lt(*at, r8_set(0)));
     const unsigned hit = lanes & m8_bits(found);
@@ -121,14 +120,12 @@ LANES_INLINE unsigned product_first(const struct product *p, const bool *complem
         return 0;
     if (m8_bits(within) & hit) {
         struct real8 end = p->out, end_e = p->out_e, end_at = p->out_at;
-        for (uint32_t i = 0; i < p->count; i++) {
-            if (!complement[i])
-                continue;
+        for (uint32_t i = p->solids; i < p->count; i++) {
             const struct product_leaf *l = &p->leaf[i];
             const struct mask8 m = m8_and(r8_lt(p->t_min, l->in), r8_lt(l->in, end));
             end = r8_select(m, l->in, end);
             end_e = r8_select(m, l->in_e, end_e);
-            end_at = r8_select(m, r8_set(2 * i), end_at);
+            end_at = r8_select(m, l->in_at, end_at);
         }
         *t = r8_select(within, end, *t);
         e = r8_select(within, end_e, e);
@@ -139,8 +136,8 @@ LANES_INLINE unsigned product_first(const struct product *p, const bool *complem
         const struct product_leaf *l = &p->leaf[i];
         const struct mask8 in = r8_le(r8_abs(r8_sub(l->in, *t)), r8_add(l->in_e, e));
         const struct mask8 out = r8_le(r8_abs(r8_sub(l->out, *t)), r8_add(l->out_e, e));
-        near = m8_or(near, m8_without(in, r8_eq(*at, r8_set(2 * i))));
-        near = m8_or(near, m8_without(out, r8_eq(*at, r8_set(2 * i + 1))));
+        near = m8_or(near, m8_without(in, r8_eq(*at, l->in_at)));
+        near = m8_or(near, m8_without(out, r8_eq(*at, l->out_at)));
     }
     *unsure |= hit & m8_bits(near);
     return hit & ~*unsure;

@@ -13,8 +13,9 @@
 #include "trace/packet_shapes.h"
 
 struct quick {
-    struct real8 in[LARGE_OBJECT], out[LARGE_OBJECT]; // of the leaves' spans that matter
-    struct real8 in_at[LARGE_OBJECT];                 // 2 i for leaf i; its exit: 2 i + 1
+    struct real8 in[PRODUCT_LEAVES],
+        out[PRODUCT_LEAVES];            // of the leaves' spans that matter
+    struct real8 in_at[PRODUCT_LEAVES]; // 2 i for leaf i; its exit: 2 i + 1
     uint32_t count, solids; // the first are those of leaves that are no complements
     struct real8 t_min, t_max;
     struct real8 first, last, first_at,

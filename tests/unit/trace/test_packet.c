@@ -393,6 +393,33 @@ static void one_product(void **state)
         check_random(seed, 4, 1, 1, seed % 2);
 }
 
+// Shapes of products of about size r; plates are `off` thick.
+static struct object *random_solid(struct maker *m, struct vec3 c, double r, double off,
+                                   bool up)
+{
+    const struct box b = {vec3_sub(c, vec3(r, r, chance(m) < .1 ? off : r)),
+                          vec3_add(c, vec3(r, r, off * chance(m)))};
+    const struct sphere s = {c, r, transform_identity.linear};
+    const struct plane p = {vec3(0, 0, up ? 1 : -1), c};
+    const struct cylinder z = {.frame = frame_around(c, vec3(0, m->grid ? 0 : .5, 1)),
+                               .length = 2 * r,
+                               .radius = r};
+    const struct cone cone = random_cone(m, c, r);
+    const struct quadric q = random_quadric(m, c, r);
+    const double k = chance(m);
+    struct object *o = k < .3    ? of(m, &box_ops, &b)
+                       : k < .5  ? of(m, &sphere_ops, &s)
+                       : k < .65 ? of(m, &cylinder_ops, &z)
+                       : k < .75 ? of(m, &cone_ops, &cone)
+                       : k < .9  ? of(m, &quadric_ops, &q)
+                                 : of(m, &plane_ops, &p);
+    if (chance(m) < .3) {
+        struct transform t = transform_scale(vec3(1, 2, 1));
+        object_transform(m->a, o, &t);
+    }
+    return o;
+}
+
 // Intersections and differences whose faces coincide, almost coincide or are apart; thin
 // plates; rays that start in a face.
 static struct object *random_product(struct maker *m, double off)
@@ -402,31 +429,47 @@ static struct object *random_product(struct maker *m, double off)
     for (uint32_t i = 0; i < n; i++) {
         const struct vec3 c = somewhere(m, .75);
         const double r = .5 + between(m, 0, .5) + off * chance(m);
-        const struct box b = {vec3_sub(c, vec3(r, r, chance(m) < .1 ? off : r)),
-                              vec3_add(c, vec3(r, r, off * chance(m)))};
-        const struct sphere s = {c, r, transform_identity.linear};
-        const struct plane p = {vec3(0, 0, i % 2 ? 1 : -1), c};
-        const struct cylinder z = {
-            .frame = frame_around(c, vec3(0, m->grid ? 0 : .5, 1)),
-            .length = 2 * r,
-            .radius = r};
-        const struct cone cone = random_cone(m, c, r);
-        const struct quadric q = random_quadric(m, c, r);
-        const double k = chance(m);
-        struct object *o = k < .3    ? of(m, &box_ops, &b)
-                           : k < .5 ? of(m, &sphere_ops, &s)
-                           : k < .65 ? of(m, &cylinder_ops, &z)
-                           : k < .75 ? of(m, &cone_ops, &cone)
-                           : k < .9 ? of(m, &quadric_ops, &q)
-                                     : of(m, &plane_ops, &p);
-        if (chance(m) < .3) {
-            struct transform t = transform_scale(vec3(1, 2, 1));
-            object_transform(m->a, o, &t);
-        }
-        child[i] = o;
+        child[i] = random_solid(m, c, r, off, i % 2);
     }
     return object_new_csg(m->a, chance(m) < .3 ? CSG_INTERSECTION : CSG_DIFFERENCE, child,
                           n, (struct span){0});
+}
+
+// A block from which small solids are taken, again and again, and turned between.
+static struct object *drilled(struct maker *m, uint32_t n, double off)
+{
+    const struct box b = {vec3(-1, -1, -1), vec3(1, 1, 1)};
+    struct object *o = of(m, &box_ops, &b);
+    for (uint32_t i = 1; i < n; i++) {
+        const struct object **child = arena_new_array(m->a, const struct object *, 2);
+        child[0] = o;
+        child[1] = random_solid(m, somewhere(m, 1), .25 + off * chance(m), off, true);
+        if (child[1]->ops == &plane_ops)
+            continue; // takes half of it
+        o = object_new_csg(m->a, CSG_DIFFERENCE, child, 2, (struct span){0});
+        if (i % 6 == 0) {
+            struct transform t = transform_rotate(vec3(0, 0, m->grid ? 90 : 20));
+            object_transform(m->a, o, &t);
+        }
+    }
+    return o;
+}
+
+static void large_products(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9};
+    for (uint64_t k = 0; k < 6; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 150 + k, .grid = k < 3};
+        for (int i = 0; i < 8; i++) {
+            struct object *o = drilled(&m, 12 + 4 * (uint32_t)i, off[k % 3]);
+            struct transform t = transform_translate(somewhere(&m, 3));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
 }
 
 static void products(void **state)
@@ -556,6 +599,7 @@ int main(void)
         cmocka_unit_test(every_kernel),
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
+        cmocka_unit_test(large_products),
         cmocka_unit_test(sponges),
         cmocka_unit_test(meshes),
         cmocka_unit_test(nested_csg),
