@@ -20,49 +20,190 @@
 #define NOISE_EDGE 1e-10
 #define NOISE_FAR  4611686018427387904.0
 
-// Places in the cells; `row` leads to the table entries of the corners, whose bits 0, 1
-// and 2 say which side of x, y and z they are at. Neighbouring points are mostly in few
-// cells: then there is one set of rows a cell, and the lanes that are in it.
+// ---- cells ----------------------------------------------------------------------------
+
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 enum { CELLS_MAX = 4 };
+typedef __m512i keys8;
+#elif defined(__AVX2__)
+enum { CELLS_MAX = 2 };
+typedef struct {
+    __m256i a, b;
+} keys8;
 #else
 enum { CELLS_MAX = 2 };
+typedef struct {
+    uint64_t a[8];
+} keys8;
 #endif
 
-struct lattice8 {
+// Places in the cells, and the numbers of the cells by axis, 0 to 4095. Lanes with the
+// same key are in the same cell.
+struct place8 {
     struct real8 fx, fy, fz;
+    uint64_t number[3][8];
+    keys8 key;
+};
+
+// `row` leads to the table entries of the corners, whose bits 0, 1 and 2 say which side of
+// x, y and z they are at. Neighbouring points are mostly in few cells: then there is one
+// set of rows a cell, and the lanes that are in it.
+struct lattice8 {
     int cells; // 0: more than CELLS_MAX, rows by lane
     struct mask8 in[CELLS_MAX];
     const double *cell_row[8][CELLS_MAX]; // [corner][cell]
     const double *row[8][8];              // [corner][lane]
 };
 
+// Towards zero.
+LANES_INLINE struct real8 whole8(struct real8 x)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    return (struct real8){
+        _mm512_roundscale_pd(x.a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)};
+#else
+    return r8_copysign(r8_floor(r8_abs(x)), x);
+#endif
+}
+
 LANES_INLINE struct real8 split8(struct real8 v, struct real8 *cell)
 {
     v = r8_select(r8_lt(r8_abs(v), r8_set(NOISE_FAR)), v, r8_set(0));
     const struct real8 below =
         r8_select(r8_lt(v, r8_set(0)), r8_set(1 - NOISE_EDGE), r8_set(0));
-    const struct real8 x = r8_sub(v, below);
-    // Towards zero; a sum with 0 has no negative zero.
-    const struct real8 t = r8_add(r8_copysign(r8_floor(r8_abs(x)), x), r8_set(0));
+    // A sum with 0 has no negative zero.
+    const struct real8 t = r8_add(whole8(r8_sub(v, below)), r8_set(0));
     *cell = t;
     return r8_sub(v, t);
 }
 
-// 10000 cells further, modulo 4096.
-LANES_INLINE void numbers8(struct real8 cell, uint32_t out[8])
-{
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    const __m512i n =
-        _mm512_add_epi64(_mm512_cvttpd_epi64(cell.a), _mm512_set1_epi64(10000));
-    _mm256_storeu_si256((__m256i *)out, _mm512_cvtepi64_epi32(_mm512_and_si512(
-                                            n, _mm512_set1_epi64(4095))));
+// 10000 cells further, modulo 4096.
+LANES_INLINE __m512i number8(struct real8 cell, uint64_t out[8])
+{
+    const __m512i n = _mm512_and_si512(
+        _mm512_add_epi64(_mm512_cvttpd_epi64(cell.a), _mm512_set1_epi64(10000)),
+        _mm512_set1_epi64(4095));
+    _mm512_storeu_si512(out, n);
+    return n;
+}
+
+LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+{
+    const __m512i x = number8(cell.x, p->number[0]), y = number8(cell.y, p->number[1]),
+                  z = number8(cell.z, p->number[2]);
+    p->key = _mm512_or_si512(
+        _mm512_or_si512(_mm512_slli_epi64(x, 24), _mm512_slli_epi64(y, 12)), z);
+}
+
+// How often the key changes from lane to lane, around: at least the number of cells where
+// there are several.
+LANES_INLINE int key_changes(keys8 k)
+{
+    return __builtin_popcount(_mm512_cmpneq_epi64_mask(k, _mm512_alignr_epi64(k, k, 1)));
+}
+
+LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
+{
+    return _mm512_cmpeq_epi64_mask(
+        p->key, _mm512_permutexvar_epi64(_mm512_set1_epi64(lane), p->key));
+}
+#elif defined(__AVX2__)
+// 10000 cells further, modulo 4096: the last bits of a sum that rounds to whole numbers.
+LANES_INLINE keys8 number8(struct real8 cell, uint64_t out[8])
+{
+    static const double far = 0x1p51;
+    const __m256d more = _mm256_set1_pd(0x1.8p52 + 10000);
+    const __m256i mask = _mm256_set1_epi64x(4095);
+    keys8 n = {_mm256_and_si256(mask, _mm256_castpd_si256(_mm256_add_pd(cell.a, more))),
+               _mm256_and_si256(mask, _mm256_castpd_si256(_mm256_add_pd(cell.b, more)))};
+    if (m8_bits(r8_lt(r8_abs(cell), r8_set(far))) != 255) {
+        double c[8];
+        r8_store(c, cell);
+        for (int i = 0; i < 8; i++)
+            out[i] = (uint64_t)((int64_t)c[i] + 10000) & 4095;
+        n.a = _mm256_loadu_si256((const __m256i *)out);
+        n.b = _mm256_loadu_si256((const __m256i *)(out + 4));
+    }
+    _mm256_storeu_si256((__m256i *)out, n.a);
+    _mm256_storeu_si256((__m256i *)(out + 4), n.b);
+    return n;
+}
+
+LANES_INLINE __m256i key4(__m256i x, __m256i y, __m256i z)
+{
+    return _mm256_or_si256(
+        _mm256_or_si256(_mm256_slli_epi64(x, 24), _mm256_slli_epi64(y, 12)), z);
+}
+
+LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+{
+    const keys8 x = number8(cell.x, p->number[0]), y = number8(cell.y, p->number[1]),
+                z = number8(cell.z, p->number[2]);
+    p->key = (keys8){key4(x.a, y.a, z.a), key4(x.b, y.b, z.b)};
+}
+
+LANES_INLINE unsigned same_keys(keys8 k, __m256i a, __m256i b)
+{
+    const __m256d in_a = _mm256_castsi256_pd(_mm256_cmpeq_epi64(k.a, a));
+    const __m256d in_b = _mm256_castsi256_pd(_mm256_cmpeq_epi64(k.b, b));
+    return (unsigned)_mm256_movemask_pd(in_a) | (unsigned)_mm256_movemask_pd(in_b) << 4;
+}
+
+LANES_INLINE int key_changes(keys8 k)
+{
+    const __m256i middle = _mm256_permute2x128_si256(k.a, k.b, 0x21); // 2 3 4 5
+    const __m256i ends = _mm256_permute2x128_si256(k.b, k.a, 0x21);   // 6 7 0 1
+    return __builtin_popcount(255 & ~same_keys(k, _mm256_alignr_epi8(middle, k.a, 8),
+                                               _mm256_alignr_epi8(ends, k.b, 8)));
+}
+
+LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
+{
+    const long long x = (long long)p->number[0][lane], y = (long long)p->number[1][lane],
+                    z = (long long)p->number[2][lane];
+    const __m256i k = _mm256_set1_epi64x(x << 24 | y << 12 | z);
+    return same_keys(p->key, k, k);
+}
 #else
-    double t[8];
-    r8_store(t, cell);
+LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+{
+    double c[3][8];
+    r8_store(c[0], cell.x);
+    r8_store(c[1], cell.y);
+    r8_store(c[2], cell.z);
+    for (int i = 0; i < 8; i++) {
+        for (int a = 0; a < 3; a++)
+            p->number[a][i] = (uint64_t)((int64_t)c[a][i] + 10000) & 4095;
+        p->key.a[i] = p->number[0][i] << 24 | p->number[1][i] << 12 | p->number[2][i];
+    }
+}
+
+LANES_INLINE int key_changes(keys8 k)
+{
+    int n = 0;
     for (int i = 0; i < 8; i++)
-        out[i] = (unsigned)((int64_t)t[i] + 10000) & 4095;
+        n += k.a[i] != k.a[(i + 1) % 8];
+    return n;
+}
+
+LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
+{
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i++)
+        bits |= (unsigned)(p->key.a[i] == p->key.a[lane]) << i;
+    return bits;
+}
 #endif
+
+LANES_INLINE void place_of(struct vec8 p, double scale, struct place8 *out)
+{
+    struct vec8 cell;
+    const struct real8 s = r8_set(scale);
+    out->fx = split8(r8_mul(s, p.x), &cell.x);
+    out->fy = split8(r8_mul(s, p.y), &cell.y);
+    out->fz = split8(r8_mul(s, p.z), &cell.z);
+    number_cells(cell, out);
 }
 
 static inline const double *corner(unsigned hash_xy, unsigned z)
@@ -71,10 +212,11 @@ static inline const double *corner(unsigned hash_xy, unsigned z)
 }
 
 // The rows of the corners of a cell; one every `step`.
-LANES_INLINE void rows_of(const uint32_t number[3][8], int lane, const double **row,
+LANES_INLINE void rows_of(const uint64_t number[3][8], int lane, const double **row,
                           int step)
 {
-    const unsigned x = number[0][lane], y = number[1][lane], z = number[2][lane];
+    const uint32_t x = (uint32_t)number[0][lane], y = (uint32_t)number[1][lane],
+                   z = (uint32_t)number[2][lane];
     const unsigned h0 = noise_hash_table[x], h1 = noise_hash_table[x + 1];
     const unsigned h00 = noise_hash_table[h0 ^ y], h10 = noise_hash_table[h1 ^ y];
     const unsigned h01 = noise_hash_table[h0 ^ (y + 1)];
@@ -89,51 +231,21 @@ LANES_INLINE void rows_of(const uint32_t number[3][8], int lane, const double **
     row[7 * step] = corner(h11, z + 1);
 }
 
-// Splits the lanes by cells; false: into too many.
-LANES_INLINE bool cells_of(struct vec8 cell, const double c[3][8],
-                           const uint32_t number[3][8], struct lattice8 *l)
+LANES_INLINE void lattice_of(const struct place8 *p, struct lattice8 *l)
 {
-    unsigned left = 255;
     l->cells = 0;
-    do {
-        if (l->cells == CELLS_MAX)
-            return false;
-        const int i = __builtin_ctz(left);
-        const struct mask8 in =
-            m8_and(m8_and(r8_eq(cell.x, r8_set(c[0][i])), r8_eq(cell.y, r8_set(c[1][i]))),
-                   r8_eq(cell.z, r8_set(c[2][i])));
-        l->in[l->cells] = in;
-        rows_of(number, i, &l->cell_row[0][l->cells++], CELLS_MAX);
-        left &= ~m8_bits(in);
-    } while (left);
-    return true;
-}
-
-// `scattered`: known to be in too many cells; told for the next octave, which has smaller
-// ones as a rule.
-LANES_INLINE void lattice_of(struct vec8 p, double scale, bool *scattered,
-                             struct lattice8 *l)
-{
-    struct vec8 cell;
-    double c[3][8];
-    uint32_t number[3][8];
-    const struct real8 s = r8_set(scale);
-    l->fx = split8(r8_mul(s, p.x), &cell.x);
-    l->fy = split8(r8_mul(s, p.y), &cell.y);
-    l->fz = split8(r8_mul(s, p.z), &cell.z);
-    r8_store(c[0], cell.x);
-    r8_store(c[1], cell.y);
-    r8_store(c[2], cell.z);
-    numbers8(cell.x, number[0]);
-    numbers8(cell.y, number[1]);
-    numbers8(cell.z, number[2]);
-    if (!*scattered &&
-        cells_of(cell, (const double(*)[8])c, (const uint32_t(*)[8])number, l))
+    if (key_changes(p->key) > CELLS_MAX) {
+        for (int i = 0; i < 8; i++)
+            rows_of(p->number, i, &l->row[0][i], 8);
         return;
-    *scattered = true;
-    l->cells = 0;
-    for (int i = 0; i < 8; i++)
-        rows_of((const uint32_t(*)[8])number, i, &l->row[0][i], 8);
+    }
+    for (unsigned left = 255; left;) {
+        const int i = __builtin_ctz(left);
+        const unsigned in = key_lanes(p, i);
+        l->in[l->cells] = m8_of(in);
+        rows_of(p->number, i, &l->cell_row[0][l->cells++], CELLS_MAX);
+        left &= ~in;
+    }
 }
 
 // Entries past..past + 3 of the rows of a corner; `cells` as in the lattice.
@@ -169,7 +281,7 @@ struct corner8 {
     struct real8 w, dx, dy, dz;
 };
 
-LANES_INLINE void corners_of(const struct lattice8 *l, struct corner8 out[8])
+LANES_INLINE void corners_of(const struct place8 *l, struct corner8 out[8])
 {
     const struct real8 one = r8_set(1);
     const struct real8 sx = smooth8(l->fx), sy = smooth8(l->fy), sz = smooth8(l->fz);
@@ -190,11 +302,12 @@ LANES_INLINE struct real8 clamp8(struct real8 v)
     return r8_select(r8_lt(v, zero), zero, r8_select(r8_lt(one, v), one, v));
 }
 
-LANES_INLINE struct real8 value_corners8(const struct lattice8 *l, int cells)
+LANES_INLINE struct real8 value_corners8(const struct place8 *p, const struct lattice8 *l,
+                                         int cells)
 {
     struct corner8 k[8];
     struct real8 t[4];
-    corners_of(l, k);
+    corners_of(p, k);
     entries_of(l, cells, 0, 0, t);
     struct real8 sum = blend8(t, k[0].w, k[0].dx, k[0].dy, k[0].dz);
 #pragma GCC unroll 7
@@ -205,24 +318,22 @@ LANES_INLINE struct real8 value_corners8(const struct lattice8 *l, int cells)
     return sum;
 }
 
-LANES_INLINE struct real8 value_sum8(struct vec8 p, double scale, bool *scattered)
+static struct real8 value_sum8(const struct place8 *p)
 {
     struct lattice8 l;
-    lattice_of(p, scale, scattered, &l);
-    return l.cells == 1   ? value_corners8(&l, 1)
-           : l.cells == 2 ? value_corners8(&l, 2)
-           : l.cells      ? value_corners8(&l, l.cells)
-                          : value_corners8(&l, 0);
+    lattice_of(p, &l);
+    return l.cells == 1   ? value_corners8(p, &l, 1)
+           : l.cells == 2 ? value_corners8(p, &l, 2)
+           : l.cells      ? value_corners8(p, &l, l.cells)
+                          : value_corners8(p, &l, 0);
 }
 
-// The gradient noise has no lanes.
-static struct real8 perlin8(const double p[3][8], double scale)
+LANES_INLINE struct real8 lattice_value8(const struct place8 *p, int generator)
 {
-    double v[8];
-    for (int i = 0; i < 8; i++)
-        v[i] = noise_value(vec3(scale * p[0][i], scale * p[1][i], scale * p[2][i]),
-                           NOISE_PERLIN);
-    return r8_load(v);
+    const struct real8 sum = value_sum8(p);
+    return clamp8(generator == NOISE_RANGE_CORRECTED
+                      ? r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582))
+                      : r8_add(sum, r8_set(0.5)));
 }
 
 LANES_INLINE struct vec8 load8(const double p[3][8])
@@ -230,30 +341,103 @@ LANES_INLINE struct vec8 load8(const double p[3][8])
     return (struct vec8){r8_load(p[0]), r8_load(p[1]), r8_load(p[2])};
 }
 
-LANES_INLINE struct real8 value8(const double p[3][8], struct vec8 at, double scale,
-                                 int generator, bool *scattered)
+// ---- generator 3 ----------------------------------------------------------------------
+
+// Places in the cells of the gradients, seen from either side, and their numbers.
+struct period8 {
+    struct real8 r[2];
+    uint32_t i[8];
+};
+
+LANES_INLINE struct period8 period8(struct real8 v)
 {
-    if (generator == NOISE_PERLIN)
-        return perlin8(p, scale);
-    const struct real8 sum = value_sum8(at, scale, scattered);
-    return clamp8(generator == NOISE_RANGE_CORRECTED
-                      ? r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582))
-                      : r8_add(sum, r8_set(0.5)));
+    struct period8 s;
+    double cell[8];
+    v = r8_select(r8_lt(r8_abs(v), r8_set(NOISE_FAR / 4)), v, r8_set(0));
+    const struct real8 t = r8_add(v, r8_set(10000000.023157213)), whole = r8_floor(t);
+    s.r[0] = r8_sub(t, whole);
+    s.r[1] = r8_sub(s.r[0], r8_set(1));
+    r8_store(cell, whole);
+    for (int i = 0; i < 8; i++)
+        s.i[i] = (unsigned)(int64_t)cell[i] & (NOISE_GRADIENT_PERIOD - 1);
+    return s;
+}
+
+LANES_INLINE struct real8 slope8(const uint32_t at[8], struct real8 x, struct real8 y,
+                                 struct real8 z)
+{
+    const double *row[8];
+    struct real8 g[4];
+    for (int i = 0; i < 8; i++)
+        row[i] = noise_gradient[at[i]];
+    r8_load_rows(row, 0, g);
+    return r8_add(r8_add(r8_mul(x, g[0]), r8_mul(y, g[1])), r8_mul(z, g[2]));
+}
+
+LANES_INLINE struct real8 lerp8(struct real8 t, struct real8 a, struct real8 b)
+{
+    return r8_add(a, r8_mul(t, r8_sub(b, a)));
+}
+
+static struct real8 gradient_noise8(struct vec8 p)
+{
+    const uint16_t *q = noise_permutation;
+    const struct period8 x = period8(p.x), y = period8(p.y), z = period8(p.z);
+    const struct real8 sx = smooth8(x.r[0]), sy = smooth8(y.r[0]), sz = smooth8(z.r[0]);
+    uint32_t at[8][8]; // [corner][lane]
+    for (int i = 0; i < 8; i++) {
+        const unsigned y1 = (y.i[i] + 1) & (NOISE_GRADIENT_PERIOD - 1);
+        const unsigned z1 = (z.i[i] + 1) & (NOISE_GRADIENT_PERIOD - 1);
+        const unsigned x0 = q[x.i[i]], x1 = q[(x.i[i] + 1) & (NOISE_GRADIENT_PERIOD - 1)];
+        const unsigned b[4] = {q[x0 + y.i[i]], q[x1 + y.i[i]], q[x0 + y1], q[x1 + y1]};
+        for (int c = 0; c < 4; c++) {
+            at[c][i] = b[c] + z.i[i];
+            at[4 + c][i] = b[c] + z1;
+        }
+    }
+    struct real8 plane[2];
+#pragma GCC unroll 2
+    for (int k = 0; k < 2; k++) {
+        const uint32_t(*c)[8] = (const uint32_t(*)[8])at + 4 * k;
+        const struct real8 a = lerp8(sx, slope8(c[0], x.r[0], y.r[0], z.r[k]),
+                                     slope8(c[1], x.r[1], y.r[0], z.r[k]));
+        const struct real8 b = lerp8(sx, slope8(c[2], x.r[0], y.r[1], z.r[k]),
+                                     slope8(c[3], x.r[1], y.r[1], z.r[k]));
+        plane[k] = lerp8(sy, a, b);
+    }
+    return lerp8(sz, plane[0], plane[1]);
+}
+
+LANES_INLINE struct real8 gradient_value8(struct vec8 p, double scale)
+{
+    const struct real8 s = r8_set(scale);
+    const struct real8 n =
+        gradient_noise8((struct vec8){r8_mul(s, p.x), r8_mul(s, p.y), r8_mul(s, p.z)});
+    return clamp8(r8_mul(r8_set(0.5), r8_add(r8_mul(r8_set(1.59), n), r8_set(0.985))));
 }
 
 static void value(const double p[3][8], double scale, int generator, double out[8])
 {
-    bool scattered = false;
-    r8_store(out, value8(p, load8(p), scale, generator, &scattered));
+    const struct vec8 at = load8(p);
+    struct place8 place;
+    if (generator == NOISE_PERLIN) {
+        r8_store(out, gradient_value8(at, scale));
+        return;
+    }
+    place_of(at, scale, &place);
+    r8_store(out, lattice_value8(&place, generator));
 }
 
+// ---- vectors --------------------------------------------------------------------------
+
 // The second and third component begin four and eight entries further: rows of the table.
-LANES_INLINE struct vec8 vector_corners8(const struct lattice8 *l, int cells)
+LANES_INLINE struct vec8 vector_corners8(const struct place8 *p, const struct lattice8 *l,
+                                         int cells)
 {
     // The order of noise_vector: it is not that of noise_value.
     static const int order[8] = {0, 1, 3, 2, 6, 7, 5, 4};
     struct corner8 k[8];
-    corners_of(l, k);
+    corners_of(p, k);
     struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
 #pragma GCC unroll 8
     for (int i = 0; i < 8; i++) {
@@ -269,14 +453,14 @@ LANES_INLINE struct vec8 vector_corners8(const struct lattice8 *l, int cells)
     return sum;
 }
 
-LANES_INLINE struct vec8 vector8(struct vec8 p, double scale, bool *scattered)
+static struct vec8 vector8(const struct place8 *p)
 {
     struct lattice8 l;
-    lattice_of(p, scale, scattered, &l);
-    return l.cells == 1   ? vector_corners8(&l, 1)
-           : l.cells == 2 ? vector_corners8(&l, 2)
-           : l.cells      ? vector_corners8(&l, l.cells)
-                          : vector_corners8(&l, 0);
+    lattice_of(p, &l);
+    return l.cells == 1   ? vector_corners8(p, &l, 1)
+           : l.cells == 2 ? vector_corners8(p, &l, 2)
+           : l.cells      ? vector_corners8(p, &l, l.cells)
+                          : vector_corners8(p, &l, 0);
 }
 
 LANES_INLINE void store8(double out[3][8], struct vec8 v)
@@ -288,8 +472,9 @@ LANES_INLINE void store8(double out[3][8], struct vec8 v)
 
 static void vector(const double p[3][8], double scale, double out[3][8])
 {
-    bool scattered = false;
-    store8(out, vector8(load8(p), scale, &scattered));
+    struct place8 place;
+    place_of(load8(p), scale, &place);
+    store8(out, vector8(&place));
 }
 
 // ---- octaves --------------------------------------------------------------------------
@@ -310,17 +495,35 @@ LANES_INLINE struct real8 octave8(struct real8 n, int kind, bool centred, bool f
     return kind == OCTAVES_STRETCHED || first ? clamp8(n) : n;
 }
 
+// Places of the next octaves are found together: one alone would wait for each of its
+// operations.
+enum { AHEAD = 4 };
+
+LANES_INLINE void look_ahead(struct vec8 at, double scale, double lambda, int left,
+                             struct place8 out[AHEAD])
+{
+    for (int k = 0; k < AHEAD && (k == 0 || k < left); k++, scale *= lambda)
+        place_of(at, scale, &out[k]);
+}
+
 static void values(const double p[3][8], const struct noise_octaves *o, int generator,
                    double out[8])
 {
     const bool centred = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
     const struct vec8 at = load8(p);
+    struct place8 place[AHEAD];
     double scale = o->scale, weight = o->weight;
-    bool scattered = false;
     struct real8 sum = r8_set(0);
     int i = 0;
     do {
-        const struct real8 n = value8(p, at, scale, generator, &scattered);
+        struct real8 n;
+        if (generator == NOISE_PERLIN) {
+            n = gradient_value8(at, scale);
+        } else {
+            if (i % AHEAD == 0)
+                look_ahead(at, scale, o->lambda, o->count - i, place);
+            n = lattice_value8(&place[i % AHEAD], generator);
+        }
         sum = r8_add(sum, r8_mul(r8_set(weight), octave8(n, o->kind, centred, i == 0)));
         scale *= o->lambda;
         weight *= o->omega;
@@ -331,12 +534,14 @@ static void values(const double p[3][8], const struct noise_octaves *o, int gene
 static void vectors(const double p[3][8], const struct noise_octaves *o, double out[3][8])
 {
     const struct vec8 at = load8(p);
+    struct place8 place[AHEAD];
     double scale = o->scale, weight = o->weight;
-    bool scattered = false;
     struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
     int i = 0;
     do {
-        struct vec8 v = vector8(at, scale, &scattered);
+        if (i % AHEAD == 0)
+            look_ahead(at, scale, o->lambda, o->count - i, place);
+        struct vec8 v = vector8(&place[i % AHEAD]);
         if (o->kind == OCTAVES_FOLDED)
             v = (struct vec8){r8_abs(v.x), r8_abs(v.y), r8_abs(v.z)};
         sum = v8_mad(sum, r8_set(weight), v);
