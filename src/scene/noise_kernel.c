@@ -2,7 +2,6 @@
 // is that of scene/noise.c, in the same order.
 #include "scene/noise_kernel.h"
 
-#include <float.h>
 #include <stdint.h>
 
 #include "math/lanes.h"
@@ -551,107 +550,6 @@ static void vectors(const double p[3][8], const struct noise_octaves *o, double 
     store8(out, sum);
 }
 
-// ---- random points of cells (scene/patterns/crackle.c) --------------------------------
-
-enum { REACH = 2, SLABS = 2 * REACH + 1 };
-
-struct cells8 {
-    unsigned hash_xy[SLABS][SLABS], z[SLABS];
-    struct vec8 at;
-    struct real8 least[3][SLABS]; // by axis and slab: what a sum is at least
-    struct real8 sum[3];          // ascending
-    const double *cell;
-    unsigned lanes;
-    int metric, limit;
-};
-
-static inline unsigned wrapped(double v)
-{
-    return (unsigned)(fabs(v) < NOISE_FAR ? (int64_t)v : 0) & 4095;
-}
-
-LANES_INLINE void bound_slabs(struct cells8 *s, int axis, struct real8 at)
-{
-    for (int i = 0; i < SLABS; i++) {
-        const double low = s->cell[axis] + (i - REACH);
-        const struct real8 over = r8_sub(r8_set(low), at),
-                           under = r8_sub(at, r8_set(low + 1)), zero = r8_set(0);
-        const struct real8 e = r8_max(zero, r8_max(over, under));
-        s->least[axis][i] = s->metric == 2 ? r8_mul(e, e) : e;
-    }
-}
-
-LANES_INLINE void keep_smallest8(struct real8 d[3], struct real8 sum)
-{
-    const struct real8 second = r8_max(d[0], sum), third = r8_max(d[1], second);
-    d[0] = r8_min(d[0], sum);
-    d[1] = r8_min(d[1], second);
-    d[2] = r8_min(d[2], third);
-}
-
-static void visit8(struct cells8 *s, int i, int j, int k)
-{
-    const struct real8 least =
-        r8_add(r8_add(s->least[0][i], s->least[1][j]), s->least[2][k]);
-    if (!(m8_bits(r8_lt(least, s->sum[s->limit])) & s->lanes))
-        return;
-    const unsigned n = noise_hash_table[s->hash_xy[i][j] ^ s->z[k]];
-    const uint32_t *r = noise_random_table + n;
-    const struct vec3 q = vec3(s->cell[0] + (i - REACH) + r[0] * 0x1p-32,
-                               s->cell[1] + (j - REACH) + r[1] * 0x1p-32,
-                               s->cell[2] + (k - REACH) + r[2] * 0x1p-32);
-    const struct vec8 e = v8_sub(V8_SET(q), s->at);
-    keep_smallest8(s->sum, s->metric == 2
-                               ? v8_dot(e, e)
-                               : r8_add(r8_add(r8_abs(e.x), r8_abs(e.y)), r8_abs(e.z)));
-}
-
-static void visit_far8(struct cells8 *s, int axis, int slab)
-{
-    if (!(m8_bits(r8_lt(s->least[axis][slab], s->sum[s->limit])) & s->lanes))
-        return;
-    for (int u = 1; u <= 3; u++)
-        for (int v = 1; v <= 3; v++)
-            visit8(s, axis == 0 ? slab : u,
-                   axis == 1   ? slab
-                   : axis == 0 ? u
-                               : v,
-                   axis == 2 ? slab : v);
-}
-
-static void nearest(const double p[3][8], const double cell[3], unsigned lanes,
-                    int metric, int count, double sum[3][8])
-{
-    struct cells8 s = {.at = {r8_load(p[0]), r8_load(p[1]), r8_load(p[2])},
-                       .cell = cell,
-                       .lanes = lanes,
-                       .metric = metric,
-                       .limit = count - 1};
-    for (int i = 0; i < SLABS; i++) {
-        const unsigned hx = noise_hash_table[wrapped(cell[0] + (i - REACH))];
-        for (int j = 0; j < SLABS; j++)
-            s.hash_xy[i][j] = noise_hash_table[hx ^ wrapped(cell[1] + (j - REACH))];
-        s.z[i] = wrapped(cell[2] + (i - REACH));
-    }
-    bound_slabs(&s, 0, s.at.x);
-    bound_slabs(&s, 1, s.at.y);
-    bound_slabs(&s, 2, s.at.z);
-    s.sum[0] = s.sum[1] = s.sum[2] = r8_set(DBL_MAX);
-    // Those that share more with the middle first.
-    for (int away = 0; away <= 3; away++)
-        for (int i = 1; i <= 3; i++)
-            for (int j = 1; j <= 3; j++)
-                for (int k = 1; k <= 3; k++)
-                    if ((i != 2) + (j != 2) + (k != 2) == away)
-                        visit8(&s, i, j, k);
-    for (int axis = 0; axis < 3; axis++) {
-        visit_far8(&s, axis, 0);
-        visit_far8(&s, axis, SLABS - 1);
-    }
-    for (int k = 0; k < 3; k++)
-        r8_store(sum[k], s.sum[k]);
-}
-
 // ---- elementary functions of patterns -------------------------------------------------
 
 static void cycloidals(const double v[8], double out[8])
@@ -674,7 +572,7 @@ const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
                                                          vector,
                                                          values,
                                                          vectors,
-                                                         nearest,
+                                                         PASTE(noise_nearest_, ISA),
                                                          PASTE(noise_bounds_, ISA),
                                                          cycloidals,
                                                          powers,

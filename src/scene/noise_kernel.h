@@ -24,6 +24,16 @@ typedef void noise_bounds_kernel(const double lo[3][8], const double hi[3][8],
 noise_bounds_kernel noise_bounds_base, noise_bounds_avx2, noise_bounds_avx512;
 
 struct tape_kernels; // scene/tape_kernel.h
+// The three smallest of the squares (metric 2) or sums (metric 1) of the distances from
+// points of one cell, those in `lanes`, to the random points of the cells around
+// (scene/patterns/cellular.h). Those after the first `count` may be too large. `place`, if
+// not NULL: only the nearest point is wanted, and stored there, of equally near ones that
+// of the cell which is first in lexical order.
+typedef void noise_nearest_kernel(const double p[3][8], const double cell[3],
+                                  unsigned lanes, int metric, int count, double sum[3][8],
+                                  double place[3][8]);
+noise_nearest_kernel noise_nearest_base, noise_nearest_avx2, noise_nearest_avx512;
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -34,11 +44,7 @@ struct noise_kernels {
                    double out[8]);
     void (*vectors)(const double p[3][8], const struct noise_octaves *o,
                     double out[3][8]);
-    // The three smallest of the squares (metric 2) or sums (metric 1) of the distances
-    // from points of one cell, those in `lanes`, to the random points of the cells around
-    // (scene/patterns/cellular.h). Those after the first `count` may be too large.
-    void (*nearest)(const double p[3][8], const double cell[3], unsigned lanes,
-                    int metric, int count, double sum[3][8]);
+    noise_nearest_kernel *nearest;
     noise_bounds_kernel *bounds;
     // cycloidal_quick of scene/pattern_math.h, and quick_pow.
     void (*cycloidal)(const double v[8], double out[8]);

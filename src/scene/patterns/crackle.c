@@ -250,57 +250,111 @@ static double form_value(const struct pattern *p, const double d[NEAREST])
     return clamp01(sum);
 }
 
+// The nearest points to a place, by the pattern's metric.
+static void search_one(const struct pattern *p, struct vec3 at, struct nearest *n)
+{
+    const int wanted = wanted_of(p);
+    if (p->metric == 2)
+        search(at, true, wanted, 1, NULL, n);
+    else if (p->metric == 1)
+        search(at, false, wanted, 1, NULL, n);
+    else
+        search_general(at, p->metric, wanted, n);
+}
+
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
     (void)c;
-    const int wanted = wanted_of(p);
     struct nearest n;
-    if (p->metric == 2)
-        search(at, true, wanted, 1, NULL, &n);
-    else if (p->metric == 1)
-        search(at, false, wanted, 1, NULL, &n);
-    else
-        search_general(at, p->metric, wanted, &n);
+    search_one(p, at, &n);
     return p->solid ? clamp01(pattern_noise(p, n.p)) : form_value(p, n.d);
 }
 
-// Whether lane i is in the cell.
-static bool lane_in(const double at[3][8], int i, const double cell[3])
+// ---- eight points --------------------------------------------------------------------
+
+// What is found at each: by lanes.
+struct nearest8 {
+    double d[NEAREST][8], p[3][8];
+};
+
+static void keep_lane(struct nearest8 *all, int i, const struct nearest *n)
 {
-    return floor(at[0][i] - PATTERN_EDGE) == cell[0] &&
-           floor(at[1][i] - PATTERN_EDGE) == cell[1] &&
-           floor(at[2][i] - PATTERN_EDGE) == cell[2];
+    for (int k = 0; k < NEAREST; k++)
+        all->d[k][i] = n->d[k];
+    all->p[0][i] = n->p.x, all->p[1][i] = n->p.y, all->p[2][i] = n->p.z;
+}
+
+static void keep_lanes(double to[3][8], const double from[3][8], unsigned lanes)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        for (int k = 0; k < 3; k++)
+            to[k][i] = from[k][i];
+    }
 }
 
 // Points that share a cell look at its surroundings together.
+static void search_all(const struct pattern *p, const struct noise_kernels *k,
+                       const double at[3][8], struct nearest8 *all)
+{
+    const bool together = p->metric == 2 || p->metric == 1;
+    double cell[3][8];
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < 8; i++)
+            cell[a][i] = floor(at[a][i] - PATTERN_EDGE);
+    for (unsigned left = 255; left;) {
+        const int first = __builtin_ctz(left);
+        const double c[3] = {cell[0][first], cell[1][first], cell[2][first]};
+        unsigned lanes = 0;
+        for (int i = 0; i < 8; i++)
+            lanes |= (unsigned)((cell[0][i] == c[0]) & (cell[1][i] == c[1]) &
+                                (cell[2][i] == c[2]))
+                     << i;
+        lanes = (lanes & left) | 1u << first; // no numbers are not the same
+        left &= ~lanes;
+        if (together && lanes & (lanes - 1)) {
+            double sum[NEAREST][8], place[3][8];
+            k->nearest(at, c, lanes, (int)p->metric, wanted_of(p), sum,
+                       p->solid ? place : NULL);
+            keep_lanes(p->solid ? all->p : all->d,
+                       (const double(*)[8])(p->solid ? place : sum), lanes);
+            continue;
+        }
+        for (; lanes; lanes &= lanes - 1) {
+            const int i = __builtin_ctz(lanes);
+            struct nearest n;
+            search_one(p, vec3(at[0][i], at[1][i], at[2][i]), &n);
+            keep_lane(all, i, &n);
+        }
+    }
+}
+
+static void form_values(const struct pattern *p, const struct nearest8 *all,
+                        double out[8])
+{
+    const double form[NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
+    double sum[8] = {0};
+    for (int k = 0; k < NEAREST; k++)
+        if (form[k] != 0)
+            for (int i = 0; i < 8; i++)
+                sum[i] += form[k] * distance_of(all->d[k][i], p->metric, p->offset);
+    for (int i = 0; i < 8; i++)
+        out[i] = clamp01(sum[i]);
+}
+
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    const bool together = !p->solid && (p->metric == 2 || p->metric == 1);
-    for (unsigned left = 255; left;) {
-        const int first = __builtin_ctz(left);
-        const double cell[3] = {floor(at[0][first] - PATTERN_EDGE),
-                                floor(at[1][first] - PATTERN_EDGE),
-                                floor(at[2][first] - PATTERN_EDGE)};
-        unsigned lanes = 1u << first;
-        for (int i = first + 1; i < 8; i++)
-            lanes |= (left >> i & 1 && lane_in(at, i, cell) ? 1u : 0u) << i;
-        left &= ~lanes;
-        double sum[3][8];
-        if (!together || !(lanes & (lanes - 1))) {
-            for (; lanes; lanes &= lanes - 1) {
-                const int i = __builtin_ctz(lanes);
-                out[i] = value(p, vec3(at[0][i], at[1][i], at[2][i]), NULL);
-            }
-            continue;
-        }
-        k->nearest(at, cell, lanes, (int)p->metric, wanted_of(p), sum);
-        for (; lanes; lanes &= lanes - 1) {
-            const int i = __builtin_ctz(lanes);
-            out[i] = form_value(p, (double[]){sum[0][i], sum[1][i], sum[2][i]});
-        }
+    struct nearest8 all;
+    search_all(p, k, at, &all);
+    if (!p->solid) {
+        form_values(p, &all, out);
+        return;
     }
+    k->value((const double(*)[8])all.p, 1, pattern_noise_generator(p), out);
+    for (int i = 0; i < 8; i++)
+        out[i] = clamp01(out[i]);
 }
 
 const struct pattern_ops crackle_pattern_ops = {
