@@ -12,8 +12,8 @@ struct shape_rays {
 struct shape_hits {
     double t[8], dt[8], u[8], v[8];
     uint32_t part[8];
-    uint8_t crossing[8];  // enum crossing
-    uint64_t evaluations; // added to, as those of a boundary_list
+    uint8_t crossing[8];         // enum crossing
+    uint64_t evaluations;        // added to, as those of a boundary_list
     const volatile bool *cancel; // these two as well
     bool cut;
 };
@@ -25,11 +25,24 @@ static inline bool shape_hits_give_up(struct shape_hits *h)
     return h->cut = true;
 }
 
+void shape_hits_put(struct shape_hits *h, int lane, const struct boundary *b);
+struct ray shape_rays_lane(const struct shape_rays *rays, int lane);
+// closest8 of one lane by the shape's `intersect`, for lanes that a kernel does not take.
+unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
+                          const struct shape_rays *rays, int lane,
+                          struct shape_hits *out);
+
 // What shapes have compiled once per instruction set, with the same results.
+struct extrude_solid;
 struct isosurface;
+struct polygon;
 struct shape_kernels {
+    unsigned (*extrude)(const struct extrude_solid *s, const struct shape_rays *rays,
+                        unsigned lanes, struct shape_hits *out, unsigned *odd);
     unsigned (*isosurface)(const struct isosurface *s, const struct shape_rays *rays,
                            unsigned lanes, bool any, struct shape_hits *out);
+    unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
+                        unsigned lanes, struct shape_hits *out);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

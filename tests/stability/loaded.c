@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 static void print_diag(void *user, const struct diag *d)
 {
@@ -82,4 +83,17 @@ int picture_difference(const struct image *a, const struct image *b)
         most = d > most ? d : most;
     }
     return most;
+}
+
+const char *font_file(void)
+{
+    static const char *const known[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/share/povray-3.7/include/timrom.ttf",
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (access(known[i], R_OK) == 0)
+            return known[i];
+    return NULL;
 }

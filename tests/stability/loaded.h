@@ -33,4 +33,7 @@ struct image render_picture(const struct loaded *l, int threads, int tile_size);
 // 0..1 and rounded as for a file.
 int picture_difference(const struct image *a, const struct image *b);
 
+// A font that this machine has; NULL: none.
+const char *font_file(void);
+
 #endif

@@ -5,7 +5,6 @@
 #include "test.h"
 
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "loaded.h"
 #include "math/gamma.h"
@@ -13,22 +12,9 @@
 #include "scene/shape.h"
 #include "trace/scratch.h"
 
-static const char *font(void)
-{
-    static const char *const known[] = {
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-        "/usr/share/povray-3.7/include/timrom.ttf",
-    };
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (access(known[i], R_OK) == 0)
-            return known[i];
-    return NULL;
-}
-
 static bool can_try(const char *text)
 {
-    if (strncmp(text, "text", 4) != 0 || font())
+    if (strncmp(text, "text", 4) != 0 || font_file())
         return true;
     print_message("not tried, for want of a font: %s\n", text);
     return false;
@@ -349,7 +335,7 @@ static void load_sample(struct loaded *l, const char *text, const struct place *
     load(l,
          "#declare K = %.17g; #declare FONT = \"%s\";\n"
          "%s translate <%.17g, %.17g, %.17g> }\n",
-         g->size, font() ? font() : "", text, o.x, o.y, o.z);
+         g->size, font_file() ? font_file() : "", text, o.x, o.y, o.z);
 }
 
 // To a grid, which takes the padding of bounds away again.

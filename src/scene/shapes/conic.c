@@ -25,32 +25,53 @@ static double length3(const double v[3])
 struct conic_line {
     const struct extrude_ray *r;
     double length, size; // of the direction; of origin and outline
-    struct boundary_list *out;
 };
 
-static void wall(const struct conic_line *l, const struct outline_segment *s, double w,
-                 uint32_t part)
+static struct conic_line line_of(const struct outline *o, double low, double high,
+                                 const struct extrude_ray *r)
 {
+    return (struct conic_line){r, length3(r->d),
+                               length3(r->o) +
+                                   (1 + outline_size(o)) * fmax(fabs(low), fabs(high))};
+}
+
+static bool wall(const struct conic_line *l, const struct outline *o, uint32_t i,
+                 double w, struct boundary *out)
+{
+    const struct outline_segment *s = &o->segment[i];
     const struct extrude_ray *r = l->r;
     const struct vec2 p = outline_point(s, w), c = outline_tangent(s, w);
     const double du = r->d[0] - p.u * r->d[2], dv = r->d[1] - p.v * r->d[2];
     const double t = fabs(du) > fabs(dv) ? (p.u * r->o[2] - r->o[0]) / du
                                          : (p.v * r->o[2] - r->o[1]) / dv;
     if (!isfinite(t))
-        return;
+        return false;
     const double n[3] = {c.v, -c.u, c.u * p.v - c.v * p.u};
     const double across = n[0] * r->d[0] + n[1] * r->d[1] + n[2] * r->d[2];
     const double size = l->size + fabs(t) * l->length;
     const double cosine = fabs(across) / (length3(n) * l->length);
-    const double dt = GAMMA(32) * size / l->length / fmax(cosine, sqrt(GAMMA(32)));
-    struct boundary *b = boundary_list_add(l->out, t, dt, CROSS_ENTER, part);
-    b->v = w;
-    b->u = across < 0 ? 1 : -1; // faces the ray
+    *out = (struct boundary){
+        .t = t,
+        .dt = GAMMA(32) * size / l->length / fmax(cosine, sqrt(GAMMA(32))),
+        .u = across < 0 ? 1 : -1, // faces the ray
+        .v = w,
+        .part = EXTRUDE_WALL + i,
+        .crossing = CROSS_ENTER,
+        .drawn = 1,
+    };
+    return true;
+}
+
+bool conic_wall(const struct outline *o, double low, double high,
+                const struct extrude_ray *r, uint32_t i, double w, struct boundary *out)
+{
+    const struct conic_line l = line_of(o, low, high, r);
+    return wall(&l, o, i, w, out);
 }
 
 // Through the apex: one point of the outline's plane.
-static void through_apex(const struct outline *o, const struct extrude_slab *slab, bool open,
-                         const struct extrude_ray *r, double low, double high,
+static void through_apex(const struct outline *o, const struct extrude_slab *slab,
+                         bool open, const struct extrude_ray *r, double low, double high,
                          struct boundary_list *out)
 {
     if (RUNS_ALONG(r->d[2], fmax(fabs(r->d[0]), fabs(r->d[1]))) ||
@@ -71,11 +92,7 @@ void conic_intersect(const struct outline *o, double low, double high, bool open
     struct extrude_slab slab;
     if (o->count == 0 || !extrude_slab_of(ray, low, high, &slab))
         return;
-    const double wide = fmax(fmax(fabs(o->min.u), fabs(o->max.u)),
-                             fmax(fabs(o->min.v), fabs(o->max.v)));
-    const struct conic_line l = {ray, length3(ray->d),
-                                 length3(ray->o) + (1 + wide) * fmax(fabs(low), fabs(high)),
-                                 out};
+    const struct conic_line l = line_of(o, low, high, ray);
     double k[3];
     divided_line(ray, k);
     if (length3(k) <= GAMMA(8) * length3(ray->o) * l.length) {
@@ -87,10 +104,13 @@ void conic_intersect(const struct outline *o, double low, double high, bool open
     for (uint32_t i = 0; i < o->count; i++) {
         double w[OUTLINE_ROOTS];
         const struct outline_segment *s = &o->segment[i];
-        if (outline_passes_by(s, k, norm, wide))
+        if (outline_passes_by(s, k, norm, outline_size(o)))
             continue;
-        for (int n = outline_roots(s, k, w); n > 0; n--)
-            wall(&l, s, w[n - 1], EXTRUDE_WALL + i);
+        struct boundary b;
+        const int n = outline_roots(s, k, w);
+        for (int j = 0; j < n; j++)
+            if (wall(&l, o, i, w[j], &b))
+                *boundary_list_add(out, b.t, b.dt, CROSS_ENTER, b.part) = b;
     }
     if (out->count == from)
         return;

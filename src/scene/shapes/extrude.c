@@ -36,34 +36,59 @@ static void plane_line(const struct extrude_ray *r, double k[3])
     k[2] = r->d[0] * r->o[1] - r->d[1] * r->o[0];
 }
 
+struct plane_size {
+    double dd, norm, size; // |d|^2 and |d| in the plane; of all coordinates there
+};
+
+static struct plane_size plane_size(const struct outline *o, const struct extrude_ray *r)
+{
+    const double dd = r->d[0] * r->d[0] + r->d[1] * r->d[1];
+    return (struct plane_size){dd, sqrt(dd),
+                               outline_size(o) + fmax(fabs(r->o[0]), fabs(r->o[1]))};
+}
+
+static struct boundary wall(const struct outline *o, const struct extrude_ray *r,
+                            const struct plane_size *z, uint32_t i, double w)
+{
+    const struct outline_segment *s = &o->segment[i];
+    const struct vec2 p = outline_point(s, w), c = outline_tangent(s, w);
+    // Along a grazed curve an error across the line becomes one along it.
+    const double across = fabs(c.u * r->d[1] - c.v * r->d[0]);
+    const double along = fabs(c.u * r->d[0] + c.v * r->d[1]);
+    const double error = GAMMA(16) * z->size / z->norm;
+    return (struct boundary){
+        .t = ((p.u - r->o[0]) * r->d[0] + (p.v - r->o[1]) * r->d[1]) / z->dd,
+        .dt = across > 0 ? error * (1 + along / across) : error,
+        .u = c.v * r->d[0] - c.u * r->d[1] < 0 ? 1 : -1, // faces the ray
+        .v = w,
+        .part = EXTRUDE_WALL + i,
+        .crossing = CROSS_ENTER,
+        .drawn = 1,
+    };
+}
+
+struct boundary extrude_wall(const struct outline *o, const struct extrude_ray *r,
+                             uint32_t i, double w)
+{
+    const struct plane_size z = plane_size(o, r);
+    return wall(o, r, &z, i, w);
+}
+
 static void add_walls(const struct outline *o, const struct extrude_ray *r,
                       struct boundary_list *out)
 {
     double k[3];
     plane_line(r, k);
-    const double dd = r->d[0] * r->d[0] + r->d[1] * r->d[1];
-    const double size =
-        fmax(fmax(fabs(o->min.u), fabs(o->max.u)), fmax(fabs(o->min.v), fabs(o->max.v))) +
-        fmax(fabs(r->o[0]), fabs(r->o[1]));
-    const double norm = sqrt(dd);
+    const struct plane_size z = plane_size(o, r);
     for (uint32_t i = 0; i < o->count; i++) {
         const struct outline_segment *s = &o->segment[i];
         double w[OUTLINE_ROOTS];
-        if (outline_passes_by(s, k, norm, size))
+        if (outline_passes_by(s, k, z.norm, z.size))
             continue;
         const int n = outline_roots(s, k, w);
         for (int j = 0; j < n; j++) {
-            const struct vec2 p = outline_point(s, w[j]), c = outline_tangent(s, w[j]);
-            const double t = ((p.u - r->o[0]) * r->d[0] + (p.v - r->o[1]) * r->d[1]) / dd;
-            // Along a grazed curve an error across the line becomes one along it.
-            const double across = fabs(c.u * r->d[1] - c.v * r->d[0]);
-            const double along = fabs(c.u * r->d[0] + c.v * r->d[1]);
-            const double error = GAMMA(16) * size / sqrt(dd);
-            const double dt = across > 0 ? error * (1 + along / across) : error;
-            struct boundary *b =
-                boundary_list_add(out, t, dt, CROSS_ENTER, EXTRUDE_WALL + i);
-            b->v = w[j];
-            b->u = c.v * r->d[0] - c.u * r->d[1] < 0 ? 1 : -1; // faces the ray
+            const struct boundary b = wall(o, r, &z, i, w[j]);
+            *boundary_list_add(out, b.t, b.dt, CROSS_ENTER, b.part) = b;
         }
     }
 }
@@ -71,7 +96,8 @@ static void add_walls(const struct outline *o, const struct extrude_ray *r,
 bool extrude_slab_of(const struct extrude_ray *r, double low, double high,
                      struct extrude_slab *s)
 {
-    *s = (struct extrude_slab){{-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
+    *s = (struct extrude_slab){
+        {-HUGE_VAL, HUGE_VAL}, 0, {EXTRUDE_LOW, EXTRUDE_HIGH}, true};
     if (RUNS_ALONG(r->d[2], fmax(fabs(r->d[0]), fabs(r->d[1]))))
         return r->o[2] >= low && r->o[2] <= high;
     const bool up = r->d[2] > 0;
@@ -124,8 +150,9 @@ void extrude_clip(const struct extrude_slab *s, bool open, bool in, uint32_t fro
     out->count = from + n;
 }
 
-static void along_the_axis(const struct outline *o, const struct extrude_slab *s, bool open,
-                           const struct extrude_ray *r, struct boundary_list *out)
+static void along_the_axis(const struct outline *o, const struct extrude_slab *s,
+                           bool open, const struct extrude_ray *r,
+                           struct boundary_list *out)
 {
     if (!outline_inside(o, (struct vec2){r->o[0], r->o[1]}))
         return;

@@ -28,6 +28,13 @@ void conic_intersect(const struct outline *o, double low, double high, bool open
 bool conic_inside(const struct outline *o, double low, double high, const double p[3]);
 struct vec3 conic_normal(const struct outline *o, const struct boundary *b);
 
+// The crossing of an extrusion's or a conic sweep's wall with a ray, from outside, at the
+// parameter w of segment i. False: it is nowhere.
+struct boundary extrude_wall(const struct outline *o, const struct extrude_ray *r,
+                             uint32_t i, double w);
+bool conic_wall(const struct outline *o, double low, double high,
+                const struct extrude_ray *r, uint32_t i, double w, struct boundary *out);
+
 // Where a ray is between the heights low and high.
 struct extrude_slab {
     double t[2], dt; // entry and exit

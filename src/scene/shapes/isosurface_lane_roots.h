@@ -132,33 +132,4 @@ static unsigned settle_any(const struct walk8 *w, const struct shape_rays *rays,
     keep(out->dt, m8_of(in), r8_sub(b, a));
     return in;
 }
-
-static unsigned walk_1(const struct isosurface *s, const struct shape_rays *rays, int l,
-                       struct shape_hits *out)
-{
-    const struct ray ray = {.o = vec3(rays->o[0][l], rays->o[1][l], rays->o[2][l]),
-                            .d = vec3(rays->d[0][l], rays->d[1][l], rays->d[2][l]),
-                            .t_min = rays->t_min[l],
-                            .t_max = rays->t_max[l]};
-    struct boundary_list list = {.first_only = true, .cancel = out->cancel};
-    unsigned found = 0;
-    iso_walk(s, &ray, &list);
-    for (uint32_t i = 0; i < list.count && !found; i++) {
-        const struct boundary *b = &list.at[i];
-        if (!b->drawn || !(b->t > ray.t_min && b->t <= ray.t_max))
-            continue;
-        out->t[l] = b->t;
-        out->dt[l] = b->dt;
-        out->u[l] = b->u;
-        out->v[l] = b->v;
-        out->part[l] = b->part;
-        out->crossing[l] = b->crossing;
-        found = 1u << l;
-    }
-    out->evaluations += list.evaluations;
-    out->cut |= list.cut;
-    boundary_list_free(&list);
-    return found;
-}
-
 #endif

@@ -473,7 +473,7 @@ static unsigned closest(const struct isosurface *s, const struct shape_rays *ray
         hit |= settle_roots(&w, rays, w.found & ~told, out);
     out->evaluations += w.evaluations;
     for (unsigned m = w.odd; m; m &= m - 1)
-        hit |= walk_1(s, rays, __builtin_ctz(m), out);
+        hit |= shape_lane_alone(&isosurface_ops, s, rays, __builtin_ctz(m), out);
     return hit | told;
 }
 

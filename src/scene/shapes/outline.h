@@ -1,6 +1,7 @@
 #ifndef SCENE_SHAPES_OUTLINE_H
 #define SCENE_SHAPES_OUTLINE_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -54,6 +55,13 @@ static inline bool outline_passes_by(const struct outline_segment *s, const doub
 {
     const double off = k[0] * s->middle.u + k[1] * s->middle.v + k[2];
     return fabs(off) > s->radius * norm + GAMMA(32) * (norm * size + fabs(k[2]));
+}
+
+// The largest of all coordinates.
+static inline double outline_size(const struct outline *o)
+{
+    return fmax(fmax(fabs(o->min.u), fabs(o->max.u)),
+                fmax(fabs(o->min.v), fabs(o->max.v)));
 }
 
 bool outline_inside(const struct outline *o, struct vec2 p);

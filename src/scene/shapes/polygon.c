@@ -5,16 +5,7 @@
 #include "base/arena.h"
 #include "math/gamma.h"
 #include "scene/args.h"
-#include "scene/shape.h"
-
-struct polygon {
-    struct vec3 *point; // as written, the last loop closed
-    bool *last;         // the point ends its loop: no edge goes on from it
-    uint32_t count;
-    struct vec3 normal, origin;
-    int u, v; // the axes of the projection in which points are counted
-    bool drawn;
-};
+#include "scene/shapes/polygon.h"
 
 // Points closer than this, relative to the polygon's coordinates, are the same; points
 // farther from the plane than the second are not in it (spec/shapes 4.18).
@@ -151,6 +142,20 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     boundary_list_add(out, t, GAMMA(12) * size / fabs(down), CROSS_TOUCH, 0);
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    return k->polygon(shape, rays, lanes, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
+}
+
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -178,6 +183,8 @@ const struct shape_ops polygon_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

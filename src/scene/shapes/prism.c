@@ -8,6 +8,7 @@
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
+#include "scene/shapes/extrude_lanes.h"
 
 enum spline { SPLINE_LINEAR, SPLINE_QUADRATIC, SPLINE_CUBIC, SPLINE_BEZIER };
 
@@ -28,7 +29,8 @@ struct points {
 
 static bool same(const struct points *p, struct vec2 a, struct vec2 b)
 {
-    return fabs(a.u - b.u) <= SAME_POINT * p->size && fabs(a.v - b.v) <= SAME_POINT * p->size;
+    return fabs(a.u - b.u) <= SAME_POINT * p->size &&
+           fabs(a.v - b.v) <= SAME_POINT * p->size;
 }
 
 // Catmull-Rom and quadratic pieces as Bezier pieces with exact end points.
@@ -47,8 +49,8 @@ static void cubic_piece(struct outline *o, const struct vec2 *p, struct vec2 end
 }
 
 // One loop from point i on; returns the first point after it. *closed says whether it is.
-static long add_loop(struct outline *o, const struct points *p, enum spline spline, long i,
-                     bool *closed)
+static long add_loop(struct outline *o, const struct points *p, enum spline spline,
+                     long i, bool *closed)
 {
     const long lead = spline == SPLINE_LINEAR ? 0 : 1;
     const long tail = spline == SPLINE_CUBIC ? 1 : 0;
@@ -176,14 +178,16 @@ static struct aabb bounds(const void *shape)
         }
         return aabb_pad(b);
     }
-    return (struct aabb){vec3(o->min.u, s->low, o->min.v), vec3(o->max.u, s->high, o->max.v)};
+    return (struct aabb){vec3(o->min.u, s->low, o->min.v),
+                         vec3(o->max.u, s->high, o->max.v)};
 }
 
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct prism *s = shape;
     if (s->conic)
-        return conic_inside(&s->outline, s->low, s->high, (const double[]){p.x, p.z, p.y});
+        return conic_inside(&s->outline, s->low, s->high,
+                            (const double[]){p.x, p.z, p.y});
     return p.y >= s->low && p.y <= s->high &&
            outline_inside(&s->outline, (struct vec2){p.x, p.z});
 }
@@ -197,6 +201,26 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         conic_intersect(&s->outline, s->low, s->high, s->open, &e, out);
     else
         extrude_intersect(&s->outline, s->low, s->high, s->open, &e, out);
+}
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    const struct prism *s = shape;
+    const struct extrude_solid e = {&s->outline, 1,        s->low,    s->high,
+                                    s->open,     s->conic, {0, 2, 1}, NULL};
+    unsigned odd, met = k->extrude(&e, rays, lanes, out, &odd);
+    for (; odd; odd &= odd - 1)
+        met |= shape_lane_alone(&prism_ops, s, rays, __builtin_ctz(odd), out);
+    return met;
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
@@ -246,6 +270,8 @@ const struct shape_ops prism_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

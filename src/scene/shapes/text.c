@@ -15,17 +15,14 @@
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
-
-struct glyph {
-    struct outline outline;
-    struct aabb box;
-};
+#include "scene/shapes/extrude_lanes.h"
 
 struct text {
-    struct glyph *glyph;
+    struct outline *glyph;
     uint32_t count;
     double depth;
-    struct transform tilt; // the language turns every text by 0.001 degrees about each axis
+    struct transform
+        tilt; // the language turns every text by 0.001 degrees about each axis
     const char *font, *string;
 };
 
@@ -149,14 +146,12 @@ static bool add_character(struct text *t, struct layout *l, uint32_t c)
                                            .line_to = line_to,
                                            .conic_to = conic_to,
                                            .cubic_to = cubic_to};
-    struct glyph *g = &t->glyph[t->count++];
-    outline_init(&g->outline, l->arena);
-    struct pen pen = {&g->outline, {0, 0}, {0, 0}, shift, 1 / l->em, false};
+    struct outline *g = &t->glyph[t->count++];
+    outline_init(g, l->arena);
+    struct pen pen = {g, {0, 0}, {0, 0}, shift, 1 / l->em, false};
     if (FT_Outline_Decompose(&slot->outline, &funcs, &pen))
         return false;
     close_contour(&pen);
-    g->box = (struct aabb){vec3(g->outline.min.u, g->outline.min.v, 0),
-                           vec3(g->outline.max.u, g->outline.max.v, t->depth)};
     return true;
 }
 
@@ -170,7 +165,7 @@ static bool lay_out(struct text *t, const char *path, struct vec3 offset,
     bool ok = FT_New_Face(library, path, 0, &l.face) == 0;
     if (ok) {
         l.em = l.face->units_per_EM ? l.face->units_per_EM : 1000;
-        t->glyph = arena_new_array(arena, struct glyph, strlen(t->string) + 1);
+        t->glyph = arena_new_array(arena, struct outline, strlen(t->string) + 1);
         for (const char *at = t->string; *at && ok;)
             ok = add_character(t, &l, next_character(&at));
         FT_Done_Face(l.face);
@@ -216,8 +211,11 @@ static struct aabb bounds(const void *shape)
 {
     const struct text *t = shape;
     struct aabb box = aabb_empty();
-    for (uint32_t i = 0; i < t->count; i++)
-        box = aabb_join(box, t->glyph[i].box);
+    for (uint32_t i = 0; i < t->count; i++) {
+        const struct outline *g = &t->glyph[i];
+        box = aabb_add(box, vec3(g->min.u, g->min.v, 0));
+        box = aabb_add(box, vec3(g->max.u, g->max.v, t->depth));
+    }
     return aabb_is_empty(box) ? box : aabb_transform(box, &t->tilt);
 }
 
@@ -228,17 +226,17 @@ static bool inside(const void *shape, struct vec3 p)
     if (!(q.z >= 0 && q.z <= t->depth))
         return false;
     for (uint32_t i = 0; i < t->count; i++)
-        if (outline_inside(&t->glyph[i].outline, (struct vec2){q.x, q.y}))
+        if (outline_inside(&t->glyph[i], (struct vec2){q.x, q.y}))
             return true;
     return false;
 }
 
 // Whether the line of the ray passes the glyph's rectangle in (x, y), generously.
-static bool passes(const struct glyph *g, const struct ray *r)
+static bool passes(const struct outline *g, const struct ray *r)
 {
-    const double cx = 0.5 * (g->box.min.x + g->box.max.x) - r->o.x;
-    const double cy = 0.5 * (g->box.min.y + g->box.max.y) - r->o.y;
-    const double hx = g->box.max.x - g->box.min.x, hy = g->box.max.y - g->box.min.y;
+    const double cx = 0.5 * (g->min.u + g->max.u) - r->o.x;
+    const double cy = 0.5 * (g->min.v + g->max.v) - r->o.y;
+    const double hx = g->max.u - g->min.u, hy = g->max.v - g->min.v;
     return fabs(r->d.y * cx - r->d.x * cy) <= fabs(r->d.y) * hx + fabs(r->d.x) * hy;
 }
 
@@ -253,7 +251,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         const uint32_t before = out->count;
         if (!passes(&t->glyph[i], &r))
             continue;
-        extrude_intersect(&t->glyph[i].outline, 0, t->depth, false, &e, out);
+        extrude_intersect(&t->glyph[i], 0, t->depth, false, &e, out);
         for (uint32_t j = before; j < out->count; j++)
             out->at[j].part |= i << 16; // the character, above the part within it
         hit += out->count > before;
@@ -264,13 +262,33 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     }
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    const struct text *t = shape;
+    const struct extrude_solid e = {t->glyph, t->count, 0,         t->depth,
+                                    false,    false,    {0, 1, 2}, &t->tilt};
+    unsigned odd, met = k->extrude(&e, rays, lanes, out, &odd);
+    for (; odd; odd &= odd - 1)
+        met |= shape_lane_alone(&text_ops, t, rays, __builtin_ctz(odd), out);
+    return met;
+}
+
+static bool has_lanes(const void *shape)
+{
+    const struct text *t = shape;
+    return t->depth >= 0;
+}
+
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     const struct text *t = shape;
     struct boundary local = *b;
     local.part &= 0xffff;
-    const struct vec3 n = extrude_normal(&t->glyph[b->part >> 16].outline, &local);
+    const struct vec3 n = extrude_normal(&t->glyph[b->part >> 16], &local);
     out->p = p;
     out->ng = out->ns = vec3_normalize(transform_normal(&t->tilt, n));
     out->uv = (struct vec2){p.x, p.y};
@@ -292,6 +310,8 @@ const struct shape_ops text_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

@@ -1,0 +1,39 @@
+#include "scene/shape_kernels.h"
+
+void shape_hits_put(struct shape_hits *h, int lane, const struct boundary *b)
+{
+    h->t[lane] = b->t;
+    h->dt[lane] = b->dt;
+    h->u[lane] = b->u;
+    h->v[lane] = b->v;
+    h->part[lane] = b->part;
+    h->crossing[lane] = b->crossing;
+}
+
+struct ray shape_rays_lane(const struct shape_rays *rays, int lane)
+{
+    return (struct ray){.o = vec3(rays->o[0][lane], rays->o[1][lane], rays->o[2][lane]),
+                        .d = vec3(rays->d[0][lane], rays->d[1][lane], rays->d[2][lane]),
+                        .t_min = rays->t_min[lane],
+                        .t_max = rays->t_max[lane]};
+}
+
+unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
+                          const struct shape_rays *rays, int lane, struct shape_hits *out)
+{
+    const struct ray ray = shape_rays_lane(rays, lane);
+    struct boundary_list list = {.first_only = true, .cancel = out->cancel};
+    unsigned found = 0;
+    ops->intersect(shape, &ray, &list);
+    for (uint32_t i = 0; i < list.count && !found; i++) {
+        const struct boundary *b = &list.at[i];
+        if (!b->drawn || !(b->t > ray.t_min && b->t <= ray.t_max))
+            continue;
+        shape_hits_put(out, lane, b);
+        found = 1u << lane;
+    }
+    out->evaluations += list.evaluations;
+    out->cut |= list.cut;
+    boundary_list_free(&list);
+    return found;
+}
