@@ -183,6 +183,7 @@ static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
 %token MORE                     // a ']' with '[' after it
 %token <size_t> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
 %token <size_t> FUNCTION ARRAY
+%token LITERAL                  // a whole block (lang/literal.h)
 %token <struct ast *> NUMBER VECTOR3 BULK STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
 
 %type <struct ast *> statement block function_block function_body params size entry
@@ -260,6 +261,7 @@ block:
     {
         $$ = parse_close(p, of_list(p, AST_BLOCK, @$, $1, all($4)));
     }
+  | LITERAL                             { $$ = parse_literal(p); }
   | function_block
   ;
 

@@ -32,10 +32,10 @@ static void set_place(struct lambert_message *m, const struct source_map *source
                       struct span where)
 {
     const struct source_file *f = sources->file[where.file];
-    uint32_t line = source_line(f, where.begin);
+    const struct source_line line = source_line(sources->file[where.file], where.begin);
     m->file = f->name;
-    m->line = line + 1;
-    m->column = where.begin - f->line_start[line] + 1;
+    m->line = line.number;
+    m->column = where.begin - line.begin + 1;
     m->end_column = m->column + (where.end - where.begin);
 }
 

@@ -88,9 +88,8 @@ struct place {
 
 static struct place place_of(const struct source_map *m, struct span s)
 {
-    const struct source_file *f = m->file[s.file];
-    uint32_t line = source_line(f, s.begin);
-    return (struct place){f, line + 1, s.begin - f->line_start[line] + 1};
+    const struct source_line line = source_line(m->file[s.file], s.begin);
+    return (struct place){m->file[s.file], line.number, s.begin - line.begin + 1};
 }
 
 enum { EXCERPT_BEFORE = 160, EXCERPT_MAX = 240 };
@@ -100,9 +99,8 @@ static void print_excerpt(FILE *out, const struct source_map *m, struct span s, 
                           const char *hint)
 {
     const struct source_file *f = m->file[s.file];
-    uint32_t line = source_line(f, s.begin);
-    uint32_t start = f->line_start[line];
-    uint32_t stop = line + 1 < f->line_count ? f->line_start[line + 1] - 1 : f->len;
+    const struct source_line line = source_line(m->file[s.file], s.begin);
+    uint32_t start = line.begin, stop = line.end;
     while (stop > start && f->text[stop - 1] == '\r')
         stop--;
     // Generated scenes have lines of a megabyte: what is near the place is shown.
@@ -111,7 +109,7 @@ static void print_excerpt(FILE *out, const struct source_map *m, struct span s, 
     if (stop > start + EXCERPT_MAX)
         stop = start + EXCERPT_MAX;
     uint32_t end = s.end < stop ? s.end : stop;
-    fprintf(out, "%5u | ", (unsigned)line + 1);
+    fprintf(out, "%5u | ", (unsigned)line.number);
     for (uint32_t i = start; i < stop; i++) { // no escape sequences for the terminal
         unsigned char c = (unsigned char)f->text[i];
         fputc((c < 0x20 && c != '\t') || c == 0x7f ? '?' : c, out);

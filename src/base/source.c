@@ -32,22 +32,30 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
     f->text = text;
     f->len = (uint32_t)len;
     f->included_at = included_at;
-    f->line_count = 1;
-    for (size_t i = 0; i < len; i++)
-        f->line_count += text[i] == '\n';
-    f->line_start = arena_alloc(m->arena, f->line_count * sizeof *f->line_start);
-    const char *at = text;
-    for (uint32_t line = 1; line < f->line_count; line++) {
-        at = (const char *)memchr(at, '\n', f->len - (size_t)(at - text)) + 1;
-        f->line_start[line] = (uint32_t)(at - text);
-    }
-    m->file = grow(m->arena, m->file, m->count, &m->capacity, sizeof(struct source_file *));
+    f->arena = m->arena;
+    m->file =
+        grow(m->arena, m->file, m->count, &m->capacity, sizeof(struct source_file *));
     m->file[m->count] = f;
     return m->count++;
 }
 
-uint32_t source_line(const struct source_file *f, uint32_t offset)
+static void find_lines(struct source_file *f)
 {
+    f->line_count = 1;
+    for (size_t i = 0; i < f->len; i++)
+        f->line_count += f->text[i] == '\n';
+    f->line_start = arena_new_array(f->arena, uint32_t, f->line_count);
+    const char *at = f->text;
+    for (uint32_t line = 1; line < f->line_count; line++) {
+        at = (const char *)memchr(at, '\n', f->len - (size_t)(at - f->text)) + 1;
+        f->line_start[line] = (uint32_t)(at - f->text);
+    }
+}
+
+struct source_line source_line(struct source_file *f, uint32_t offset)
+{
+    if (!f->line_start)
+        find_lines(f);
     uint32_t lo = 0, hi = f->line_count;
     while (hi - lo > 1) {
         uint32_t mid = lo + (hi - lo) / 2;
@@ -56,7 +64,9 @@ uint32_t source_line(const struct source_file *f, uint32_t offset)
         else
             hi = mid;
     }
-    return lo;
+    const bool last = lo + 1 == f->line_count;
+    return (struct source_line){lo + 1, f->line_start[lo],
+                                last ? f->len : f->line_start[lo + 1] - 1};
 }
 
 uint32_t source_expand(struct source_map *m, const char *macro, struct span called_at)

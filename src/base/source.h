@@ -19,7 +19,8 @@ struct source_file {
     const char *text;
     uint32_t len;
     bool ended; // two zero bytes follow, and the text may be written to (but is not left so)
-    uint32_t *line_start; // byte offset of each line
+    struct arena *arena;
+    uint32_t *line_start; // byte offset of each line; NULL until somebody asks
     uint32_t line_count;
     struct span included_at; // where the #include stood; end == 0 for the main file
 };
@@ -44,7 +45,14 @@ struct source_map {
 void source_map_init(struct source_map *m, struct arena *arena);
 uint32_t source_add(struct source_map *m, const char *name, const char *text, size_t len,
                     struct span included_at);
-uint32_t source_line(const struct source_file *f, uint32_t offset); // 0-based
+
+struct source_line {
+    uint32_t number; // 1 is the first
+    uint32_t begin, end; // without its newline
+};
+
+// The line that a byte is in. Not for two threads at once.
+struct source_line source_line(struct source_file *f, uint32_t offset);
 
 // Records a macro call and returns its id, mostly the same one for a call that comes
 // again (in a loop); 0 (no trace) once EXPANSIONS_MAX are

@@ -1,5 +1,7 @@
 #include "lang/ast.h"
 
+#include <string.h>
+
 #include "base/arena.h"
 
 struct ast *ast_new(struct arena *a, enum ast_kind kind, struct span where)
@@ -41,6 +43,12 @@ struct ast *ast_copy(struct arena *a, const struct ast *node)
     case AST_MEMBER:
         n->left = ast_copy(a, node->left);
         break;
+    case AST_VECTOR3: {
+        double *v = arena_new_array(a, double, 3);
+        memcpy(v, node->vector, 3 * sizeof *v);
+        n->vector = v;
+        break;
+    }
     case AST_BINARY:
         n->left = ast_copy(a, node->left);
         n->right = ast_copy(a, node->right);

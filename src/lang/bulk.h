@@ -28,4 +28,7 @@ size_t bulk_scan(struct arena *a, enum word w, const char *text, size_t len,
 // out there, and the numbers; or 0.
 size_t bulk_vector(const char *text, size_t len, double out[3]);
 
+// Whether `w` is the word of such a block.
+bool bulk_word(enum word w);
+
 #endif

@@ -173,7 +173,9 @@ bool format_source(struct source_map *sources, uint32_t file, struct diag_sink *
 {
     struct format f = {.file = sources->file[file], .width = width, .out = out};
     unsigned errors = diags->errors;
-    struct lexeme *tokens = lex_file(sources, file, diags, NULL, &f.count);
+    struct word_table words;
+    word_table_init(&words);
+    struct lexeme *tokens = lex_file(sources, file, diags, &words, NULL, &f.count);
     f.tokens = tokens;
     const struct source_file *s = f.file;
     for (uint32_t at = 0; at < s->len && diags->errors == errors;) {

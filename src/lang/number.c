@@ -6,14 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+const double number_power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-double number_scaled(uint64_t mantissa, uint32_t places)
-{
-    return (double)mantissa / power[places];
-}
 
 // Numbers of up to 15 digits with a small power of ten are exact in one operation:
 // both factors are doubles without error (Clinger, PLDI 1990, section 3).
@@ -45,7 +40,8 @@ static bool parse_short(const char *text, size_t len, double *out)
     }
     if (scale < -22 || scale > 22)
         return false;
-    *out = scale < 0 ? (double)mantissa / power[-scale] : (double)mantissa * power[scale];
+    *out = scale < 0 ? (double)mantissa / number_power[-scale]
+                     : (double)mantissa * number_power[scale];
     return true;
 }
 

@@ -11,6 +11,10 @@ double number_parse(const char *text, size_t len);
 // Digits of so many are a double without error, and so is 10 to as many (Clinger, PLDI 1990,
 // section 3): mantissa/10^places is then rounded once.
 enum { NUMBER_DIGITS = 15 };
-double number_scaled(uint64_t mantissa, uint32_t places);
+extern const double number_power[]; // of ten, up to 22
+static inline double number_scaled(uint64_t mantissa, uint32_t places)
+{
+    return (double)mantissa / number_power[places];
+}
 
 #endif

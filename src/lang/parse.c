@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lang/literal.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
 #include "parser.h"
@@ -12,12 +13,17 @@
 static bool directive_continues(struct stream *s)
 {
     switch (raw_peek_second(s).word) {
-    case WORD_if: case WORD_ifdef: case WORD_ifndef: case WORD_switch:
-        return true;
-    case WORD_else: case WORD_elseif: case WORD_case: case WORD_range: case WORD_end:
+    case WORD_if:
+    case WORD_ifdef:
+    case WORD_ifndef:
+    case WORD_switch: return true;
+    case WORD_else:
+    case WORD_elseif:
+    case WORD_case:
+    case WORD_range:
+    case WORD_end:
         return s->frame_count && s->frames[s->frame_count - 1].kind <= FRAME_SWITCH;
-    default:
-        return false;
+    default: return false;
     }
 }
 
@@ -48,7 +54,7 @@ static bool completes(const struct parse *p, int kind)
     return kind == TOK_NUMBER || kind == TOK_STRING || kind == TOK_NAME ||
            kind == TOK_STRING_NAME || kind == TOK_OTHER_NAME || kind == TOK_CONSTANT ||
            kind == TOK_VECTOR3 || kind == ')' || kind == ']' || kind == '>' ||
-           kind == '}' || p->after_period;
+           kind == '}' || kind == TOK_LITERAL || p->after_period;
 }
 
 struct ast *parse_calculated(struct stream *s, struct span where,
@@ -72,8 +78,15 @@ static bool expression_begins(const struct parse *p)
         last == '.' || (last == 0 && p->start == TOK_START_STATEMENT))
         return false;
     switch (next) {
-    case TOK_NUMBER: case TOK_NAME: case TOK_CONSTANT: case TOK_WORD: return true;
-    case TOK_VECTOR3: case '<': case '-': case '+': case '!': return !p->operand;
+    case TOK_NUMBER:
+    case TOK_NAME:
+    case TOK_CONSTANT:
+    case TOK_WORD: return true;
+    case TOK_VECTOR3:
+    case '<':
+    case '-':
+    case '+':
+    case '!': return !p->operand;
     case '(':
         return last == 0 || last == ',' || last == TOK_WORD || last == TOK_RGB ||
                last == TOK_COLOR || last == TOK_PART;
@@ -89,10 +102,15 @@ static bool is_literal(const struct stream *s)
         (c->tokens[c->at].kind != TOK_NUMBER && c->tokens[c->at].kind != TOK_VECTOR3))
         return false;
     switch (c->tokens[c->at + 1].kind) {
-    case ',': case '}': case '>': case ')': case ']': case ';': case TOK_WORD:
-        return true;
-    default:
-        return false;
+    case ',':
+    case '}':
+    case '>':
+    case ')':
+    case ']':
+    case ';':
+    case TOK_WORD:
+    case TOK_LITERAL: return true;
+    default: return false;
     }
 }
 
@@ -197,20 +215,39 @@ static bool is_part(const struct parse *p, enum word w)
         return true;
     switch (outer->word) {
     case WORD_blob:
-    case WORD_contained_by:
-        return true;
-    case WORD_mesh:
-        return w == WORD_triangle || w == WORD_smooth_triangle;
-    case WORD_pigment: case WORD_normal: case WORD_texture: case WORD_density:
-    case WORD_pattern: case WORD_pigment_pattern: case WORD_interior_texture:
-    case WORD_function:
-        return w == WORD_object;
-    default:
-        return false;
+    case WORD_contained_by: return true;
+    case WORD_mesh: return w == WORD_triangle || w == WORD_smooth_triangle;
+    case WORD_pigment:
+    case WORD_normal:
+    case WORD_texture:
+    case WORD_density:
+    case WORD_pattern:
+    case WORD_pigment_pattern:
+    case WORD_interior_texture:
+    case WORD_function: return w == WORD_object;
+    default: return false;
     }
 }
 
-// At a closing brace. A finished object needs its text no more.
+// A finished object needs its text no more, all of which was made after the mark.
+static struct ast *finish_block(struct stream *s, struct ast *node,
+                                struct arena_mark mark)
+{
+    struct ast *done = s->host.finish(s->host.user, node);
+    if (!done)
+        done = node;
+    if (done->kind != AST_VALUE)
+        return done;
+    struct ast keep = *done;
+    arena_rewind(s->nodes, mark);
+    struct ast *n = ast_new(s->nodes, AST_VALUE, keep.where);
+    n->text = keep.text;
+    n->len = keep.len;
+    n->value = keep.value;
+    return n;
+}
+
+// At a closing brace.
 struct ast *parse_close(struct parse *p, struct ast *node)
 {
     struct parse_block b = p->blocks[--p->block_count];
@@ -218,18 +255,21 @@ struct ast *parse_close(struct parse *p, struct ast *node)
     enum word w = (enum word)node->word;
     if (node->kind != AST_BLOCK || word_class(w) != CLASS_OBJECTS || is_part(p, w))
         return node;
-    struct ast *done = p->in->host.finish(p->in->host.user, node);
-    if (!done)
-        done = node;
-    if (done->kind != AST_VALUE)
-        return done;
-    struct ast keep = *done;
-    arena_rewind(p->arena, b.mark);
-    struct ast *n = ast_new(p->arena, AST_VALUE, keep.where);
-    n->text = keep.text;
-    n->len = keep.len;
-    n->value = keep.value;
-    return n;
+    return finish_block(p->in, node, b.mark);
+}
+
+static struct ast *literal(struct stream *s, const struct token *t, bool part)
+{
+    struct arena_mark mark = arena_mark(s->nodes);
+    struct ast *n = literal_read(s->nodes, &s->words, t);
+    if (part || word_class((enum word)t->word) != CLASS_OBJECTS)
+        return n;
+    return finish_block(s, n, mark);
+}
+
+struct ast *parse_literal(struct parse *p)
+{
+    return literal(p->in, p->now, is_part(p, (enum word)p->now->word));
 }
 
 struct ast *parse_finish(struct parse *p, struct ast *node)
@@ -247,8 +287,8 @@ struct ast *parse_finish(struct parse *p, struct ast *node)
 // numbers need none, which only eval can tell.
 void parse_missing_semicolon(struct parse *p, const struct ast *value)
 {
-    if (value && (value->kind == AST_VALUE || value->kind == AST_INDEX) && !value->parens &&
-        p->last->kind == ']')
+    if (value && (value->kind == AST_VALUE || value->kind == AST_INDEX) &&
+        !value->parens && p->last->kind == ']')
         return;
     struct span where = p->last->where;
     where.begin = where.end > where.begin ? where.end - 1 : where.end;
@@ -265,22 +305,15 @@ void parse_missing_semicolon(struct parse *p, const struct ast *value)
 static const char *token_text(struct parse *p, const struct token *t)
 {
     switch (t->kind) {
-    case TOK_END:
-        return "the end of the file";
-    case TOK_NUMBER:
-        return "a number";
-    case TOK_STRING:
-        return "a string";
-    case TOK_VECTOR3:
-        return "a vector";
-    case TOK_BULK:
-        return "vectors";
+    case TOK_END: return "the end of the file";
+    case TOK_NUMBER: return "a number";
+    case TOK_STRING: return "a string";
+    case TOK_BULK: return "vectors";
     case TOK_NAME:
         if (!t->len)
             return "an expression";
         // fallthrough
-    default:
-        return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
+    default: return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
     }
 }
 
@@ -290,9 +323,17 @@ static void expected_text(char *out, size_t size, const int *kinds, int count)
         int kind;
         const char *text;
     } names[] = {
-        {TOK_NUMBER, "a number or vector"}, {TOK_STRING, "a string"},
-        {'{', "'{'"}, {'}', "'}'"}, {')', "')'"}, {']', "']'"}, {'>', "'>'"},
-        {'(', "'('"}, {';', "';'"}, {',', "','"}, {':', "':'"},
+        {TOK_NUMBER, "a number or vector"},
+        {TOK_STRING, "a string"},
+        {'{', "'{'"},
+        {'}', "'}'"},
+        {')', "')'"},
+        {']', "']'"},
+        {'>', "'>'"},
+        {'(', "'('"},
+        {';', "';'"},
+        {',', "','"},
+        {':', "':'"},
     };
     const char *found[sizeof names / sizeof *names];
     size_t n = 0;
@@ -304,7 +345,9 @@ static void expected_text(char *out, size_t size, const int *kinds, int count)
     out[0] = 0;
     for (size_t i = 0; i < n && len < size; i++)
         len += (size_t)snprintf(out + len, size - len, "%s%s",
-                                i == 0 ? ", expected " : i + 1 < n ? ", " : " or ",
+                                i == 0      ? ", expected "
+                                : i + 1 < n ? ", "
+                                            : " or ",
                                 found[i]);
 }
 
@@ -351,6 +394,19 @@ static const char *habit_hint(int kind, int last)
     return NULL;
 }
 
+// Of what was taken whole, the token that is in the way.
+static struct token first_of(const struct token *t)
+{
+    struct token first = *t;
+    if (t->kind == TOK_LITERAL || t->kind == TOK_VECTOR3) {
+        first.kind = t->kind == TOK_LITERAL ? TOK_WORD : '<';
+        first.len =
+            t->kind == TOK_LITERAL ? (uint16_t)strlen(word_text((enum word)t->word)) : 1;
+        first.where.end = first.where.begin + first.len;
+    }
+    return first;
+}
+
 void parse_syntax_error(struct parse *p, const int *expected, int count)
 {
     struct stream *s = p->in;
@@ -358,6 +414,8 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
         return;
     p->failed = true;
     const struct token *t = p->now, *last = p->last;
+    const struct token first = first_of(t);
+    t = &first;
     if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
         report_unknown_word(s, last, false);
         return;
@@ -390,7 +448,7 @@ static void skip_broken(struct parse *p)
         p->nest++;
     int last = p->now->kind;
     while (!s->stopped) {
-        if (p->braces <= 0 && (last == ';' || last == '}'))
+        if (p->braces <= 0 && (last == ';' || last == '}' || last == TOK_LITERAL))
             break;
         if (parens && p->nest <= 0)
             break;
@@ -398,8 +456,9 @@ static void skip_broken(struct parse *p)
         if (next.kind == TOK_END || (next.kind == '#' && p->braces <= 0) ||
             (next.kind == '}' && p->braces <= 0))
             break;
-        if (p->braces <= 0 && !parens && next.kind == TOK_WORD &&
-            raw_peek_second(s).kind == '{')
+        if (p->braces <= 0 && !parens &&
+            (next.kind == TOK_LITERAL ||
+             (next.kind == TOK_WORD && raw_peek_second(s).kind == '{')))
             break;
         struct token t = stream_next(s);
         if (t.kind == TOK_END)
@@ -417,14 +476,18 @@ static bool is_bounded(int start)
 
 struct ast *parse_run(struct stream *in, int start, bool *ok)
 {
-    struct parse p = {.in = in, .arena = in->nodes, .start = start,
-                      .bounded = is_bounded(start), };
+    struct parse p = {
+        .in = in,
+        .arena = in->nodes,
+        .start = start,
+        .bounded = is_bounded(start),
+    };
     p.slot[0].kind = -1;
     p.now = p.last = &p.slot[0];
     *ok = false;
     if (in->runs == PARSE_RUNS_MAX) {
-        diag_at(in->diags, DIAG_TOO_DEEP, raw_peek(in).where,
-                "calls inside expressions", (int)PARSE_RUNS_MAX);
+        diag_at(in->diags, DIAG_TOO_DEEP, raw_peek(in).where, "calls inside expressions",
+                (int)PARSE_RUNS_MAX);
         in->stopped = true;
         return NULL;
     }
@@ -499,6 +562,8 @@ struct ast *parse_item(struct stream *s)
             diag_at(s->diags, DIAG_STRAY_TOKEN, t.where, t.kind);
             continue;
         }
+        if (t.kind == TOK_LITERAL)
+            return literal(s, &t, false);
         bool ok;
         stream_give_back(s, t);
         struct ast *n = parse_run(s, TOK_START_STATEMENT, &ok);

@@ -52,6 +52,8 @@ struct ast *parse_calculated(struct stream *s, struct span where,
 struct diag_sink *stream_diags(struct stream *s);
 void parse_open(struct parse *p, enum word word, bool entry, struct span where);
 struct ast *parse_close(struct parse *p, struct ast *node);
+// Of the token looked at, a TOK_LITERAL.
+struct ast *parse_literal(struct parse *p);
 struct ast *parse_finish(struct parse *p, struct ast *node);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
 // The kind and place of the next token, which is *p->now then.

@@ -31,6 +31,7 @@ struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t 
     s->host = host;
     s->version = 3.7;
     s->statement = arena_mark(s->nodes);
+    word_table_init(&s->words);
     stream_push_file(s, file);
     return s;
 }
@@ -73,7 +74,7 @@ static const struct lexed *lex_once(struct stream *s, uint32_t file)
     struct lexed *l = &s->lexed[s->lexed_count++];
     l->file = file;
     struct arena *vectors = s->host.calculate ? s->arena : NULL;
-    l->tokens = lex_file(s->sources, file, s->diags, vectors, &l->count);
+    l->tokens = lex_file(s->sources, file, s->diags, &s->words, vectors, &l->count);
     l->slots = calloc(l->count + 1, sizeof *l->slots);
     if (!l->slots)
         abort();
@@ -220,6 +221,8 @@ static void take(struct stream *s, struct token *out)
     s->steps++;
     c->at += i < c->count;
     cursor_token(c, i, out);
+    if (out->kind == TOK_LITERAL)
+        s->steps += c->tokens[i].tokens - 1;
 }
 
 struct token raw_take(struct stream *s)
@@ -235,7 +238,8 @@ static bool may_go_on_after(const struct stream *s, const struct cursor *c)
     if (c == &s->cursors[0])
         return false;
     switch (peek(s, c->count - c->at).kind) {
-    case ',': case '}': case '>': case ')': case ';': case ']': case TOK_WORD: return false;
+    case ',': case '}': case '>': case ')': case ';': case ']': case TOK_WORD:
+    case TOK_LITERAL: return false;
     default: return true;
     }
 }
@@ -489,19 +493,21 @@ void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t fi
                         struct diag_sink *diags, FILE *out)
 {
     (void)a;
-    const struct source_file *f = sources->file[file];
+    struct source_file *f = sources->file[file];
     uint32_t count;
-    struct lexeme *tokens = lex_file(sources, file, diags, NULL, &count);
+    struct word_table words;
+    word_table_init(&words);
+    struct lexeme *tokens = lex_file(sources, file, diags, &words, NULL, &count);
     for (uint32_t i = 0; i < count; i++) {
         struct token whole, *t = &whole;
         lexeme_token(&tokens[i], file, f->text, 0, t);
-        uint32_t line = source_line(f, t->where.begin);
+        const struct source_line line = source_line(f, t->where.begin);
         const char *kind = t->kind == TOK_NUMBER   ? "number"
                            : t->kind == TOK_STRING ? "string"
                            : t->kind == TOK_NAME   ? "name"
                            : t->word               ? "word"
                                                    : "mark";
-        fprintf(out, "%u:%u %s ", line + 1, t->where.begin - f->line_start[line] + 1, kind);
+        fprintf(out, "%u:%u %s ", line.number, t->where.begin - line.begin + 1, kind);
         if (t->kind == TOK_NUMBER)
             fprintf(out, "%.17g\n", t->number);
         else

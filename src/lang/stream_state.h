@@ -68,6 +68,7 @@ struct stream {
     struct arena *arena; // of the caller: macro definitions
     struct arena *nodes; // AST, wound back after each statement and directive
     struct source_map *sources;
+    struct word_table words;
     struct diag_sink *diags;
     struct stream_host host;
     struct cursor *cursors;

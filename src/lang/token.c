@@ -15,20 +15,14 @@ static const unsigned char classes[WORD_COUNT] = {
 #undef WORD
 };
 
-const char *word_text(enum word w)
-{
-    return w < WORD_COUNT ? texts[w] : "";
-}
+const char *word_text(enum word w) { return w < WORD_COUNT ? texts[w] : ""; }
 
 enum word_class word_class(enum word w)
 {
     return w < WORD_COUNT ? (enum word_class)classes[w] : CLASS_NONE;
 }
 
-const char *const *word_list(void)
-{
-    return texts + 1;
-}
+const char *const *word_list(void) { return texts + 1; }
 
 // keywords.def is in alphabetical order (a test checks it).
 enum word word_find(const char *text, size_t len)
@@ -51,29 +45,37 @@ enum word word_find(const char *text, size_t len)
 
 static uint32_t word_hash(const char *text, size_t len)
 {
-    uint32_t h = 2166136261u; // FNV-1a
+    uint32_t h = WORD_HASH;
     for (size_t i = 0; i < len; i++)
-        h = (h ^ (unsigned char)text[i]) * 16777619u;
-    return (h ^ h >> 15) % 2048;
+        h = word_hash_add(h, text[i]);
+    return h;
 }
+
+static uint32_t first_place(uint32_t hash) { return (hash ^ hash >> 15) % 2048; }
 
 void word_table_init(struct word_table *t)
 {
     *t = (struct word_table){0};
     for (int w = 1; w < WORD_COUNT; w++) {
-        uint32_t at = word_hash(texts[w], strlen(texts[w]));
-        while (t->word[at])
+        const size_t len = strlen(texts[w]);
+        uint32_t at = first_place(word_hash(texts[w], len));
+        while (t->at[at].word)
             at = (at + 1) % 2048;
-        t->word[at] = (uint16_t)w;
+        t->at[at].word = (uint16_t)w;
+        t->at[at].len = (uint16_t)len;
     }
+}
+
+enum word word_table_find_hashed(const struct word_table *t, const char *text, size_t len,
+                                 uint32_t hash)
+{
+    for (uint32_t at = first_place(hash); t->at[at].word; at = (at + 1) % 2048)
+        if (t->at[at].len == len && memcmp(texts[t->at[at].word], text, len) == 0)
+            return (enum word)t->at[at].word;
+    return WORD_NONE;
 }
 
 enum word word_table_find(const struct word_table *t, const char *text, size_t len)
 {
-    for (uint32_t at = word_hash(text, len); t->word[at]; at = (at + 1) % 2048) {
-        const char *word = texts[t->word[at]];
-        if (strncmp(word, text, len) == 0 && word[len] == 0)
-            return (enum word)t->word[at];
-    }
-    return WORD_NONE;
+    return word_table_find_hashed(t, text, len, word_hash(text, len));
 }

@@ -25,7 +25,10 @@ struct lexeme {
         double number;
         const struct lexed_vector *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
         const struct bulk *bulk; // TOK_BULK: the contents of a block of mesh2
-        uint32_t len;            // of all others: bytes of the text
+        struct {
+            uint32_t len;    // of all others: bytes of the text
+            uint32_t tokens; // of a TOK_LITERAL: how many it stands for
+        };
     };
 };
 
@@ -93,10 +96,21 @@ enum word_class word_class(enum word w);
 enum word word_find(const char *text, size_t len); // WORD_NONE: not reserved
 // The same for those who ask often: a hash table, made by word_table_init.
 struct word_table {
-    uint16_t word[2048];
+    struct {
+        uint16_t word;
+        uint16_t len;
+    } at[2048];
 };
 void word_table_init(struct word_table *t);
 enum word word_table_find(const struct word_table *t, const char *text, size_t len);
+// For those who come by the letters anyway: begin with WORD_HASH, go on with word_hash_add.
+#define WORD_HASH 2166136261u
+static inline uint32_t word_hash_add(uint32_t h, char c)
+{
+    return (h ^ (unsigned char)c) * 16777619u; // FNV-1a
+}
+enum word word_table_find_hashed(const struct word_table *t, const char *text, size_t len,
+                                 uint32_t hash);
 const char *const *word_list(void);                // WORD_COUNT - 1 texts, sorted
 
 #endif
