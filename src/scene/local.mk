@@ -37,7 +37,7 @@ liblambert_a_SOURCES += \
 	%D%/patterns/spiral2.c %D%/patterns/spotted.c %D%/patterns/square.c \
 	%D%/patterns/triangular.c %D%/patterns/waves.c %D%/patterns/wood.c \
 	%D%/patterns/wrinkles.c %D%/patterns/mandel.c %D%/patterns/julia.c \
-	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h \
+	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h %D%/patterns/rings.h \
 	%D%/patterns/crackle.c %D%/patterns/facets.c \
 	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c \
 	%D%/image_map.c %D%/image_map.h %D%/patterns/image_pattern.c \

@@ -8,7 +8,7 @@
 #include "math/quick_lanes.h"
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
-#include "scene/pattern_math.h"
+#include "scene/pattern_lanes.h"
 #include "scene/tape_kernel.h"
 
 #define PASTE_(a, b) a##b
@@ -554,15 +554,7 @@ static void vectors(const double p[3][8], const struct noise_octaves *o, double 
 
 static void cycloidals(const double v[8], double out[8])
 {
-    const struct real8 x = r8_load(v);
-    const struct mask8 up = r8_le(r8_set(0), x);
-    const struct real8 turn =
-        r8_select(up, r8_sub(x, r8_floor(x)), r8_neg(r8_add(x, r8_floor(r8_neg(x)))));
-    struct real8 s, cosine;
-    quick_sincos8(r8_mul(r8_div(r8_mul(turn, r8_set(50000.0)), r8_set(50000.0)),
-                         r8_set(2 * PATTERN_PI)),
-                  &s, &cosine);
-    r8_store(out, r8_select(up, s, r8_neg(s)));
+    r8_store(out, cycloidal8(r8_load(v)));
 }
 
 static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
@@ -576,4 +568,6 @@ const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
                                                          PASTE(noise_bounds_, ISA),
                                                          cycloidals,
                                                          powers,
+                                                         PASTE(noise_rings_, ISA),
+                                                         PASTE(noise_ring_slopes_, ISA),
                                                          &PASTE(tape_kernels_, ISA)};

@@ -1,6 +1,8 @@
 #ifndef SCENE_NOISE_KERNEL_H
 #define SCENE_NOISE_KERNEL_H
 
+#include <stdbool.h>
+
 // Noise at eight points, compiled once per instruction set (math/lanes.h). The bits are
 // those of scene/noise.h.
 // A sum over octaves: the noise at scale * p, then lambda times that scale and so on, with
@@ -34,6 +36,21 @@ typedef void noise_nearest_kernel(const double p[3][8], const double cell[3],
                                   double place[3][8]);
 noise_nearest_kernel noise_nearest_base, noise_nearest_avx2, noise_nearest_avx512;
 
+// Rings around the first `count` wave sources (scene/patterns/rings.h).
+struct noise_rings {
+    int count;
+    double frequency, phase;
+    bool own_widths; // else all have the same
+};
+// The mean at eight points; what they add to normals n.
+typedef void noise_rings_kernel(const double p[3][8], const struct noise_rings *r,
+                                double out[8]);
+typedef void noise_ring_slopes_kernel(const double p[3][8], const struct noise_rings *r,
+                                      float amount, double n[3][8]);
+noise_rings_kernel noise_rings_base, noise_rings_avx2, noise_rings_avx512;
+noise_ring_slopes_kernel noise_ring_slopes_base, noise_ring_slopes_avx2,
+    noise_ring_slopes_avx512;
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -46,9 +63,11 @@ struct noise_kernels {
                     double out[3][8]);
     noise_nearest_kernel *nearest;
     noise_bounds_kernel *bounds;
-    // cycloidal_quick of scene/pattern_math.h, and quick_pow.
+    // cycloidal of scene/pattern_math.h, and quick_pow.
     void (*cycloidal)(const double v[8], double out[8]);
     void (*power)(const double x[8], double y, double out[8]);
+    noise_rings_kernel *rings;
+    noise_ring_slopes_kernel *ring_slopes;
     const struct tape_kernels *tapes; // functions of the same instruction set
 };
 

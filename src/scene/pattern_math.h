@@ -26,16 +26,8 @@ static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 // a modulo p, never negative.
 static inline double fold(double a, double p) { return a - p * floor(a / p); }
 
-// One period of a sine per unit; rounded as the reference does.
+// One period of a sine per unit, but for the last two bits; rounded as the reference does.
 static inline double cycloidal(double v)
-{
-    if (v >= 0)
-        return det_sin((v - floor(v)) * 50000.0 / 50000.0 * (2 * PATTERN_PI));
-    return -det_sin(-(v + floor(-v)) * 50000.0 / 50000.0 * (2 * PATTERN_PI));
-}
-
-// The same but for the last two bits.
-static inline double cycloidal_quick(double v)
 {
     double sine, cosine;
     const double turn = v >= 0 ? v - floor(v) : -(v + floor(-v));

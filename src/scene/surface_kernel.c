@@ -6,7 +6,7 @@
 #include "math/lanes_vec.h"
 #include "scene/image_map.h"
 #include "scene/noise_kernel.h"
-#include "scene/pattern_math.h"
+#include "scene/pattern_lanes.h"
 #include "scene/pigment_tape.h"
 #include "scene/surface_eval.h"
 #include "scene/warp.h"
@@ -130,7 +130,9 @@ static void wave_step(const struct pattern *p, double v[8])
         r8_store(v, r8_mul(r8_mul(x, x), r8_sub(r8_set(3), r8_mul(r8_set(2), x))));
         break;
     case WAVE_SINE:
-    case WAVE_SCALLOP:
+        r8_store(v, r8_mul(r8_add(r8_set(1), cycloidal8(x)), r8_set(0.5)));
+        break;
+    case WAVE_SCALLOP: r8_store(v, r8_abs(cycloidal8(r8_mul(x, r8_set(0.5))))); break;
     case WAVE_POLY:
         for (int i = 0; i < 8; i++)
             v[i] = pattern_wave(p, v[i]);

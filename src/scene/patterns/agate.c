@@ -9,7 +9,7 @@ static const struct turbulence usual = {{0, 0, 0}, 6, 2, 0.5f};
 static inline double band(const struct pattern *p, double turbulence, double z)
 {
     const double s = 1.3 * (p->value[0] * turbulence) + 1.1 * z;
-    const double v = 0.5 * (cycloidal_quick(s) + 1);
+    const double v = 0.5 * (cycloidal(s) + 1);
     return v < DBL_MIN ? 0 : quick_pow(v > 1 ? 1 : v, 0.77);
 }
 

@@ -1,40 +1,41 @@
 // waves: rings around number_of_waves points, each of its own width
 
-#include "scene/pattern_math.h"
-
-static double source_distance(struct vec3 at, int i, struct vec3 *from)
-{
-    *from = vec3_sub(at, noise_wave_source(i));
-    const double length = vec3_length(*from);
-    return length == 0 ? 1 : length;
-}
+#include "scene/patterns/rings.h"
 
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
     (void)c;
-    const int waves = pattern_wave_count(p);
-    double sum = 0;
-    struct vec3 from;
-    for (int i = 0; i < waves; i++) {
-        const double f = noise_wave_frequency(i);
-        sum += cycloidal(source_distance(at, i, &from) * p->frequency * f + p->phase) / f;
-    }
-    return 0.2 * (2.5 + sum / waves);
+    const struct noise_rings r = rings_of(p, true);
+    return 0.2 * (2.5 + rings_mean(&r, at));
+}
+
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    const struct noise_rings r = rings_of(p, true);
+    k->rings(at, &r, out);
+    for (int i = 0; i < 8; i++)
+        out[i] = 0.2 * (2.5 + out[i]);
 }
 
 static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
                            struct vec3 at)
 {
-    const int waves = pattern_wave_count(p);
-    for (int i = 0; i < waves; i++) {
-        struct vec3 from;
-        const double f = noise_wave_frequency(i), length = source_distance(at, i, &from);
-        const double s = cycloidal(length * p->frequency * f + p->phase);
-        n = vec3_mad(n, s * (amount / f) / (length * waves), from);
-    }
-    return n;
+    const struct noise_rings r = rings_of(p, true);
+    return rings_perturb(&r, amount, n, at);
 }
 
-const struct pattern_ops waves_pattern_ops = {
-    .keyword = "waves", .frequency = 1, .value = value, .perturb = perturb};
+static void perturbs(const struct pattern *p, const struct noise_kernels *k, float amount,
+                     const double at[3][8], double n[3][8])
+{
+    const struct noise_rings r = rings_of(p, true);
+    k->ring_slopes(at, &r, amount, n);
+}
+
+const struct pattern_ops waves_pattern_ops = {.keyword = "waves",
+                                              .frequency = 1,
+                                              .value = value,
+                                              .values = values,
+                                              .perturb = perturb,
+                                              .perturbs = perturbs};

@@ -7,8 +7,8 @@
 static inline double ring(const struct turbulence *t, double x, double y, double dx,
                           double dy)
 {
-    x += cycloidal_quick((x + dx) * t->amount.x);
-    y += cycloidal_quick((y + dy) * t->amount.y);
+    x += cycloidal((x + dx) * t->amount.x);
+    y += cycloidal((y + dy) * t->amount.y);
     return sqrt(x * x + y * y);
 }
 
