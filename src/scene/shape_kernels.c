@@ -4,6 +4,7 @@
 #include "scene/shapes/extrude_lanes.h"
 #include "scene/shapes/isosurface_lanes.h"
 #include "scene/shapes/polygon.h"
+#include "scene/shapes/poly_lanes.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
@@ -12,4 +13,5 @@ const struct shape_kernels PASTE(shape_kernels_, ISA) = {
     .extrude = PASTE(extrude_closest8_, ISA),
     .isosurface = PASTE(iso_closest8_, ISA),
     .polygon = PASTE(polygon_closest8_, ISA),
+    .poly = PASTE(poly_closest8_, ISA),
 };

@@ -36,6 +36,7 @@ unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
 struct extrude_solid;
 struct isosurface;
 struct polygon;
+struct poly;
 struct shape_kernels {
     unsigned (*extrude)(const struct extrude_solid *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out, unsigned *odd);
@@ -43,6 +44,8 @@ struct shape_kernels {
                            unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
+    unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
+                     bool any, struct shape_hits *out);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -9,6 +9,8 @@
 #include "scene/shape_kernels.h"
 #include "trace/packet.h"
 
+#define TOUCHED "poly { 2, <1,0,0,0, 0,0,0, 0,0,0> }" // a plane, twice
+
 static const char *const shapes[] = {
     "isosurface { function { x*x + y*y + z*z - 0.81 } }",
     "isosurface { function { sqrt(pow(sqrt(x*x + z*z) - 0.7, 2) + y*y) - 0.2 } }",
@@ -40,6 +42,24 @@ static const char *const shapes[] = {
     "isosurface { function { sum(k, 1, 4, sin(k*5*x)/k) + 2*y } contained_by { sphere { "
     "0, 1 "
     "} } }",
+    "quartic { <1,0,0,0,2,0,0,2,0,-1.3, 0,0,0,0,0,0,0,0,0,0, 1,0,0,2,0,.82,0,0,0,0, "
+    "1,0,-1.3,0,.1681> }", // a torus of .8 and .3, by its expanded square
+    "cubic { <1,0,0,0, 0,0,-1, 0,0,0, 1,0,0, 0,0,0, 1,0,-.2,-.1> }",
+    "poly { 2, <1,0,0,0, 2,0,0, 3,0,-1> }",
+    TOUCHED,
+    "polynomial { 12, xyz(12,0,0): 1, xyz(0,12,0): 1, xyz(0,0,12): 1, xyz(0,0,0): -.1 }",
+    "polynomial { 35, xyz(34,0,0): 1, xyz(0,34,0): 1, xyz(0,0,34): 1, xyz(1,0,0): -.2, "
+    "xyz(0,0,0): -.1 }",
+    "polynomial { 5, xyz(3,1,1): 1, xyz(0,0,2): -1, xyz(1,2,0): .7, xyz(0,1,0): -.3 }",
+    "polynomial { 6, xyz(2,0,0): 1, xyz(0,1,0): -.7, xyz(0,0,0): .01 }", // degree 2
+    "polynomial { 4, xyz(4,0,0): 1, xyz(0,4,0): 1, xyz(0,0,4): 1, xyz(2,0,0): -1, "
+    "xyz(0,2,0): -1, xyz(0,0,2): -1, xyz(0,0,0): .4 }",
+    // Barth's sextic, with double points
+    "#declare Q = (1 + sqrt(5))/2; #declare P = Q*Q; polynomial { 6, xyz(4,2,0): 4*P*P, "
+    "xyz(0,4,2): 4*P*P, xyz(2,0,4): 4*P*P, xyz(2,4,0): -4*P, xyz(0,2,4): -4*P, "
+    "xyz(4,0,2): -4*P, xyz(2,2,2): 4*P*P*P - 4, xyz(4,0,0): -1-2*Q, xyz(0,4,0): -1-2*Q, "
+    "xyz(0,0,4): -1-2*Q, xyz(2,2,0): -2-4*Q, xyz(0,2,2): -2-4*Q, xyz(2,0,2): -2-4*Q, "
+    "xyz(2,0,0): 2+4*Q, xyz(0,2,0): 2+4*Q, xyz(0,0,2): 2+4*Q, xyz(0,0,0): -1-2*Q }",
 };
 
 // Those whose lanes have the bits of the one line's crossings.
@@ -219,7 +239,8 @@ static void look(const struct loaded *l, const char *text, bool any, int packets
             assert_int_equal(first.crossing[i], other.crossing[i]);
         }
     }
-    assert_true(hits > packets / 4);
+    // A touch is no crossing.
+    assert_true(hits > packets / 4 || strcmp(text, TOUCHED) == 0);
     boundary_list_free(&all);
 }
 

@@ -10,19 +10,8 @@
 #include "math/polynomial.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-// The powers of z that go with one product of powers of x and y, from the highest that occurs.
-struct row {
-    int x, y, top;
-    const double *c;
-};
-
-struct poly {
-    int order;
-    const double *coefficient;
-    const struct row *row; // those that are not zero
-    uint32_t rows;
-};
+#include "scene/shape_kernels.h"
+#include "scene/shapes/poly.h"
 
 static size_t term_count(int n) { return (size_t)((n + 1) * (n + 2) * (n + 3) / 6); }
 
@@ -81,7 +70,7 @@ static void along(const struct poly *s, struct vec3 o, struct vec3 d,
         int y = s->row[i].y;
         in_y.degree = -1;
         for (; i < s->rows && s->row[i].x == at; i++) {
-            const struct row *r = &s->row[i];
+            const struct poly_row *r = &s->row[i];
             times_power(&in_y, o.y, d.y, y - r->y);
             y = r->y;
             in_z.degree = -1;
@@ -113,7 +102,7 @@ static double value_at(const struct poly *s, struct vec3 p)
 {
     double sum = 0;
     for (uint32_t i = 0; i < s->rows; i++) {
-        const struct row *r = &s->row[i];
+        const struct poly_row *r = &s->row[i];
         double z = 0;
         for (int k = 0; k <= r->top; k++)
             z = z * p.z + r->c[k];
@@ -127,7 +116,7 @@ static double magnitude_at(const struct poly *s, struct vec3 size)
 {
     double sum = 0;
     for (uint32_t i = 0; i < s->rows; i++) {
-        const struct row *r = &s->row[i];
+        const struct poly_row *r = &s->row[i];
         double z = 0;
         for (int k = 0; k <= r->top; k++)
             z = z * size.z + fabs(r->c[k]);
@@ -146,13 +135,27 @@ static double lost_at(const struct poly *s, struct vec3 o, struct vec3 u, double
                                 fabs(o.z) + a * fabs(u.z)));
 }
 
-static struct aabb bounds(const void *shape)
-{
-    (void)shape;
-    return aabb_infinite();
-}
+static struct aabb bounds(const void *shape) { return ((const struct poly *)shape)->box; }
 
 static bool inside(const void *shape, struct vec3 p) { return value_at(shape, p) <= 0; }
+
+// Where the line is in the box of the set.
+static bool in_box(const struct aabb *box, struct vec3 o, struct vec3 u, double *lo,
+                   double *hi)
+{
+    for (int i = 0; i < 3; i++) {
+        const double at = vec3_axis(o, i), d = vec3_axis(u, i);
+        const double min = vec3_axis(box->min, i), max = vec3_axis(box->max, i);
+        if (d == 0) {
+            if (at < min || at > max)
+                return false;
+            continue;
+        }
+        *lo = fmax(*lo, ((d > 0 ? min : max) - at) / d);
+        *hi = fmin(*hi, ((d > 0 ? max : min) - at) / d);
+    }
+    return *lo < *hi;
+}
 
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
@@ -163,11 +166,15 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct vec3 u = vec3_scale(1 / length, ray->d);
     const double to_nearest = -vec3_dot(ray->o, u);
     const struct vec3 o = vec3_mad(ray->o, to_nearest, u);
+    double lo = -HUGE_VAL, hi = HUGE_VAL;
+    if ((s->compact && !in_box(&s->box, o, u, &lo, &hi)) || boundary_list_gives_up(out))
+        return;
     struct line_poly p;
     along(s, o, u, &p);
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
     const double far = polynomial_root_bound(p.c, p.degree);
-    const int n = polynomial_roots(p.c, p.degree, -far, far, 4 * s->order, root);
+    const int n = polynomial_roots(p.c, p.degree, fmax(lo, -far), fmin(hi, far),
+                                   4 * s->order, root);
     for (int i = 0; i < n; i++) {
         const double lost = lost_at(s, o, u, root[i].t);
         const double dt = root[i].dt +
@@ -176,6 +183,19 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         boundary_list_add(out, (root[i].t + to_nearest) / length, dt / length,
                           root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
     }
+}
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    return k->poly(shape, rays, lanes, any, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
 }
 
 // The gradient by the same nested schemes, differentiated along each axis.
@@ -208,11 +228,11 @@ static void finish(struct poly *s, struct arena *arena)
 {
     const int n = s->order;
     const size_t most = (size_t)((n + 1) * (n + 2) / 2);
-    struct row *row = arena_new_array(arena, struct row, most);
+    struct poly_row *row = arena_new_array(arena, struct poly_row, most);
     const double *c = s->coefficient;
     for (int x = n; x >= 0; x--)
         for (int y = n - x; y >= 0; y--) {
-            struct row r = {x, y, n - x - y, c};
+            struct poly_row r = {x, y, n - x - y, c};
             c += r.top + 1;
             for (; r.top > 0 && *r.c == 0; r.top--)
                 r.c++;
@@ -220,6 +240,8 @@ static void finish(struct poly *s, struct arena *arena)
                 row[s->rows++] = r;
         }
     s->row = row;
+    s->box = poly_bounds(s);
+    s->compact = aabb_is_finite(s->box);
 }
 
 static bool read_terms(struct poly *s, struct args *args)
@@ -322,11 +344,13 @@ static void print(const void *shape, FILE *out)
     const struct shape_ops word##_ops = {                                                \
         .keyword = #word,                                                                \
         .size = sizeof(struct poly),                                                     \
-        .flags = SHAPE_SOLID | SHAPE_STURM | SHAPE_BOUND_SHAPE,                                              \
+        .flags = SHAPE_SOLID | SHAPE_STURM | SHAPE_BOUND_SHAPE,                          \
         .build = build_##word,                                                           \
         .bounds = bounds,                                                                \
         .inside = inside,                                                                \
         .intersect = intersect,                                                          \
+        .closest8 = closest8,                                                            \
+        .has_lanes = has_lanes,                                                          \
         .surface = surface,                                                              \
         .print = print,                                                                  \
     }

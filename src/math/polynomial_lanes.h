@@ -1,0 +1,213 @@
+#ifndef MATH_POLYNOMIAL_LANES_H
+#define MATH_POLYNOMIAL_LANES_H
+
+// The first sign change of eight polynomials of one degree, each on its own stretch.
+//
+// A lane looks at stretches from left to right, each a half, a quarter ... of its whole: the
+// Bernstein polygon has at least as many sign changes as there are roots, and more by an even
+// number only (Farouki & Rajan 1987). None: on to the next stretch, twice as long where that
+// fits; one: there is the root; more: the first half of it. Coefficients within their rounding
+// have no sign; the sign at a stretch's begin is the one before it left. So a touch is no
+// root, and no root is lost where two stretches meet.
+#include "math/gamma.h"
+#include "math/lanes.h"
+#include "math/polynomial.h"
+
+enum { LEVELS_MAX = 44, LOOKS_MAX = 400, STEPS_MAX = 120 };
+
+struct brackets8 {
+    struct real8 a, b, guess; // of the lanes found: one root between, the first
+    struct real8 sign;        // before it, -1 or 1
+    unsigned found;
+    unsigned unsure; // what they do is below the rounding
+};
+
+LANES_INLINE struct real8 poly8_value(const struct real8 *c, int n, struct real8 t)
+{
+    struct real8 v = c[n];
+    for (int i = n - 1; i >= 0; i--)
+        v = r8_add(r8_mul(v, t), c[i]);
+    return v;
+}
+
+// The sum of the terms' sizes.
+LANES_INLINE struct real8 poly8_size(const struct real8 *c, int n, struct real8 t)
+{
+    struct real8 v = r8_abs(c[n]);
+    t = r8_abs(t);
+    for (int i = n - 1; i >= 0; i--)
+        v = r8_add(r8_mul(v, t), r8_abs(c[i]));
+    return v;
+}
+
+// The Bernstein coefficients on [a, a + w], from the end that is nearer to zero; returns a
+// bound on their rounding: up to 6 n roundings of sums no larger than the polynomial's terms
+// at |end| + w. rough: it is much larger than that of values on the stretch, so that halves
+// have more to say.
+LANES_INLINE struct real8 poly8_polygon(const struct real8 *c, int n, struct real8 a,
+                                        struct real8 w, struct real8 *b,
+                                        struct mask8 *rough)
+{
+    const struct real8 end = r8_add(a, w), zero = r8_set(0);
+    const struct mask8 turned = r8_lt(r8_add(a, end), zero);
+    const struct real8 from = r8_select(turned, end, a);
+    struct real8 scale = r8_set(1);
+    w = r8_select(turned, r8_neg(w), w);
+    for (int i = 0; i <= n; i++)
+        b[i] = c[i];
+    for (int i = 0; i < n; i++) // Taylor shift
+        for (int k = n - 1; k >= i; k--)
+            b[k] = r8_add(b[k], r8_mul(from, b[k + 1]));
+    for (int i = 0; i < n; i++) { // to [0, 1], over the binomials
+        scale = r8_mul(r8_mul(scale, w), r8_set((i + 1.) / (n - i)));
+        b[i + 1] = r8_mul(b[i + 1], scale);
+    }
+    for (int i = 0; i < n; i++) // sums of the scaled powers
+        for (int k = n; k > i; k--)
+            b[k] = r8_add(b[k], b[k - 1]);
+    if (m8_bits(turned))
+        for (int i = 0; i < n - i; i++) {
+            const struct real8 x = b[i], y = b[n - i];
+            b[i] = r8_select(turned, y, x);
+            b[n - i] = r8_select(turned, x, y);
+        }
+    const struct real8 far = r8_max(r8_abs(a), r8_abs(end));
+    const struct real8 size = poly8_size(c, n, r8_add(r8_abs(from), r8_abs(w)));
+    *rough = r8_lt(r8_mul(r8_set(4), poly8_size(c, n, far)), size);
+    return r8_mul(r8_set((6 * n + 8) * ROUNDOFF), size);
+}
+
+// How often the polygon's sign changes from the first on, the place of the first change as a
+// share of the stretch. A first sign of zero becomes that of the first coefficient with one.
+LANES_INLINE struct real8 poly8_changes(const struct real8 *b, int n, struct real8 noise,
+                                        struct real8 *first_sign, struct real8 *at,
+                                        struct mask8 *clear_all)
+{
+    struct real8 sign = *first_sign;
+    const struct real8 zero = r8_set(0), one = r8_set(1);
+    struct real8 changes = zero, before = sign, from = one, to = one, index = zero;
+    *clear_all = m8_of(255);
+    for (int i = 0; i <= n; i++) {
+        const struct mask8 clear = r8_lt(noise, r8_abs(b[i]));
+        const struct mask8 turns = m8_and(clear, r8_lt(r8_mul(sign, b[i]), zero));
+        const struct mask8 first = m8_and(turns, r8_eq(changes, zero));
+        from = r8_select(first, before, from);
+        to = r8_select(first, b[i], to);
+        index = r8_select(first, r8_set(i - 1), index);
+        changes = r8_select(turns, r8_add(changes, one), changes);
+        *clear_all = m8_and(*clear_all, clear);
+        sign = r8_select(clear, r8_copysign(one, b[i]), sign);
+        *first_sign = r8_select(r8_eq(*first_sign, zero), sign, *first_sign);
+        before = b[i];
+    }
+    *at = r8_mul(r8_add(index, r8_div(from, r8_sub(from, to))), r8_set(1. / n));
+    return changes;
+}
+
+// sign: at lo, -1 or 1; 0: what it is right behind. odd: a stretch with any odd number of
+// roots will do. The degree is n, or less where leading coefficients are zero.
+LANES_INLINE struct brackets8 poly8_isolate(const struct real8 *c, int n, struct real8 lo,
+                                            struct real8 hi, struct real8 sign,
+                                            unsigned lanes, bool odd,
+                                            const volatile bool *cancel)
+{
+    const struct real8 zero = r8_set(0), one = r8_set(1), half = r8_set(0.5);
+    const struct real8 width = r8_sub(hi, lo);
+    struct real8 b[POLYNOMIAL_DEGREE_MAX + 1];
+    struct real8 from = zero, share = one; // of the width, exact
+    struct brackets8 r = {lo, hi, lo, sign, 0, 0};
+    for (int i = 0; i < LOOKS_MAX && lanes && !(cancel && *cancel); i++) {
+        const struct real8 a = r8_add(lo, r8_mul(width, from)), w = r8_mul(width, share);
+        struct real8 at, before = r.sign;
+        struct mask8 rough, clear;
+        const struct real8 noise = poly8_polygon(c, n, a, w, b, &rough);
+        const struct real8 changes = poly8_changes(b, n, noise, &before, &at, &clear);
+        const struct real8 halves = r8_floor(r8_mul(changes, half));
+        const unsigned is_odd = m8_bits(r8_lt(r8_add(halves, halves), changes));
+        const unsigned told = lanes & ~m8_bits(m8_without(rough, clear));
+        const unsigned none = told & m8_bits(r8_eq(changes, zero));
+        // A polygon that ends within its rounding may still turn back.
+        const unsigned ends = lanes & m8_bits(r8_lt(noise, r8_abs(b[n])));
+        const unsigned one_root =
+            ends & (odd ? is_odd : told & m8_bits(r8_eq(changes, one)));
+        r.sign = r8_select(m8_of(none | one_root), before, r.sign);
+        if (one_root) {
+            const struct mask8 m = m8_of(one_root);
+            r.a = r8_select(m, a, r.a);
+            r.b = r8_select(m, r8_min(r8_add(a, w), hi), r.b);
+            r.guess = r8_select(m, r8_add(a, r8_mul(w, at)), r.guess);
+            r.found |= one_root;
+            lanes &= ~one_root;
+        }
+        const struct mask8 on = m8_of(none);
+        from = r8_select(on, r8_add(from, share), from);
+        lanes &= ~(none & m8_bits(r8_le(one, from)));
+        // Twice as long where the next stretch begins on a multiple of that, once a step.
+        const struct real8 twice = r8_div(from, r8_add(share, share));
+        const struct mask8 grows = m8_and(on, r8_eq(twice, r8_floor(twice)));
+        share = r8_select(grows, r8_add(share, share), share);
+        share = r8_select(m8_of(lanes & ~none), r8_mul(share, half), share);
+        const unsigned small =
+            lanes & m8_bits(r8_lt(share, r8_set(1 / (double)(1ull << LEVELS_MAX))));
+        r.unsure |= small;
+        lanes &= ~small;
+    }
+    r.unsure |= lanes;
+    return r;
+}
+
+// The roots in their brackets: Newton's method, kept inside them (as root_between of
+// math/polynomial.c).
+LANES_INLINE struct real8 poly8_refine(const struct real8 *c, int n,
+                                       const struct brackets8 *r, unsigned lanes)
+{
+    const struct real8 zero = r8_set(0), endless = r8_set(INFINITY);
+    struct real8 lo = r->a, hi = r->b, t = r8_max(lo, r8_min(r->guess, hi)),
+                 last = endless;
+    const struct mask8 rises = r8_lt(r->sign, zero);
+    for (int i = 0; i < STEPS_MAX && lanes; i++) {
+        struct real8 v = c[n], slope = zero;
+        for (int k = n - 1; k >= 0; k--) {
+            slope = r8_add(r8_mul(slope, t), v);
+            v = r8_add(r8_mul(v, t), c[k]);
+        }
+        const struct mask8 above = r8_lt(zero, v);
+        const struct mask8 beyond =
+            m8_or(m8_and(above, rises), m8_without(m8_without(m8_of(255), above), rises));
+        hi = r8_select(beyond, t, hi);
+        lo = r8_select(beyond, lo, t);
+        struct real8 next = r8_sub(t, r8_div(v, slope)), step = r8_abs(r8_sub(next, t));
+        const struct mask8 in = m8_and(r8_lt(lo, next), r8_lt(next, hi));
+        next = r8_select(in, next, r8_mul(r8_set(0.5), r8_add(lo, hi)));
+        step = r8_select(in, step, endless);
+        const struct mask8 inner =
+            m8_without(m8_and(r8_lt(lo, next), r8_lt(next, hi)), r8_eq(next, t));
+        // Steps shrink quadratically: two of them foretell the next.
+        const struct mask8 quick = m8_and(r8_lt(step, last), r8_lt(last, endless));
+        const struct mask8 small =
+            r8_le(r8_mul(r8_mul(step, step), step),
+                  r8_mul(r8_mul(r8_set(0x1p-54), r8_abs(next)), r8_mul(last, last)));
+        const unsigned exact = lanes & m8_bits(r8_eq(v, zero));
+        t = r8_select(m8_of(lanes & ~exact), next, t);
+        last = step;
+        lanes &= m8_bits(m8_without(inner, m8_and(quick, small))) & ~exact;
+    }
+    return t;
+}
+
+// As polynomial_root_error; infinite where the root is not simple.
+LANES_INLINE struct real8 poly8_root_error(const struct real8 *c, int n, struct real8 t,
+                                           struct real8 error)
+{
+    struct real8 bend = r8_set(0), slope = bend, v = bend;
+    for (int i = n; i >= 0; i--) {
+        bend = r8_add(r8_mul(bend, t), slope);
+        slope = r8_add(r8_mul(slope, t), v);
+        v = r8_add(r8_mul(v, t), c[i]);
+    }
+    const struct real8 simple = r8_div(r8_add(error, error), r8_abs(slope));
+    const struct real8 twofold = r8_mul(r8_set(2), r8_sqrt(r8_div(error, r8_abs(bend))));
+    return r8_select(r8_lt(r8_add(simple, simple), twofold), simple, r8_set(INFINITY));
+}
+
+#endif

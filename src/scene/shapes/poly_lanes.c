@@ -1,0 +1,225 @@
+// Eight rays and a polynomial's set, for the first crossing: the polynomials along the rays,
+// isolation and Newton's method in lanes (math/polynomial_lanes.h). Where that does not tell,
+// as at double roots, a lane is left to poly.c. ISA names the instruction set.
+#include "scene/shapes/poly_lanes.h"
+
+#include "math/polynomial_lanes.h"
+#include "scene/shapes/lanes.h"
+#include "scene/shapes/poly.h"
+
+// ---- along the rays -----------------------------------------------------------------------
+
+// As line_poly and its functions in poly.c, operation by operation.
+struct line_poly8 {
+    int degree;
+    struct real8 c[POLYNOMIAL_DEGREE_MAX + 1];
+};
+
+LANES_INLINE void times_line(struct line_poly8 *p, struct real8 o, struct real8 d)
+{
+    if (p->degree < 0)
+        return;
+    p->degree++;
+    p->c[p->degree] = r8_mul(d, p->c[p->degree - 1]);
+    for (int i = p->degree - 1; i > 0; i--)
+        p->c[i] = r8_add(r8_mul(o, p->c[i]), r8_mul(d, p->c[i - 1]));
+    p->c[0] = r8_mul(p->c[0], o);
+}
+
+LANES_INLINE void add_poly(struct line_poly8 *p, const struct line_poly8 *q)
+{
+    for (int i = p->degree + 1; i <= q->degree; i++)
+        p->c[i] = r8_set(0);
+    for (int i = 0; i <= q->degree; i++)
+        p->c[i] = r8_add(p->c[i], q->c[i]);
+    p->degree = q->degree > p->degree ? q->degree : p->degree;
+}
+
+LANES_INLINE void add_constant(struct line_poly8 *p, double c)
+{
+    if (c == 0)
+        return;
+    p->c[0] = p->degree < 0 ? r8_set(c) : r8_add(p->c[0], r8_set(c));
+    p->degree = p->degree < 0 ? 0 : p->degree;
+}
+
+static void times_power(struct line_poly8 *p, struct real8 o, struct real8 d, int power)
+{
+    while (power-- > 0)
+        times_line(p, o, d);
+}
+
+static void along(const struct poly *s, const struct vec8 *o, const struct vec8 *d,
+                  struct line_poly8 *out)
+{
+    struct line_poly8 in_y, in_z;
+    int x = s->order;
+    out->degree = -1;
+    for (uint32_t i = 0; i < s->rows;) {
+        const int at = s->row[i].x;
+        int y = s->row[i].y;
+        in_y.degree = -1;
+        for (; i < s->rows && s->row[i].x == at; i++) {
+            const struct poly_row *r = &s->row[i];
+            times_power(&in_y, o->y, d->y, y - r->y);
+            y = r->y;
+            in_z.degree = -1;
+            for (int k = r->top; k >= 0; k--) {
+                times_line(&in_z, o->z, d->z);
+                add_constant(&in_z, r->c[r->top - k]);
+            }
+            add_poly(&in_y, &in_z);
+        }
+        times_power(&in_y, o->y, d->y, y);
+        times_power(out, o->x, d->x, x - at);
+        x = at;
+        add_poly(out, &in_y);
+    }
+    times_power(out, o->x, d->x, x);
+}
+
+// ---- errors ---------------------------------------------------------------------------------
+
+LANES_INLINE struct real8 power(struct real8 x, int n)
+{
+    struct real8 v = r8_set(1);
+    for (; n > 0; n /= 2, x = r8_mul(x, x))
+        v = n % 2 ? r8_mul(v, x) : v;
+    return v;
+}
+
+// The sum of the terms at a point; sizes: of their sizes.
+LANES_INLINE struct real8 sum_at(const struct poly *s, struct vec8 p, bool sizes)
+{
+    struct real8 sum = r8_set(0);
+    for (uint32_t i = 0; i < s->rows; i++) {
+        const struct poly_row *r = &s->row[i];
+        struct real8 in_z = r8_set(0);
+        for (int k = 0; k <= r->top; k++)
+            in_z = r8_add(r8_mul(in_z, p.z), r8_set(sizes ? fabs(r->c[k]) : r->c[k]));
+        sum = r8_add(sum, r8_mul(r8_mul(power(p.x, r->x), power(p.y, r->y)), in_z));
+    }
+    return sum;
+}
+
+static struct real8 value_at(const struct poly *s, const struct lines8 *l, struct real8 t)
+{
+    return sum_at(s, v8_mad(l->o, t, l->u), false);
+}
+
+// As lost_at of poly.c.
+static struct real8 lost_at(const struct poly *s, const struct lines8 *l, struct real8 t)
+{
+    const struct vec8 o = {r8_abs(l->o.x), r8_abs(l->o.y), r8_abs(l->o.z)};
+    const struct vec8 u = {r8_abs(l->u.x), r8_abs(l->u.y), r8_abs(l->u.z)};
+    return r8_mul(r8_set(4 * s->order * ROUNDOFF),
+                  sum_at(s, v8_mad(o, r8_abs(t), u), true));
+}
+
+// ---- roots ----------------------------------------------------------------------------------
+
+// The sign of the polynomial where the rays begin; 0 within its rounding. Where the sum along
+// the line is rounding, as near the surface and within high orders' flat middles, the terms
+// tell better.
+LANES_INLINE struct real8 first_sign(const struct poly *s, const struct line_poly8 *p,
+                                     int n, const struct lines8 *l, unsigned lanes)
+{
+    const struct real8 one = r8_set(1), size = poly8_size(p->c, n, l->lo);
+    struct real8 v = poly8_value(p->c, n, l->lo);
+    const struct mask8 clear = r8_lt(r8_mul(r8_set(64 * ROUNDOFF), size), r8_abs(v));
+    if (lanes & ~m8_bits(clear))
+        v = r8_select(clear, v, value_at(s, l, l->lo));
+    return r8_select(r8_lt(r8_mul(r8_set(4 * ROUNDOFF), size), r8_abs(v)),
+                     r8_copysign(one, v), r8_set(0));
+}
+
+struct first8 {
+    struct real8 t; // of the lanes found
+    unsigned found, unsure, below;
+};
+
+LANES_INLINE struct first8 first_of(const struct poly *s, const struct line_poly8 *p,
+                                    int n, const struct lines8 *l, unsigned lanes,
+                                    bool any, const volatile bool *cancel)
+{
+    struct first8 f;
+    const struct brackets8 r = poly8_isolate(
+        p->c, n, l->lo, l->hi, first_sign(s, p, n, l, lanes), lanes, any, cancel);
+    f.below = m8_bits(r8_lt(r.sign, r8_set(0)));
+    f.found = r.found;
+    f.unsure = r.unsure;
+    f.t =
+        any ? r8_mul(r8_set(0.5), r8_add(r.a, r.b)) : poly8_refine(p->c, n, &r, r.found);
+    return f;
+}
+
+// The usual degrees by loops that unroll.
+static struct first8 first_root(const struct poly *s, const struct line_poly8 *p,
+                                const struct lines8 *l, unsigned lanes, bool any,
+                                const volatile bool *cancel)
+{
+    switch (p->degree) {
+    case 3: return first_of(s, p, 3, l, lanes, any, cancel);
+    case 4: return first_of(s, p, 4, l, lanes, any, cancel);
+    case 6: return first_of(s, p, 6, l, lanes, any, cancel);
+    default: return first_of(s, p, p->degree, l, lanes, any, cancel);
+    }
+}
+
+// Where the set has no box, all roots are within this.
+static void clip_to_roots(const struct line_poly8 *p, struct lines8 *l)
+{
+    double c[POLYNOMIAL_DEGREE_MAX + 1][8], far[8];
+    for (int i = 0; i <= p->degree; i++)
+        r8_store(c[i], p->c[i]);
+    for (int k = 0; k < 8; k++) {
+        double lane[POLYNOMIAL_DEGREE_MAX + 1];
+        for (int i = 0; i <= p->degree; i++)
+            lane[i] = c[i][k];
+        far[k] = polynomial_root_bound(lane, p->degree);
+    }
+    l->lo = r8_max(r8_neg(r8_load(far)), l->lo);
+    l->hi = r8_min(r8_load(far), l->hi);
+}
+
+static unsigned closest(const struct poly *s, const struct shape_rays *rays,
+                        unsigned lanes, bool any, struct shape_hits *out)
+{
+    struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
+    struct line_poly8 p;
+    if (s->compact)
+        lanes &= lines8_clip(&l, &s->box);
+    if (!lanes || shape_hits_give_up(out))
+        return 0;
+    along(s, &l.o, &l.u, &p);
+    if (p.degree < 1)
+        return 0;
+    if (!s->compact)
+        clip_to_roots(&p, &l);
+    lanes &= m8_bits(r8_lt(l.lo, l.hi));
+    if (!lanes)
+        return 0;
+    const struct first8 f = first_root(s, &p, &l, lanes, any, out->cancel);
+    struct real8 dt = r8_set(0);
+    unsigned unsure = f.unsure, found = f.found;
+    if (found && !any) {
+        const struct real8 size = poly8_size(p.c, p.degree, f.t);
+        const struct real8 error =
+            r8_add(lost_at(s, &l, f.t),
+                   r8_mul(r8_set((2 * p.degree + 4 * s->order) * ROUNDOFF), size));
+        dt = r8_add(poly8_root_error(p.c, p.degree, f.t, error),
+                    r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l.shift), r8_abs(f.t))));
+        unsure |= found & ~m8_bits(r8_lt(dt, r8_set(INFINITY)));
+    }
+    found &= ~unsure;
+    const unsigned met = lines8_hits(&l, rays, found, f.t, dt, f.below, out);
+    // What rounding has put out of the range is for the one-ray form to tell as well.
+    return met | lanes_one_by_one(&poly_ops, s, rays, unsure | (found & ~met), out);
+}
+
+unsigned LANES_PASTE(poly_closest8_, ISA)(const struct poly *s,
+                                          const struct shape_rays *rays, unsigned lanes,
+                                          bool any, struct shape_hits *out)
+{
+    return closest(s, rays, lanes, any, out);
+}
