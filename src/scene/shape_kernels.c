@@ -1,6 +1,7 @@
 // The kernels of one instruction set (shape_kernels.h): ISA names it.
 #include "scene/shape_kernels.h"
 
+#include "scene/shapes/blob.h"
 #include "scene/shapes/extrude_lanes.h"
 #include "scene/shapes/isosurface_lanes.h"
 #include "scene/shapes/polygon.h"
@@ -10,6 +11,7 @@
 #define PASTE(a, b)  PASTE_(a, b)
 
 const struct shape_kernels PASTE(shape_kernels_, ISA) = {
+    .blob = PASTE(blob_closest8_, ISA),
     .extrude = PASTE(extrude_closest8_, ISA),
     .isosurface = PASTE(iso_closest8_, ISA),
     .polygon = PASTE(polygon_closest8_, ISA),

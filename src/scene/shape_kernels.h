@@ -33,11 +33,14 @@ unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
                           struct shape_hits *out);
 
 // What shapes have compiled once per instruction set, with the same results.
+struct blob;
 struct extrude_solid;
 struct isosurface;
 struct polygon;
 struct poly;
 struct shape_kernels {
+    unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
+                     struct shape_hits *out, unsigned *odd);
     unsigned (*extrude)(const struct extrude_solid *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out, unsigned *odd);
     unsigned (*isosurface)(const struct isosurface *s, const struct shape_rays *rays,

@@ -60,6 +60,13 @@ static const char *const shapes[] = {
     "xyz(4,0,2): -4*P, xyz(2,2,2): 4*P*P*P - 4, xyz(4,0,0): -1-2*Q, xyz(0,4,0): -1-2*Q, "
     "xyz(0,0,4): -1-2*Q, xyz(2,2,0): -2-4*Q, xyz(0,2,2): -2-4*Q, xyz(2,0,2): -2-4*Q, "
     "xyz(2,0,0): 2+4*Q, xyz(0,2,0): 2+4*Q, xyz(0,0,2): 2+4*Q, xyz(0,0,0): -1-2*Q }",
+    "blob { threshold .5 sphere { <-.4, 0, 0>, .8, 1 } sphere { <.4, .2, 0>, .7, 1 } "
+    "sphere { <0, -.2, .3>, .5, -1 } }",
+    "blob { threshold .3 cylinder { <-.6, -.2, 0>, <.6, .3, .2>, .5, 1 } sphere { 0, .6, 1 "
+    "scale <1, .5, 2> rotate 30*z } cylinder { <0, -.8, 0>, <0, .8, 0>, .3, 2 rotate 20*x } "
+    "}",
+    "blob { threshold .6 #declare S = seed(1); #for (I, 0, 119) sphere { <rand(S), rand(S), "
+    "rand(S)>*1.6 - .8, .3, 1 } #end }",
 };
 
 // Those whose lanes have the bits of the one line's crossings.

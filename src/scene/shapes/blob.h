@@ -1,0 +1,67 @@
+#ifndef SCENE_SHAPES_BLOB_H
+#define SCENE_SHAPES_BLOB_H
+
+#include "math/transform.h"
+#include "scene/shape_kernels.h"
+
+struct texture;
+
+enum blob_part { PART_BALL, PART_STRAIGHT, PART_BASE, PART_APEX };
+
+struct blob_component {
+    enum blob_part kind;
+    // Centre, or base of a cylinder, from where all its parts measure their share of the
+    // axis, so that none overlap and no gap is left; unit axis towards the apex.
+    struct vec3 c, axis;
+    double length, r, s;
+    struct transform transform;    // blob from component space
+    const struct texture *texture; // NULL: the blob's
+};
+
+// A component is nowhere outside of this ball.
+struct blob_reach {
+    struct vec3 c;
+    double r2; // squared
+};
+
+struct blob {
+    struct blob_component *at;
+    struct blob_reach *reach; // of each
+    uint32_t count, capacity;
+    double threshold;
+};
+
+// A component on a line: q(t) = 1 - d^2/r^2 = top + bend (t - at)^2 for lo < t < hi. About the
+// nearest point, so that a thin component keeps its digits on a line from afar.
+struct blob_stretch {
+    double lo, hi, s, top, at, bend;
+    double peak; // the field is never above
+};
+
+void blob_intersect(const struct blob *b, const struct ray *ray,
+                    struct boundary_list *out);
+
+// A line in the blob's space, p(t) = o + t u with |u| = 1, and where the ray is on it.
+struct blob_line {
+    double t_min, t_max;  // of the ray
+    double shift, length; // t of the line = length t of the ray - shift
+    double noise;         // what the rounding of o makes of t
+};
+
+// The first crossing of the ray with t > t_min among `count` stretches of its line, which
+// are all that reach into the ray's range; `end` has room for twice as many. False: there is
+// none up to t_max, or one beyond was found.
+bool blob_first(const struct blob *b, const struct blob_line *line,
+                const struct blob_stretch *at, uint32_t count, double *end,
+                struct boundary *out);
+
+// As shape_ops.closest8. Lanes that are `odd` are for the one line's crossings.
+#define BLOB_CLOSEST8(isa)                                                               \
+    unsigned blob_closest8_##isa(const struct blob *s, const struct shape_rays *rays,    \
+                                 unsigned lanes, struct shape_hits *out, unsigned *odd);
+BLOB_CLOSEST8(base)
+BLOB_CLOSEST8(avx2)
+BLOB_CLOSEST8(avx512)
+#undef BLOB_CLOSEST8
+
+#endif

@@ -1,0 +1,161 @@
+// Eight rays and a blob, compiled once per instruction set: the components are met side by
+// side, by the operations of blob_walk.c; then each ray goes on with the few that it meets in
+// its range.
+#include <math.h>
+
+#include "math/gamma.h"
+#include "math/lanes_vec.h"
+#include "scene/shapes/blob.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b)  PASTE_(a, b)
+
+// Components met by some of eight rays that are kept; where there are more, each ray goes
+// alone.
+enum { ROWS = 96 };
+
+struct rows {
+    struct vec8 o, d; // the lines; |d| = 1
+    struct real8 shift, length, noise, start, stop;
+    struct real8 sum; // of peaks: the field is never above
+    uint32_t count;
+    unsigned met[ROWS];
+    double s[ROWS], lo[ROWS][8], hi[ROWS][8], top[ROWS][8], at[ROWS][8], bend[ROWS][8],
+        peak[ROWS][8];
+};
+
+// The part of the axis of a cylinder's piece; returns the lanes that are in it somewhere.
+LANES_INLINE unsigned clip(const struct blob_component *c, struct real8 along,
+                           struct real8 slope, struct real8 *lo, struct real8 *hi)
+{
+    const struct real8 low = r8_set(c->kind == PART_BASE       ? -HUGE_VAL
+                                    : c->kind == PART_STRAIGHT ? 0
+                                                               : c->length);
+    const struct real8 high = r8_set(c->kind == PART_BASE       ? 0
+                                     : c->kind == PART_STRAIGHT ? c->length
+                                                                : HUGE_VAL);
+    const struct mask8 across = r8_eq(slope, r8_set(0));
+    const struct real8 t0 = r8_div(r8_sub(low, along), slope);
+    const struct real8 t1 = r8_div(r8_sub(high, along), slope);
+    *lo = r8_select(across, *lo, r8_max(*lo, r8_min(t0, t1)));
+    *hi = r8_select(across, *hi, r8_min(*hi, r8_max(t0, t1)));
+    const unsigned beside =
+        m8_bits(m8_without(across, m8_and(r8_le(low, along), r8_lt(along, high))));
+    return m8_bits(r8_lt(*lo, *hi)) & ~beside;
+}
+
+// As stretch_of of blob_walk.c.
+static void add_component(struct rows *x, const struct blob_component *c, unsigned lanes)
+{
+    struct vec8 o = x->o, d = x->d;
+    const struct vec8 axis = V8_SET(c->axis);
+    if (!c->transform.identity) {
+        o = v8_inverse_point(&c->transform, o);
+        d = v8_row_times(d, &c->transform.inverse);
+    }
+    struct vec8 v = v8_sub(o, V8_SET(c->c));
+    struct real8 along = r8_set(0), slope = along;
+    if (c->kind != PART_BALL) {
+        along = v8_dot(v, axis);
+        slope = v8_dot(d, axis);
+    }
+    if (c->kind == PART_STRAIGHT) {
+        v = v8_mad(v, r8_neg(along), axis);
+        d = v8_mad(d, r8_neg(slope), axis);
+    } else if (c->kind == PART_APEX) {
+        v = v8_mad(v, r8_set(-c->length), axis);
+    }
+    const double r2 = c->r * c->r;
+    const struct real8 zero = r8_set(0), a = v8_dot(d, d), b = v8_dot(v, d);
+    const struct real8 at = r8_select(r8_lt(zero, a), r8_div(r8_neg(b), a), zero);
+    const struct vec8 near = v8_mad(v, at, d);
+    const struct real8 rest = r8_sub(r8_set(r2), v8_dot(near, near));
+    lanes &= m8_bits(r8_lt(zero, rest));
+    if (!lanes)
+        return;
+    const struct real8 reach = r8_sqrt(r8_div(rest, a));
+    struct real8 lo = r8_sub(at, reach), hi = r8_add(at, reach);
+    if (c->kind != PART_BALL)
+        lanes &= clip(c, along, slope, &lo, &hi);
+    lanes &= m8_bits(m8_and(r8_le(x->start, hi), r8_le(lo, x->stop)));
+    if (!lanes)
+        return;
+    const uint32_t i = x->count++;
+    if (i >= ROWS)
+        return;
+    const struct real8 top = r8_div(rest, r8_set(r2));
+    const struct real8 peak = c->s > 0 ? r8_mul(r8_mul(r8_set(c->s), top), top) : zero;
+    x->sum = r8_add(x->sum, r8_select(m8_of(lanes), peak, zero));
+    x->met[i] = lanes;
+    x->s[i] = c->s;
+    r8_store(x->lo[i], lo);
+    r8_store(x->hi[i], hi);
+    r8_store(x->top[i], top);
+    r8_store(x->at[i], at);
+    r8_store(x->bend[i], r8_div(r8_neg(a), r8_set(r2)));
+    r8_store(x->peak[i], peak);
+}
+
+static void set_up(struct rows *x, const struct blob *b, const struct shape_rays *rays)
+{
+    const struct vec8 o = v8_load(rays->o), d = v8_load(rays->d);
+    const struct vec3 first = transform_point(&b->at[0].transform, b->at[0].c);
+    x->length = r8_sqrt(v8_dot(d, d));
+    const struct real8 scale = r8_div(r8_set(1), x->length);
+    x->d = (struct vec8){r8_mul(scale, d.x), r8_mul(scale, d.y), r8_mul(scale, d.z)};
+    x->shift = v8_dot(v8_sub(V8_SET(first), o), x->d);
+    x->noise = r8_mul(
+        r8_set(GAMMA(8)),
+        r8_add(r8_add(r8_abs(x->shift), r8_set(vec3_max_abs(first))), v8_max_abs(o)));
+    x->o = v8_mad(o, x->shift, x->d);
+    x->start = r8_sub(r8_mul(r8_load(rays->t_min), x->length), x->shift);
+    x->stop = r8_sub(r8_mul(r8_load(rays->t_max), x->length), x->shift);
+    x->sum = r8_set(0);
+    x->count = 0;
+}
+
+// What one lane has met.
+static uint32_t column(const struct rows *x, int lane, struct blob_stretch *out)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < x->count; i++)
+        if (x->met[i] >> lane & 1)
+            out[n++] = (struct blob_stretch){
+                x->lo[i][lane], x->hi[i][lane],   x->s[i],         x->top[i][lane],
+                x->at[i][lane], x->bend[i][lane], x->peak[i][lane]};
+    return n;
+}
+
+unsigned PASTE(blob_closest8_, ISA)(const struct blob *s, const struct shape_rays *rays,
+                                    unsigned lanes, struct shape_hits *out, unsigned *odd)
+{
+    struct rows x;
+    struct blob_stretch at[ROWS];
+    double end[2 * ROWS], shift[8], length[8], noise[8];
+    *odd = 0;
+    set_up(&x, s, rays);
+    for (uint32_t i = 0; i < s->count; i++)
+        add_component(&x, &s->at[i], lanes);
+    if (x.count > ROWS) {
+        *odd = lanes;
+        return 0;
+    }
+    lanes &= m8_bits(r8_le(r8_set(s->threshold * (1 - 0x1p-30)), x.sum));
+    if (!lanes)
+        return 0;
+    r8_store(shift, x.shift);
+    r8_store(length, x.length);
+    r8_store(noise, x.noise);
+    unsigned met = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const int l = __builtin_ctz(lanes);
+        const struct blob_line line = {rays->t_min[l], rays->t_max[l], shift[l],
+                                       length[l], noise[l]};
+        struct boundary b;
+        if (!blob_first(s, &line, at, column(&x, l, at), end, &b))
+            continue;
+        shape_hits_put(out, l, &b);
+        met |= 1u << l;
+    }
+    return met;
+}

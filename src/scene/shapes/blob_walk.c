@@ -1,0 +1,259 @@
+// The crossings of a line with a blob: on a ray a component is a quartic on one interval, so
+// between two neighbouring interval ends the sum is one quartic, whose roots are isolated;
+// the sign is carried from stretch to stretch, so that crossings alternate whatever the
+// rounding at the joints.
+#include <math.h>
+
+#include "base/arena.h"
+#include "math/gamma.h"
+#include "math/polynomial.h"
+#include "scene/shapes/blob.h"
+
+// The ray in the component's space, t unchanged.
+static bool stretch_of(const struct blob_component *c, struct vec3 o, struct vec3 d,
+                       struct blob_stretch *out)
+{
+    if (!c->transform.identity) {
+        o = transform_inverse_point(&c->transform, o);
+        d = transform_inverse_vector(&c->transform, d);
+    }
+    struct vec3 v = vec3_sub(o, c->c);
+    const double along = vec3_dot(v, c->axis), slope = vec3_dot(d, c->axis);
+    if (c->kind == PART_STRAIGHT) { // distances from the axis
+        v = vec3_mad(v, -along, c->axis);
+        d = vec3_mad(d, -slope, c->axis);
+    } else if (c->kind == PART_APEX) {
+        v = vec3_mad(v, -c->length, c->axis);
+    }
+    const double r2 = c->r * c->r, a = vec3_dot(d, d), b = vec3_dot(v, d);
+    const double at = a > 0 ? -b / a : 0;
+    const struct vec3 near = vec3_mad(v, at, d);
+    const double rest = r2 - vec3_dot(near, near), top = rest / r2;
+    if (!(rest > 0))
+        return false;
+    const double reach = sqrt(rest / a); // infinite along the axis of a cylinder
+    *out = (struct blob_stretch){
+        at - reach, at + reach, c->s, top, at, -a / r2, c->s > 0 ? c->s * top * top : 0};
+    if (c->kind == PART_BALL)
+        return true;
+    // Which part of the axis counts: low <= along + slope t <= high.
+    const double low = c->kind == PART_BASE       ? -HUGE_VAL
+                       : c->kind == PART_STRAIGHT ? 0
+                                                  : c->length;
+    const double high = c->kind == PART_BASE       ? 0
+                        : c->kind == PART_STRAIGHT ? c->length
+                                                   : HUGE_VAL;
+    if (slope == 0)
+        return along >= low && along < high && out->lo < out->hi;
+    const double t0 = (low - along) / slope, t1 = (high - along) / slope;
+    out->lo = fmax(out->lo, fmin(t0, t1));
+    out->hi = fmin(out->hi, fmax(t0, t1));
+    return out->lo < out->hi;
+}
+
+// Adds s q^2 about t = m to ascending coefficients; returns what the first gains at most.
+static double add_quartic(const struct blob_stretch *s, double m, double c[5])
+{
+    const double by = m - s->at, sink = s->bend * by * by;
+    const double q0 = s->top + sink, q1 = 2 * by * s->bend, q2 = s->bend;
+    c[0] += s->s * q0 * q0;
+    c[1] += s->s * 2 * q0 * q1;
+    c[2] += s->s * (q1 * q1 + 2 * q0 * q2);
+    c[3] += s->s * 2 * q1 * q2;
+    c[4] += s->s * q2 * q2;
+    return fabs(s->s) * (s->top * s->top + fabs(q0 * sink));
+}
+
+struct walk {
+    const struct blob *blob;
+    const struct blob_stretch *at;
+    uint32_t count;
+    bool in, known; // the state; whether it is known
+    struct blob_line line;
+    bool first_only; // of those with t > t_min; then `first`, once `found`
+    bool found;
+    struct boundary *first;
+    struct boundary_list *out; // where all are wanted
+};
+
+static void cross(struct walk *w, double t, double dt)
+{
+    const struct boundary b = {.t = (t + w->line.shift) / w->line.length,
+                               .dt = (dt + w->line.noise + GAMMA(4) * fabs(t)) /
+                                     w->line.length,
+                               .crossing = w->in ? CROSS_EXIT : CROSS_ENTER,
+                               .drawn = 1};
+    if (w->out)
+        *boundary_list_add(w->out, b.t, b.dt, CROSS_ENTER, 0) = b;
+    else if (!w->found && b.t > w->line.t_min)
+        *w->first = b;
+    w->found |= b.t > w->line.t_min;
+    w->in = !w->in;
+}
+
+// The rounding of a quartic's value at t.
+static double rounding_at(const double c[5], double t, double rounding)
+{
+    double size = 0;
+    for (int k = 4; k >= 0; k--)
+        size = size * fabs(t) + fabs(c[k]);
+    return rounding * ROUNDOFF * size;
+}
+
+// The field of a component is nowhere above between two t of its stretch.
+static double peak_between(const struct blob_stretch *s, double lo, double hi)
+{
+    if (!(s->s > 0) || (lo <= s->at && s->at <= hi))
+        return s->peak;
+    const double by = (lo > s->at ? lo : hi) - s->at, q = s->top + s->bend * by * by;
+    return s->s * q * q;
+}
+
+static void walk_between(struct walk *w, double lo, double hi)
+{
+    const double m = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
+    if (half <= GAMMA(4) * fabs(m)) // joints that rounding has parted
+        return;
+    double c[5] = {-w->blob->threshold}, most = 0;
+    if (!w->known ||
+        !w->in) { // mostly the components around are too weak to reach the threshold
+        for (uint32_t i = 0; i < w->count; i++)
+            if (w->at[i].lo <= lo && w->at[i].hi >= hi)
+                most += peak_between(&w->at[i], lo, hi);
+        if (most < w->blob->threshold * (1 - 0x1p-30)) {
+            w->known = true;
+            w->in = false;
+            return;
+        }
+    }
+    double bend = 0; // -1/radius^2
+    double sum = fabs(w->blob->threshold);
+    for (uint32_t i = 0; i < w->count; i++)
+        if (w->at[i].lo <= lo && w->at[i].hi >= hi) {
+            sum += add_quartic(&w->at[i], m, c);
+            bend = fmax(bend, fabs(w->at[i].bend));
+        }
+    const double lost = GAMMA(8) * sum; // in the sum that became c[0]
+    // A place that is off by e changes s q^2 by up to 4 s e/radius.
+    const double rounding = 16 + 4 * (w->line.noise / ROUNDOFF) * sqrt(bend);
+    struct polynomial_root root[4];
+    const int n = polynomial_roots(c, 4, -half, half, rounding, root);
+    const bool starts_in = n > 0 ? !root[0].rising : c[0] > 0;
+    if (!w->known)
+        w->in = starts_in;
+    w->known = true;
+    if (starts_in != w->in) // the sign changed near the joint, by rounding
+        cross(w, lo,
+              GAMMA(64) * (fabs(lo) + half) +
+                  polynomial_root_error(c, 4, -half,
+                                        rounding_at(c, -half, rounding) + lost));
+    for (int i = 0; i < n; i++)
+        cross(w, m + root[i].t,
+              root[i].dt + polynomial_root_error(c, 4, root[i].t, lost));
+}
+
+enum { ON_STACK = 64 };
+
+static void sort(double *v, uint32_t n)
+{
+    for (uint32_t i = 1; i < n; i++) {
+        const double x = v[i];
+        uint32_t j = i;
+        for (; j > 0 && v[j - 1] > x; j--)
+            v[j] = v[j - 1];
+        v[j] = x;
+    }
+}
+
+static uint32_t collect(const struct blob *b, struct vec3 o, struct vec3 d,
+                        struct blob_stretch *at, uint32_t max)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < b->count; i++) {
+        struct blob_stretch s;
+        if (!stretch_of(&b->at[i], o, d, &s))
+            continue;
+        if (n < max)
+            at[n] = s;
+        n++;
+    }
+    return n;
+}
+
+static void walk_all(struct walk *w, double *end)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < w->count; i++) {
+        end[n++] = w->at[i].lo;
+        end[n++] = w->at[i].hi;
+    }
+    sort(end, n);
+    // The first crossing alone: stretches behind the ray's start, and what follows the
+    // crossing, are left out.
+    const struct blob_line *l = &w->line;
+    const double start = w->first_only ? l->t_min * l->length - l->shift : -HUGE_VAL;
+    const double stop = w->first_only ? l->t_max * l->length - l->shift : HUGE_VAL;
+    for (uint32_t i = 1; i < n; i++) {
+        if (!(end[i - 1] < end[i]))
+            continue;
+        if (end[i] < start) {
+            w->known = false;
+            continue;
+        }
+        walk_between(w, end[i - 1], end[i]);
+        if ((w->first_only && w->found) || end[i] > stop)
+            return;
+    }
+    if (w->known && w->in != (0 > w->blob->threshold)) // beyond the last component
+        cross(w, end[n - 1], GAMMA(64) * fabs(end[n - 1]));
+}
+
+bool blob_first(const struct blob *b, const struct blob_line *line,
+                const struct blob_stretch *at, uint32_t count, double *end,
+                struct boundary *out)
+{
+    struct walk w = {.blob = b,
+                     .at = at,
+                     .count = count,
+                     .in = 0 > b->threshold,
+                     .known = true,
+                     .line = *line,
+                     .first_only = true,
+                     .first = out};
+    if (count)
+        walk_all(&w, end);
+    return w.found && out->t <= line->t_max;
+}
+
+void blob_intersect(const struct blob *b, const struct ray *ray,
+                    struct boundary_list *out)
+{
+    struct walk w = {.blob = b, .known = true, .first_only = out->first_only, .out = out};
+    struct blob_line *l = &w.line;
+    l->length = vec3_length(ray->d);
+    l->t_min = ray->t_min;
+    l->t_max = ray->t_max;
+    const struct vec3 u = vec3_scale(1 / l->length, ray->d);
+    // Parameters from the point of the line nearest to the first component.
+    const struct vec3 first = transform_point(&b->at[0].transform, b->at[0].c);
+    l->shift = vec3_dot(vec3_sub(first, ray->o), u);
+    l->noise = GAMMA(8) * (fabs(l->shift) + vec3_max_abs(first) + vec3_max_abs(ray->o));
+    const struct vec3 o = vec3_mad(ray->o, l->shift, u);
+    w.in = 0 > b->threshold;
+    struct blob_stretch at[ON_STACK];
+    double end[2 * ON_STACK];
+    w.count = collect(b, o, u, at, ON_STACK);
+    w.at = at;
+    if (w.count == 0)
+        return;
+    if (w.count <= ON_STACK) {
+        walk_all(&w, end);
+        return;
+    }
+    struct arena *more = arena_new(w.count * (sizeof *at + 2 * sizeof *end));
+    struct blob_stretch *all = arena_new_array(more, struct blob_stretch, w.count);
+    collect(b, o, u, all, w.count);
+    w.at = all;
+    walk_all(&w, arena_new_array(more, double, 2 * w.count));
+    arena_free(more);
+}
