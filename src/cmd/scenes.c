@@ -1,7 +1,7 @@
 // `lambert compare SCENE...`: each scene by lambert and by the reference program, at
 // the same settings, and how much the pictures differ.
 #define _XOPEN_SOURCE 700 // realpath
-#include "cmd/cmd.h"
+#include "cmd/report.h"
 
 #include <errno.h>
 #include <math.h>
@@ -20,6 +20,7 @@ static const double match_percent = 1, near_percent = 5;
 
 struct row {
     const char *scene;
+    char *name; // of its files
     enum verdict verdict;
     struct lambert_difference difference;
     double percent, reference_seconds, seconds;
@@ -263,7 +264,7 @@ static void compare_scene(const struct job *j, struct row *r)
         return;
     }
     char *folder = text_format("%.*s", (int)(strrchr(scene, '/') - scene + 1), scene);
-    char *name = flat_name(r->scene);
+    const char *name = r->name;
     char *reference = text_format("%s/%s.reference.png", j->out, name);
     char *picture = text_format("%s/%s.png", j->out, name);
     char *map = text_format("%s/%s.heat.png", j->out, name);
@@ -285,7 +286,6 @@ static void compare_scene(const struct job *j, struct row *r)
     }
     free(scene);
     free(folder);
-    free(name);
     free(reference);
     free(picture);
     free(map);
@@ -331,6 +331,29 @@ static void print_header(bool csv)
                "ref. s", "ours s", "ratio", "scene");
 }
 
+// Both pictures and the heat maps side by side, in a page.
+static int write_report(const struct job *j, struct row *rows, size_t n)
+{
+    struct compared_scene *r = calloc(n + 1, sizeof *r);
+    if (!r)
+        abort();
+    for (size_t i = 0; i < n; i++)
+        r[i] = (struct compared_scene){.scene = rows[i].scene,
+                                       .name = rows[i].name,
+                                       .verdict = verdict_name[rows[i].verdict],
+                                       .compared = rows[i].verdict <= FAR,
+                                       .difference = rows[i].difference,
+                                       .percent = rows[i].percent,
+                                       .reference_seconds = rows[i].reference_seconds,
+                                       .seconds = rows[i].seconds,
+                                       .reason = rows[i].reason};
+    const bool ok = report_write(j->out, r, n);
+    free(r);
+    return ok ? CMD_OK
+              : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s/index.html': %s", j->out,
+                         strerror(errno));
+}
+
 int compare_scenes(struct cmd *c)
 {
     struct job j = {.cmd = c};
@@ -344,21 +367,34 @@ int compare_scenes(struct cmd *c)
         return cmd_fail(CMD_NO_OUTPUT, "cannot use '%s': %s", out, strerror(errno));
     collect_settings(&j);
     print_header(csv);
+    struct row *rows = calloc(c->file_count, sizeof *rows);
+    if (!rows)
+        abort();
     for (size_t i = 0; i < c->file_count; i++) {
-        struct row r = {.scene = c->file[i]};
-        compare_scene(&j, &r);
-        print_row(&r, csv);
-        count[r.verdict]++;
+        struct row *r = &rows[i];
+        r->scene = c->file[i];
+        r->name = flat_name(r->scene);
+        compare_scene(&j, r);
+        print_row(r, csv);
+        count[r->verdict]++;
         failed +=
-            r.verdict > FAR || r.percent > lambert_option_number(c->ctx, "tolerance");
+            r->verdict > FAR || r->percent > lambert_option_number(c->ctx, "tolerance");
     }
-    for (int v = 0; v < VERDICT_COUNT && !csv; v++)
-        if (count[v])
-            printf("%s%zu %s", v ? " " : "", count[v], verdict_name[v]);
+    const char *comma = "";
+    for (int v = 0; v < VERDICT_COUNT && !csv; v++) {
+        if (!count[v])
+            continue;
+        printf("%s%zu %s", comma, count[v], verdict_name[v]);
+        comma = ", ";
+    }
     if (!csv)
-        putchar('\n');
+        printf("\nside by side: %s/index.html\n", out);
+    const int written = csv ? CMD_OK : write_report(&j, rows, c->file_count);
+    for (size_t i = 0; i < c->file_count; i++)
+        free(rows[i].name);
+    free(rows);
     for (size_t i = 0; i < j.settings_count; i++)
         free((void *)(uintptr_t)j.settings[i]);
     free(j.out);
-    return failed ? CMD_FAILED : CMD_OK;
+    return written ? written : failed ? CMD_FAILED : CMD_OK;
 }

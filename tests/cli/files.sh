@@ -58,6 +58,17 @@ check "file types" types
 stats() { exits 0 "$lambert" $small sphere.pov --stats=json && has out '^{"v":1,.*"pixels":768,.*}$'; }
 check "counts as JSON" stats
 
+# lambert is its own reference here.
+side_by_side()
+{
+  cp sphere.pov "a&b.pov"
+  exits 1 "$lambert" compare $small sphere.pov "a&b.pov" nowhere.pov --out page \
+    --reference "$lambert" && has out '2 match, 1 not rendered' &&
+    has page/index.html 'a&amp;b.pov' && has page/index.html 'src="a%26b.reference.png"' &&
+    has page/index.html 'nowhere.pov<br>No such file' &&
+    test -s page/sphere.reference.png && test -s "page/a&b.heat.png"
+}
+check "scenes side by side" side_by_side
 part() { exits 0 "$lambert" $small sphere.pov +SC9 +EC16 +SR0.5 +FP -o part.ppm && size_ppm part.ppm 32 24; }
 check "a part keeps the size" part
 check "a part beyond the end" exits 64 "$lambert" $small sphere.pov +SC20 +EC10
