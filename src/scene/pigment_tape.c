@@ -229,7 +229,8 @@ static bool add_pigment(struct build *b, const struct pigment *p, int from, int 
     case PIGMENT_IMAGE:
         add_place(b, p->pattern, from, level);
         add(b, PIGMENT_TEXEL, level)->image = p->image;
-        if (!image_is_opaque(p->image))
+        // Where it does not reach, maps around it mix in what is clear.
+        if (!image_is_opaque(p->image) || (p->image->once && level > 1))
             b->channels = 5;
         return true;
     }

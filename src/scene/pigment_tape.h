@@ -123,6 +123,9 @@ struct surface_kernels {
     // normal_perturb; v: the normals of the texture_point, then the perturbed ones.
     void (*perturb)(const struct normal *n, const struct pattern_packet *packet,
                     const double place[3][8], unsigned live, double v[3][8]);
+    // pattern_normal_in, without keeping lengths, and pattern_normal_out.
+    void (*normal_in)(const struct pattern *p, double v[3][8]);
+    void (*normal_out)(const struct pattern *p, double v[3][8]);
 };
 
 extern const struct surface_kernels surface_kernels_base, surface_kernels_avx2,

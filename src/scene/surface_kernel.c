@@ -571,5 +571,10 @@ static void perturb(const struct normal *n, const struct pattern_packet *packet,
     normal_out8(&n->pattern, v);
 }
 
-const struct surface_kernels PASTE(surface_kernels_, ISA) = {TEXT(ISA), NOISE,  warp,
-                                                             values,    colors, perturb};
+static void normal_in(const struct pattern *p, double v[3][8])
+{
+    normal_in8(p, false, v);
+}
+
+const struct surface_kernels PASTE(surface_kernels_, ISA) = {
+    TEXT(ISA), NOISE, warp, values, colors, perturb, normal_in, normal_out8};

@@ -134,14 +134,6 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
                 const struct texture_chain *chain, bool want_normal, struct layer *out)
 {
     out->finish = layer->finish;
-    const struct painted *painted =
-        v->painted ? &v->painted[layer - v->texture->layer] : NULL;
-    if (painted && painted->known) {
-        out->n = *v->seen = painted->n;
-        out->found = true;
-        layer_color(t, painted->color, out);
-        return;
-    }
     struct texture_point here = *at;
     out->n = v->n;
     here.normal_seen = *v->seen;
@@ -156,4 +148,13 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
     else if (pigment->kind != PIGMENT_SOLID)
         out->found = pigment_color(pigment, &here, &c);
     layer_color(t, c, out);
+}
+
+void layer_painted(const struct tracer *t, const struct texture_layer *layer,
+                   const struct painted *painted, struct layer *out)
+{
+    out->finish = layer->finish;
+    out->n = painted->n;
+    out->found = painted->found;
+    layer_color(t, painted->color, out);
 }

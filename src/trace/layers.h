@@ -36,7 +36,8 @@ struct surface_view {
     // Set by texture_walk: the normal of the layer that was evaluated last. Maps by slope
     // see it in the textures after it, as the language's first program has it.
     struct vec3 *seen;
-    const struct painted *painted; // of the texture's layers; NULL: none
+    // Of the layers of the plain texture at hand (trace/paint.h); NULL: none.
+    const struct painted *painted;
 };
 
 // Finds the texture of the side that was met and turns the normal to the ray.
@@ -55,5 +56,8 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
 void layer_eval(const struct tracer *t, const struct surface_view *v,
                 const struct texture_layer *layer, const struct texture_point *at,
                 const struct texture_chain *chain, bool want_normal, struct layer *out);
+// The same of one that is evaluated already.
+void layer_painted(const struct tracer *t, const struct texture_layer *layer,
+                   const struct painted *painted, struct layer *out);
 
 #endif

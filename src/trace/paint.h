@@ -4,22 +4,36 @@
 #include "scene/texture.h"
 #include "trace/tracer.h"
 
-// Layers of hits that are shaded one by one (trace/shade.c), evaluated eight hits of a
-// surface at a time before: their colours and normals, with the bits of layer_eval. What
-// is not known is evaluated there.
+// Hits that are shaded one by one (trace/shade.c) have their textures evaluated eight hits
+// of a surface at a time before: the plain textures of maps, with their weights, and of
+// each the colours and normals of its layers, with the bits and in the order of
+// texture_walk and layer_eval.
 struct painted {
     struct vec3 n;
     struct rgbft color;
-    bool known;
+    bool found; // as pigment_color returns
+};
+
+// One plain texture at a hit. Layers below opaque ones are not set.
+struct paint_part {
+    const struct texture *texture;
+    double weight;
+    const struct painted *layer;
+};
+
+struct paint_texture {
+    const struct texture *texture;
+    const struct pigment_tape *const *tape; // of a plain one's layers; NULL: one colour
+    const struct paint_texture *entry;      // of a map
 };
 
 struct paint_surface {
-    uint32_t number;      // of its list of hits
-    uint32_t layer_count; // 0: its hits are not painted
-    const struct pigment_tape *const *tape; // per layer; NULL: one colour
+    uint32_t number;                 // of its list of hits
+    const struct paint_texture *top; // NULL: its hits are not painted
 };
 
-enum { PAINT_LAYERS = 8 };
+// The most at one hit.
+enum { PAINT_LAYERS = 16, PAINT_PARTS = 8 };
 
 void paint_compile(struct job *job, struct arena *a);
 void paint_init(struct tracer *t);

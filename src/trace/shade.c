@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "trace/media.h"
+#include "trace/paint.h"
 #include "trace/photons.h"
 #include "trace/sky.h"
 #include "trace/subsurface.h"
@@ -56,7 +57,10 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
     struct rgb filter = {1, 1, 1};
     for (uint32_t i = x->layer_count; i-- > 0 && r.trans > job->adc_bailout;) {
         struct layer *l = layer_new(s);
-        layer_eval(s->t, v, &x->layer[i], at, chain, true, l);
+        if (v->painted)
+            layer_painted(s->t, &x->layer[i], &v->painted[i], l);
+        else
+            layer_eval(s->t, v, &x->layer[i], at, chain, true, l);
         l->filter = r.filter;
         l->trans = r.trans;
         if (!job->lights) {
@@ -136,7 +140,8 @@ static void shade_indirect(struct shading *s, const struct hit *hit,
 }
 
 void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
-                   const struct interaction *at, const struct painted *painted)
+                   const struct interaction *at, const struct paint_part *part,
+                   uint32_t part_count)
 {
     struct path here = *path;
     if (t->job->has_air || t->job->has_media) {
@@ -161,8 +166,12 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
     s.go_on = shade_transmit;
     const struct ray ray = {path->o, path->d, 0, INFINITY};
     surface_view_init(&s.view, &s.at, path->d);
-    s.view.painted = painted;
-    texture_walk(t, &s.view, shade_plain, &s);
+    for (uint32_t i = 0; i < part_count; i++) {
+        s.view.painted = part[i].layer;
+        shade_plain(&s, &s.view, part[i].texture, NULL, NULL, part[i].weight);
+    }
+    if (!part_count)
+        texture_walk(t, &s.view, shade_plain, &s);
     if (!t->job->lights)
         return;
     if (t->job->settings.indirect.data)
@@ -182,5 +191,5 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     const struct ray ray = {path->o, path->d, 0, INFINITY};
     struct interaction at;
     trace_interaction(t->job->world, &ray, hit, &at);
-    shade_painted(t, path, hit, &at, NULL);
+    shade_painted(t, path, hit, &at, NULL, 0);
 }

@@ -26,10 +26,12 @@ struct shading {
 // The layers of one plain texture, for texture_walk; the user is the shading.
 plain_function shade_plain;
 
-struct painted;
-// shade_hit of a hit whose interaction is known, and some of whose layers are.
+struct paint_part;
+// shade_hit of a hit whose interaction is known, and whose textures are evaluated
+// (trace/paint.h). No parts: they are not.
 void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
-                   const struct interaction *at, const struct painted *painted);
+                   const struct interaction *at, const struct paint_part *part,
+                   uint32_t part_count);
 
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
