@@ -33,6 +33,12 @@ struct bvh8 {
 struct bvh8 bvh8_build(struct arena *a, const struct aabb *box, const uint32_t *index,
                        uint32_t count);
 
+// The same of boxes that are worked out when asked for: box(user, i) of index[i]; `bounds`
+// holds them all.
+typedef struct aabb bvh8_box(const void *user, uint32_t i);
+struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
+                          struct aabb bounds, const uint32_t *index, uint32_t count);
+
 static inline int32_t bvh8_leaf(uint32_t first, uint32_t count)
 {
     return -2 - (int32_t)(first * BVH8_LEAF_MAX + count - 1);

@@ -10,13 +10,30 @@
 #include "scene/shapes/extrude.h"
 #include "scene/shapes/triangle.h"
 
+struct faces {
+    const struct mesh *m;
+    const uint32_t *face;
+};
+
 // The boxes of the tree are grown by far more than the triangle test rounds, unless the
 // origin is 2^28 times as far away as the mesh is large.
+static struct aabb face_box(const struct vec3 p[3])
+{
+    return aabb_pad(aabb_add(aabb_add(aabb_add(aabb_empty(), p[0]), p[1]), p[2]));
+}
+
+static struct aabb box_of(const void *user, uint32_t i)
+{
+    const struct faces *f = user;
+    struct vec3 p[3];
+    mesh_corners(f->m, f->face[i], p);
+    return face_box(p);
+}
+
 void mesh_finish(struct mesh *m, struct arena *a)
 {
-    struct aabb *box = malloc((m->face_count + 1) * sizeof *box);
     uint32_t *face = malloc((m->face_count + 1) * sizeof *face);
-    if (!box || !face)
+    if (!face)
         abort();
     uint32_t count = 0;
     m->bounds = aabb_empty();
@@ -26,12 +43,10 @@ void mesh_finish(struct mesh *m, struct arena *a)
         const struct vec3 n = triangle_normal(p);
         if (vec3_dot(n, n) == 0)
             continue;
-        box[count] = aabb_pad(aabb_add(aabb_add(aabb_add(aabb_empty(), p[0]), p[1]), p[2]));
-        m->bounds = aabb_join(m->bounds, box[count]);
+        m->bounds = aabb_join(m->bounds, face_box(p));
         face[count++] = f;
     }
-    m->tree = bvh8_build(a, box, face, count);
-    free(box);
+    m->tree = bvh8_build_of(a, box_of, &(struct faces){m, face}, m->bounds, face, count);
     free(face);
 }
 

@@ -7,3 +7,7 @@ check_PROGRAMS += test_polynomial
 test_polynomial_SOURCES = %D%/test_polynomial.c
 test_polynomial_CPPFLAGS = $(test_cppflags)
 test_polynomial_LDADD = $(test_ldadd)
+check_PROGRAMS += test_bvh8
+test_bvh8_SOURCES = %D%/test_bvh8.c
+test_bvh8_CPPFLAGS = $(test_cppflags)
+test_bvh8_LDADD = $(test_ldadd)

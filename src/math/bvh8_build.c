@@ -1,0 +1,397 @@
+// The building of a tree of boxes: the surface area heuristic over bins of the centres (Wald,
+// "On fast construction of SAH-based bounding volume hierarchies", RT 2007), eight children
+// gathered from binary cuts.
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "base/arena.h"
+#include "math/bvh8.h"
+
+enum {
+    BINS = 16,
+    BINS_OF_FEW = 8,  // of ranges of up to
+    FEW = 32,         // items
+    LEAF_ITEMS = 4,   // a leaf may be split below this only if that pays
+    DEPTH_BINNED = 24 // below, halve by count: the depth stays within BVH8_STACK
+};
+
+// The error of a test in units of the half extent of the tree: rounding the moved
+// origin, subtracting and multiplying cost at most 4 half-ulps of it (2^-24 each).
+static const double PAD = 0x1p-21;
+
+// A box as nodes have it: relative to the tree's origin, grown by its pad and rounded outwards,
+// the upper side negated, so that a join takes the lesser of everything. What a box of a node
+// is rounded to does not depend on whether the join or the rounding comes first.
+struct box {
+    _Alignas(16) float lo[4]; // [3] of either is 0
+    float hi[4];
+};
+
+struct range {
+    uint32_t first, count;
+    struct box box;
+    float area; // half of the box's surface
+    bool whole; // a leaf: not to be split any more
+};
+
+struct builder {
+    struct box *item; // what the tree is over, moved as it is sorted
+    uint32_t *order;  // which item it is
+    struct bvh8_node *node;
+    uint32_t node_count, node_capacity;
+    struct vec3 origin;
+    double pad;
+};
+
+struct cut {
+    int axis, bin, bins;
+    float cost;
+    float from[4], scale[4]; // of all axes: bin = (centre - from)*scale
+    struct box near, far;    // of the items on either side
+};
+
+// The items of a range whose centres are in the same part of an axis.
+struct bins {
+    struct box box[BINS];
+    uint32_t count[BINS];
+};
+
+static struct box empty_box(void)
+{
+    return (struct box){{INFINITY, INFINITY, INFINITY, 0},
+                        {INFINITY, INFINITY, INFINITY, 0}};
+}
+
+#ifdef __SSE2__
+
+static inline void widen(struct box *a, const struct box *b)
+{
+    _mm_store_ps(a->lo, _mm_min_ps(_mm_load_ps(b->lo), _mm_load_ps(a->lo)));
+    _mm_store_ps(a->hi, _mm_min_ps(_mm_load_ps(b->hi), _mm_load_ps(a->hi)));
+}
+
+// Twice the centre.
+static inline __m128 centre(const struct box *b)
+{
+    return _mm_sub_ps(_mm_load_ps(b->lo), _mm_load_ps(b->hi));
+}
+
+static inline void widen_by_centre(struct box *a, const struct box *b)
+{
+    const __m128 c = centre(b);
+    _mm_store_ps(a->lo, _mm_min_ps(c, _mm_load_ps(a->lo)));
+    _mm_store_ps(a->hi, _mm_min_ps(_mm_sub_ps(_mm_setzero_ps(), c), _mm_load_ps(a->hi)));
+}
+
+// Which bin of each axis a box is in.
+static inline void bins_of(const struct cut *c, const struct box *b, int32_t out[4])
+{
+    const __m128 at =
+        _mm_mul_ps(_mm_sub_ps(centre(b), _mm_loadu_ps(c->from)), _mm_loadu_ps(c->scale));
+    const __m128 last = _mm_set1_ps((float)(c->bins - 1));
+    const __m128 in = _mm_min_ps(_mm_max_ps(at, _mm_setzero_ps()), last);
+    _mm_storeu_si128((__m128i *)out, _mm_cvttps_epi32(in));
+}
+
+#else
+
+static inline float lesser(float a, float b) { return a < b ? a : b; }
+
+static inline void widen(struct box *a, const struct box *b)
+{
+    for (int k = 0; k < 3; k++) {
+        a->lo[k] = lesser(b->lo[k], a->lo[k]);
+        a->hi[k] = lesser(b->hi[k], a->hi[k]);
+    }
+}
+
+static inline void widen_by_centre(struct box *a, const struct box *b)
+{
+    for (int k = 0; k < 3; k++) {
+        const float c = b->lo[k] - b->hi[k];
+        a->lo[k] = lesser(c, a->lo[k]);
+        a->hi[k] = lesser(0 - c, a->hi[k]);
+    }
+}
+
+static inline void bins_of(const struct cut *c, const struct box *b, int32_t out[4])
+{
+    const float last = (float)(c->bins - 1);
+    for (int k = 0; k < 3; k++) {
+        float at = (b->lo[k] - b->hi[k] - c->from[k]) * c->scale[k];
+        at = at > 0 ? at : 0;
+        out[k] = (int32_t)(at < last ? at : last);
+    }
+}
+
+#endif
+
+static inline float half_area(const struct box *b)
+{
+    const float x = -b->hi[0] - b->lo[0], y = -b->hi[1] - b->lo[1],
+                z = -b->hi[2] - b->lo[2];
+    return x * y + y * z + z * x;
+}
+
+static struct box range_box(const struct builder *b, uint32_t first, uint32_t count)
+{
+    struct box box = empty_box();
+    for (uint32_t i = first; i < first + count; i++)
+        widen(&box, &b->item[i]);
+    return box;
+}
+
+// The surface area heuristic over the bins of the centres along one axis.
+static void try_axis(const struct bins *bins, int axis, struct cut *best)
+{
+    float area[BINS]; // behind each bin, itself included
+    uint32_t behind[BINS], n = 0;
+    struct box sum = empty_box();
+    for (int i = best->bins - 1; i > 0; i--) {
+        n += bins->count[i];
+        widen(&sum, &bins->box[i]);
+        behind[i] = n;
+        area[i] = n ? half_area(&sum) : 0;
+    }
+    n = 0;
+    sum = empty_box();
+    for (int i = 0; i < best->bins - 1 && behind[i + 1]; i++) {
+        if (!bins->count[i]) // the cut before it is the same
+            continue;
+        n += bins->count[i];
+        widen(&sum, &bins->box[i]);
+        const float cost =
+            half_area(&sum) * (float)n + area[i + 1] * (float)behind[i + 1];
+        if (cost < best->cost) {
+            best->cost = cost;
+            best->axis = axis;
+            best->bin = i;
+        }
+    }
+}
+
+static void settle(struct cut *c, const struct bins *bins)
+{
+    c->near = c->far = empty_box();
+    for (int i = 0; i < c->bins; i++)
+        widen(i <= c->bin ? &c->near : &c->far, &bins->box[i]);
+}
+
+static void fill_bins(const struct box *item, uint32_t count, const struct cut *c,
+                      struct bins bins[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < c->bins; i++) {
+            bins[axis].box[i] = empty_box();
+            bins[axis].count[i] = 0;
+        }
+    for (uint32_t i = 0; i < count; i++) {
+        int32_t k[4];
+        bins_of(c, &item[i], k);
+        for (int axis = 0; axis < 3; axis++) {
+            widen(&bins[axis].box[k[axis]], &item[i]);
+            bins[axis].count[k[axis]]++;
+        }
+    }
+}
+
+static bool find_cut(const struct builder *b, const struct range *r, struct cut *best)
+{
+    const struct box *item = b->item + r->first;
+    struct box centres = empty_box();
+    struct bins bins[3];
+    for (uint32_t i = 0; i < r->count; i++)
+        widen_by_centre(&centres, &item[i]);
+    *best = (struct cut){.axis = -1, .cost = FLT_MAX};
+    best->bins = r->count <= FEW ? BINS_OF_FEW : BINS;
+    for (int axis = 0; axis < 3; axis++) {
+        const float width = -centres.hi[axis] - centres.lo[axis];
+        best->from[axis] = centres.lo[axis];
+        best->scale[axis] = width > 0 ? (float)best->bins / width : 0;
+    }
+    fill_bins(item, r->count, best, bins);
+    for (int axis = 0; axis < 3; axis++)
+        if (best->scale[axis] > 0)
+            try_axis(&bins[axis], axis, best);
+    if (best->axis >= 0)
+        settle(best, &bins[best->axis]);
+    return best->axis >= 0;
+}
+
+// The near items to the front. The tree depends on the order of the scene alone.
+static uint32_t partition(struct builder *b, const struct range *r, const struct cut *c)
+{
+    uint32_t i = r->first, end = r->first + r->count;
+    while (i < end) {
+        int32_t k[4];
+        bins_of(c, &b->item[i], k);
+        if (k[c->axis] <= c->bin) {
+            i++;
+            continue;
+        }
+        end--;
+        const struct box box = b->item[i];
+        const uint32_t order = b->order[i];
+        b->item[i] = b->item[end];
+        b->order[i] = b->order[end];
+        b->item[end] = box;
+        b->order[end] = order;
+    }
+    return i - r->first;
+}
+
+static bool split(struct builder *b, struct range *r, uint32_t depth, struct range *rest)
+{
+    if (r->count <= 1)
+        return false;
+    uint32_t left = r->count / 2;
+    struct cut c;
+    const bool cut = depth < DEPTH_BINNED && find_cut(b, r, &c);
+    if (cut) {
+        // A test of a box costs about as much as half a test of an object.
+        if (r->count <= LEAF_ITEMS &&
+            c.cost + 0.5f * r->area >= r->area * (float)r->count)
+            return false;
+        left = partition(b, r, &c);
+    } else if (r->count <= LEAF_ITEMS) {
+        return false;
+    }
+    *rest = (struct range){.first = r->first + left, .count = r->count - left};
+    rest->box = cut ? c.far : range_box(b, rest->first, rest->count);
+    rest->area = half_area(&rest->box);
+    r->count = left;
+    r->box = cut ? c.near : range_box(b, r->first, r->count);
+    r->area = half_area(&r->box);
+    return true;
+}
+
+static uint32_t new_node(struct builder *b)
+{
+    if (b->node_count == b->node_capacity) {
+        b->node_capacity = b->node_capacity ? 2 * b->node_capacity : 64;
+        b->node = realloc(b->node, b->node_capacity * sizeof *b->node);
+        if (!b->node)
+            abort();
+    }
+    struct bvh8_node *n = &b->node[b->node_count];
+    for (int i = 0; i < 8; i++) {
+        n->child[i] = BVH8_EMPTY;
+        for (int axis = 0; axis < 3; axis++) {
+            n->box[axis][i] = 1e30f;
+            n->box[3 + axis][i] = -1e30f;
+        }
+    }
+    return b->node_count++;
+}
+
+// The range with the largest box that may still be split; -1: none.
+static int widest(const struct range *r, int count)
+{
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (!r[i].whole && (best < 0 || r[i].area > r[best].area))
+            best = i;
+    return best;
+}
+
+// The depth of the recursion is bounded: see DEPTH_BINNED.
+static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
+{
+    struct range r[8] = {all};
+    int n = 1;
+    for (int i; n < 8 && (i = widest(r, n)) >= 0;) {
+        if (split(b, &r[i], depth, &r[n]))
+            n++;
+        else
+            r[i].whole = true;
+    }
+    uint32_t id = new_node(b);
+    for (int i = 0; i < n; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            b->node[id].box[axis][i] = r[i].box.lo[axis];
+            b->node[id].box[3 + axis][i] = -r[i].box.hi[axis];
+        }
+        int32_t child = r[i].count <= LEAF_ITEMS ? bvh8_leaf(r[i].first, r[i].count)
+                                                 : (int32_t)make_node(b, r[i], depth + 1);
+        b->node[id].child[i] = child;
+    }
+    return id;
+}
+
+static float round_down(double v)
+{
+    float f = (float)v;
+    return (double)f > v ? nextafterf(f, -INFINITY) : f;
+}
+
+static struct box placed(const struct builder *b, const struct aabb *box)
+{
+    struct box out = {0};
+    for (int axis = 0; axis < 3; axis++) {
+        const double o = vec3_axis(b->origin, axis);
+        out.lo[axis] = round_down(vec3_axis(box->min, axis) - o - b->pad);
+        out.hi[axis] = round_down(-(vec3_axis(box->max, axis) - o + b->pad));
+    }
+    return out;
+}
+
+static struct vec3 middle(struct aabb b)
+{
+    return vec3(0.5 * b.min.x + 0.5 * b.max.x, 0.5 * b.min.y + 0.5 * b.max.y,
+                0.5 * b.min.z + 0.5 * b.max.z);
+}
+
+struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
+                          struct aabb bounds, const uint32_t *index, uint32_t count)
+{
+    struct bvh8 t = {.bounds = aabb_empty(), .item_count = count};
+    if (!count)
+        return t;
+    struct builder b = {.origin = middle(bounds)};
+    b.item = aligned_alloc(16, count * sizeof *b.item);
+    b.order = malloc(count * sizeof *b.order);
+    if (!b.item || !b.order)
+        abort();
+    b.pad = PAD * vec3_max_abs(vec3_sub(bounds.max, b.origin)) + FLT_MIN;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct aabb whole = box(user, i);
+        b.item[i] = placed(&b, &whole);
+        b.order[i] = i;
+    }
+    struct range all = {.count = count, .box = range_box(&b, 0, count)};
+    all.area = half_area(&all.box);
+    make_node(&b, all, 0);
+    free(b.item);
+    t.origin = b.origin;
+    t.node_count = b.node_count;
+    t.node = arena_alloc_aligned(a, b.node_count * sizeof *t.node, 64);
+    memcpy(t.node, b.node, b.node_count * sizeof *t.node);
+    free(b.node);
+    t.item = arena_new_array(a, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++)
+        t.item[i] = index[b.order[i]];
+    free(b.order);
+    struct vec3 pad = vec3(b.pad, b.pad, b.pad);
+    t.bounds = (struct aabb){vec3_sub(bounds.min, pad), vec3_add(bounds.max, pad)};
+    return t;
+}
+
+static struct aabb box_at(const void *user, uint32_t i)
+{
+    return ((const struct aabb *)user)[i];
+}
+
+struct bvh8 bvh8_build(struct arena *a, const struct aabb *box, const uint32_t *index,
+                       uint32_t count)
+{
+    struct aabb bounds = aabb_empty();
+    for (uint32_t i = 0; i < count; i++)
+        bounds = aabb_join(bounds, box[i]);
+    return bvh8_build_of(a, box_at, box, bounds, index, count);
+}
