@@ -21,6 +21,11 @@ const struct shape_ops *shape_find(const char *keyword, size_t len)
     return NULL;
 }
 
+bool shape_is_bounded(const struct shape_ops *ops, const void *shape)
+{
+    return ops->is_bounded ? ops->is_bounded(shape) : (ops->flags & SHAPE_BOUNDED) != 0;
+}
+
 bool shape_is_solid(const struct shape_ops *ops, const void *shape)
 {
     return ops->is_solid ? ops->is_solid(shape) : (ops->flags & SHAPE_SOLID) != 0;

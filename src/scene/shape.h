@@ -67,13 +67,15 @@ struct shape_ops {
     // disc to the eye. NULL: as bounds.
     struct aabb (*surface_bounds)(const void *shape);
     bool (*is_solid)(const void *shape); // NULL: as flags say
+    // Whether there is nothing of the shape beyond finite bounds; NULL: as SHAPE_BOUNDED says.
+    bool (*is_bounded)(const void *shape);
     bool (*inside)(const void *shape, struct vec3 p);
 
     // Appends every crossing of the whole line (t_min, t_max of the ray are
     // hints that later crossings are not wanted, except that the alternation
     // and the state at t_min must stay right; most shapes ignore them). A line that
     // no boundary meets is wholly inside or wholly outside: only `inside` tells
-    // which, and only for a shape without SHAPE_BOUNDED can it be inside.
+    // which, and only for a shape that is not bounded can it be inside.
     void (*intersect)(const void *shape, const struct ray *ray, struct boundary_list *out);
 
     // The first drawn crossing with t_min < t < t_max, for shapes that find it much
@@ -112,6 +114,7 @@ extern const struct shape_ops *const shape_table[];
 extern const size_t shape_count;
 const struct shape_ops *shape_find(const char *keyword, size_t len); // NULL: none
 bool shape_is_solid(const struct shape_ops *ops, const void *shape);
+bool shape_is_bounded(const struct shape_ops *ops, const void *shape);
 struct aabb shape_placed_bounds(const struct shape_ops *ops, const void *shape,
                                 const struct transform *t); // padded
 struct aabb shape_surface_bounds(const struct shape_ops *ops, const void *shape);

@@ -95,5 +95,7 @@ accel_large(const struct accel *a, const struct world_object *o, uint32_t object
 }
 
 struct accel *accel_build(struct arena *a, const struct world *w);
+// The same of the objects that are not wholly opaque; w->accel is there.
+struct accel *accel_build_clear(struct arena *a, const struct world *w);
 
 #endif

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "scene/shapes/plane.h"
+
 static struct aabb drawn_bounds(const struct leaf *l)
 {
     if (!l->drawn)
@@ -21,6 +23,73 @@ static struct aabb drawn_bounds(const struct leaf *l)
 struct boxes {
     struct aabb inside, surface;
 };
+
+// Boxes may be larger than what they hold by this share of the numbers that they come from,
+// which is far above all rounding.
+static const double box_slack = 0x1p-30;
+
+// Cuts a box in the space of `t` at the half space that a plane's leaf keeps there.
+static void cut_box(struct aabb *box, const struct leaf *l, const struct transform *t)
+{
+    const struct plane *p = l->shape;
+    const struct vec3 n = l->inverted ? vec3_neg(p->normal) : p->normal;
+    double m[3], least[3]; // sum of m[a] y[a] <= d; the least that each term can be
+    double d = vec3_dot(n, vec3_sub(p->point, t->offset));
+    double size = vec3_max_abs(p->point) + vec3_max_abs(t->offset);
+    for (int a = 0; a < 3; a++) {
+        const double lo = vec3_axis(box->min, a), hi = vec3_axis(box->max, a);
+        m[a] = vec3_dot(n, vec3(t->linear.m[a][0], t->linear.m[a][1], t->linear.m[a][2]));
+        least[a] = fmin(m[a] * lo, m[a] * hi);
+        size += fabs(m[a]) * fmax(fabs(lo), fabs(hi));
+    }
+    d += box_slack * size;
+    double *const min[3] = {&box->min.x, &box->min.y, &box->min.z};
+    double *const max[3] = {&box->max.x, &box->max.y, &box->max.z};
+    for (int a = 0; a < 3; a++) {
+        const double end = (d - least[(a + 1) % 3] - least[(a + 2) % 3]) / m[a];
+        if (m[a] > 0)
+            *max[a] = fmin(*max[a], end);
+        else if (m[a] < 0)
+            *min[a] = fmax(*min[a], end);
+    }
+}
+
+// What the planes among its siblings leave of a leaf's box. They are cut off in the leaf's
+// own space, since planes that were turned with a shape lie along its axes there only.
+static void cut_by_planes(const struct csg_node *sibling, uint32_t count,
+                          const struct leaf *leaf, const struct leaf *l,
+                          struct boxes *out)
+{
+    enum { MOST = 16 }; // planes, so that large nodes take linear time
+    uint32_t planes = 0;
+    struct aabb box = l->ops->bounds(l->shape);
+    if (!aabb_is_finite(box) || aabb_is_empty(box))
+        return;
+    for (uint32_t i = 0; i < count && planes < MOST; i++) {
+        if (sibling[i].op != NODE_LEAF || leaf[sibling[i].leaf].ops != &plane_ops)
+            continue;
+        cut_box(&box, &leaf[sibling[i].leaf], l->transform);
+        planes++;
+    }
+    if (!planes)
+        return;
+    if (!aabb_is_empty(box))
+        box = aabb_pad(l->transform->identity ? box : aabb_transform(box, l->transform));
+    out->inside = aabb_meet(out->inside, box);
+    out->surface = aabb_meet(out->surface, box);
+}
+
+static void cut_children(const struct csg_node *child, uint32_t count,
+                         const struct leaf *leaf, struct boxes *box)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (child[i].op != NODE_LEAF)
+            continue;
+        const struct leaf *l = &leaf[child[i].leaf];
+        if (l->solid && !l->inverted && l->ops != &plane_ops)
+            cut_by_planes(child, count, leaf, l, &box[i]);
+    }
+}
 
 static void intersect_boxes(const struct csg_node *n, const struct boxes *child,
                             struct boxes *out, struct aabb *suffix)
@@ -52,7 +121,7 @@ struct aabb csg_bound(struct csg_node *node, uint32_t root, uint32_t count,
     for (uint32_t i = count; i-- > root;) {
         struct csg_node *n = &node[i];
         struct boxes *to = &box[i - root];
-        const struct boxes *child = n->op == NODE_LEAF ? NULL : &box[n->first_child - root];
+        struct boxes *child = n->op == NODE_LEAF ? NULL : &box[n->first_child - root];
         if (n->op == NODE_LEAF) {
             const struct leaf *l = &leaf[n->leaf];
             to->inside = l->inverted ? aabb_infinite()
@@ -61,6 +130,7 @@ struct aabb csg_bound(struct csg_node *node, uint32_t root, uint32_t count,
             to->surface = drawn_bounds(l);
             n->base_inside = l->inverted;
         } else if (n->op == NODE_INTERSECTION) {
+            cut_children(&node[n->first_child], n->child_count, leaf, child);
             intersect_boxes(n, child, to, suffix);
         } else {
             *to = (struct boxes){aabb_empty(), aabb_empty()};

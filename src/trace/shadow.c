@@ -133,7 +133,7 @@ static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r, b
     bool on;
     do {
         q.ray.t_min = s.t;
-        hit = trace_closest_1(t->job->world, t->scratch, &q);
+        hit = trace_closest_1(t->job->world->clear, t->scratch, &q);
         on = hit.b.t < r->t_max;
     } while (on && walk_on(t, &s, &q.ray, &hit));
     if (air && !on)
@@ -185,7 +185,7 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
         for (uint32_t i = 0; i < n; i++)
             walk_put(t->walk_rays, i, b->rays, &s[i]);
         t->walk_rays->count = n;
-        trace_closest(t->job->world, t->scratch, t->walk_rays, t->walk_hit);
+        trace_closest(t->job->world->clear, t->scratch, t->walk_rays, t->walk_hit);
         uint32_t left = 0;
         for (uint32_t i = 0; i < n; i++) {
             const struct ray ray = batch_ray(t->walk_rays, i);

@@ -271,7 +271,7 @@ static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
         return;
     if (list->count > from)
         set_leaf(v, leaf, list->at[from].crossing == CROSS_EXIT);
-    else if (!(l->ops->flags & SHAPE_BOUNDED))
+    else if (!l->bounded)
         set_leaf(v, leaf,
                  l->ops->inside(l->shape, transform_inverse_point(
                                               l->transform, ray->o)) != l->inverted);

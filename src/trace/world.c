@@ -11,12 +11,12 @@
 
 // What a node takes from the nodes above it, in world space.
 struct context {
-    struct transform world;           // from the space outside the node
-    struct placed_texture texture;    // inherited; NULL: none yet
+    struct transform world;        // from the space outside the node
+    struct placed_texture texture; // inherited; NULL: none yet
     struct placed_texture interior_texture;
     const struct interior *interior;
     const struct photon_target *photons;
-    unsigned flags;                   // OR of the flags above
+    unsigned flags; // OR of the flags above
     bool inverted, drawn;
     bool interior_given; // false: the scene says nothing of an interior
     uint32_t light_group;
@@ -111,14 +111,15 @@ static void add_light(struct build *b, const struct object *o, const struct cont
     if (l->looks_like) {
         struct object *look = object_copy(b->arena, placed(b, l->looks_like, &t));
         look->flags |= OBJECT_NO_SHADOW;
-        struct context plain = {.world = transform_identity, .drawn = true,
-                                .light_group = c->light_group};
+        struct context plain = {
+            .world = transform_identity, .drawn = true, .light_group = c->light_group};
         add_top(b, look, &plain);
     }
 }
 
 // Lights below a node that is flattened whole, in written order.
-static void add_lights_below(struct build *b, const struct object *o, const struct context *c)
+static void add_lights_below(struct build *b, const struct object *o,
+                             const struct context *c)
 {
     if (o->kind == OBJECT_LIGHT) {
         add_light(b, o, c);
@@ -134,8 +135,8 @@ static void add_lights_below(struct build *b, const struct object *o, const stru
 // ---- inheritance -----------------------------------------------------------------
 
 static struct placed_texture attach(const struct attached_texture *own,
-                                      const struct placed_texture *inherited,
-                                      const struct transform *world)
+                                    const struct placed_texture *inherited,
+                                    const struct transform *world)
 {
     if (!own->texture)
         return *inherited;
@@ -149,7 +150,8 @@ static const struct interior *new_interior(struct build *b, const struct interio
     if (given)
         *i = *given;
     else
-        *i = (struct interior){.dispersion = 1, .dispersion_samples = 7, .old_refraction = 1};
+        *i = (struct interior){
+            .dispersion = 1, .dispersion_samples = 7, .old_refraction = 1};
     i->hollow = hollow;
     return i;
 }
@@ -162,8 +164,8 @@ static const struct interior *interior_of(struct build *b, const struct object *
 {
     if (!o->interior && (c->interior || o->kind == OBJECT_SHAPE))
         return c->interior;
-    return new_interior(b, o->interior ? interior_moved(b->arena, o->interior, &c->world) : NULL,
-                        hollow);
+    return new_interior(
+        b, o->interior ? interior_moved(b->arena, o->interior, &c->world) : NULL, hollow);
 }
 
 // No ray enters through an opaque surface, so nobody asks for the identity of an interior
@@ -180,7 +182,8 @@ static const struct interior *plain_interior(struct build *b, const struct conte
 }
 
 // The context inside node o, for its children or its shape.
-static struct context enter(struct build *b, const struct object *o, const struct context *c)
+static struct context enter(struct build *b, const struct object *o,
+                            const struct context *c)
 {
     struct context in = *c;
     in.texture = attach(&o->texture, &c->texture, &c->world);
@@ -215,8 +218,9 @@ static bool same_transform(const struct transform *a, const struct transform *b)
 
 static bool same_surface(const struct surface *a, const struct surface *b)
 {
-    return !a->parts && !b->parts && a->texture == b->texture && a->interior_texture == b->interior_texture &&
-           a->interior == b->interior && a->photons == b->photons && a->flags == b->flags &&
+    return !a->parts && !b->parts && a->texture == b->texture &&
+           a->interior_texture == b->interior_texture && a->interior == b->interior &&
+           a->photons == b->photons && a->flags == b->flags &&
            a->light_group == b->light_group && a->importance == b->importance &&
            same_transform(&a->texture_transform, &b->texture_transform) &&
            same_transform(&a->interior_texture_transform, &b->interior_texture_transform);
@@ -236,8 +240,8 @@ static const struct cutaway *cutaway_of(struct build *b)
 static uint32_t add_surface(struct build *b, const struct object *o,
                             const struct context *c)
 {
-    const struct placed_texture unnamed = attach(&b->scene->default_texture, &c->texture,
-                                                 &transform_identity);
+    const struct placed_texture unnamed =
+        attach(&b->scene->default_texture, &c->texture, &transform_identity);
     const struct placed_texture *t = c->texture.texture ? &c->texture : &unnamed;
     struct surface s = {.texture = t->texture,
                         .texture_transform = t->transform,
@@ -264,7 +268,8 @@ static uint32_t add_surface(struct build *b, const struct object *o,
         s.opaque = false;
         s.wants_uv = true;
     }
-    for (uint32_t i = 0; s.parts && !s.cutaway && (x = o->ops->texture(o->shape, i)); i++) {
+    for (uint32_t i = 0; s.parts && !s.cutaway && (x = o->ops->texture(o->shape, i));
+         i++) {
         s.opaque &= texture_is_opaque(x);
         s.wants_uv |= texture_wants_uv(x);
     }
@@ -279,7 +284,8 @@ static uint32_t add_surface(struct build *b, const struct object *o,
 }
 
 // Neighbours mostly share their transform, too.
-static const struct transform *shared_transform(struct build *b, const struct transform *t)
+static const struct transform *shared_transform(struct build *b,
+                                                const struct transform *t)
 {
     if (!b->transform || !same_transform(b->transform, t)) {
         struct transform *copy = arena_new_struct(b->arena, struct transform);
@@ -308,6 +314,7 @@ static uint32_t add_leaf(struct build *b, const struct object *o, const struct c
     l->surface = surface;
     l->object = b->object.count;
     l->solid = shape_is_solid(o->ops, o->shape);
+    l->bounded = shape_is_bounded(o->ops, o->shape);
     l->inverted = l->solid && c->inverted;
     l->drawn = c->drawn;
     l->transform = &transform_identity;
@@ -343,7 +350,8 @@ static struct csg_node *node_at(struct build *b, uint32_t i)
     return (struct csg_node *)b->node.at + i;
 }
 
-static uint32_t add_children(struct build *b, uint32_t parent, enum node_op op, uint32_t count)
+static uint32_t add_children(struct build *b, uint32_t parent, enum node_op op,
+                             uint32_t count)
 {
     const uint32_t first = b->node.count;
     vector_add(&b->node, count);
@@ -368,8 +376,7 @@ static void later(struct build *b, const struct object *o, const struct context 
 static void flatten_clipped(struct build *b, const struct pending *p)
 {
     const struct object *o = p->object;
-    const uint32_t first =
-        add_children(b, p->node, NODE_INTERSECTION, o->clip_count + 1);
+    const uint32_t first = add_children(b, p->node, NODE_INTERSECTION, o->clip_count + 1);
     struct context clip = p->context;
     clip.inverted = clip.drawn = false;
     for (uint32_t i = o->clip_count; i-- > 0;)
@@ -436,8 +443,7 @@ static void mark_required(struct build *b, uint32_t root, uint32_t first_leaf)
         uint32_t n = l->node;
         while (n != root && node_at(b, node_at(b, n)->parent)->op == NODE_INTERSECTION)
             n = node_at(b, n)->parent;
-        l->required = n == root && l->solid && !l->inverted &&
-                      (l->ops->flags & SHAPE_BOUNDED) != 0;
+        l->required = n == root && l->solid && !l->inverted && l->bounded;
     }
 }
 
@@ -580,6 +586,14 @@ static void *keep(struct arena *a, struct vector *v)
     return p;
 }
 
+static const struct world *clear_of(struct arena *a, const struct world *w)
+{
+    struct world *clear = arena_new_struct(a, struct world);
+    *clear = *w;
+    clear->accel = accel_build_clear(a, w);
+    return clear;
+}
+
 struct world *world_build(struct arena *a, const struct scene *scene)
 {
     struct build b = {.arena = a, .scene = scene};
@@ -618,5 +632,7 @@ struct world *world_build(struct arena *a, const struct scene *scene)
         if (aabb_is_finite(w->object[i].bounds))
             w->bounds = aabb_join(w->bounds, w->object[i].bounds);
     w->accel = accel_build(a, w);
+    if (w->has_transparent)
+        w->clear = clear_of(a, w);
     return w;
 }

@@ -43,6 +43,7 @@ struct leaf {
     uint32_t object;            // index into world objects
     uint32_t node;              // its NODE_LEAF node, of a CSG object
     bool solid;                 // false: a sheet, never inside, whatever `inverse` says
+    bool bounded;               // the bare shape is (shape_is_bounded)
     bool required; // outside this leaf its object has nothing: it is bounded, and only
                    // intersections lie above it
     bool inverted;
@@ -117,6 +118,9 @@ struct world {
     bool has_transparent; // some surface is not opaque
     struct aabb bounds;   // of the finite objects
     struct accel *accel;  // trace/accel.h
+    // The same world with nothing to meet but the objects that are not wholly opaque, for
+    // rays of which it is known that nothing opaque is on their way. NULL: none are.
+    const struct world *clear;
 };
 
 // Splits unions, resolves inheritance, absorbs transforms, computes bounds.

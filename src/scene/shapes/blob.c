@@ -104,6 +104,11 @@ static struct aabb bounds(const void *shape)
     return box;
 }
 
+static bool is_bounded(const void *shape)
+{
+    return ((const struct blob *)shape)->threshold > 0;
+}
+
 static bool inside(const void *shape, struct vec3 p)
 {
     struct vec3 gradient;
@@ -303,6 +308,7 @@ const struct shape_ops blob_ops = {
     .flags = SHAPE_SOLID | SHAPE_STURM | SHAPE_HIERARCHY,
     .build = build,
     .bounds = bounds,
+    .is_bounded = is_bounded,
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,

@@ -450,6 +450,56 @@ static void many_holes(void **state)
 
 // ---- secondary rays -------------------------------------------------------------------
 
+// Planes that were turned with a shape lie along its own axes: what they leave of it has the
+// box of that part, whatever the world's axes.
+static void turned_planes_cut_boxes(void **state)
+{
+    struct fixture *f = *state;
+    const struct transform turn = transform_rotate(vec3(0, 30, 0));
+    struct object *o =
+        csg(f, CSG_DIFFERENCE, box_of(f, vec3(-1, -1, -10), vec3(1, 1, 10)),
+            half_space(f, vec3(0, 0, 1), 0)); // z < 0 goes
+    o = csg(f, CSG_INTERSECTION, o, half_space(f, vec3(1, 0, 0), 0));
+    add(f, moved(f, o, turn));
+    struct object *turned_in_place =
+        moved(f, half_space(f, vec3(0, 1, 0), 0), transform_rotate(vec3(0, 0, 45)));
+    add(f, csg(f, CSG_INTERSECTION, box_of(f, vec3(0, -1, -1), vec3(4, 8, 1)),
+               turned_in_place));
+    finish(f);
+    struct aabb part = aabb_empty();
+    for (int i = 0; i < 8; i++) // x in [-1, 0], z in [0, 10]
+        part = aabb_add(part, transform_point(&turn, vec3(i & 1 ? -1 : 0, i & 2 ? -1 : 1,
+                                                          i & 4 ? 10 : 0)));
+    const struct aabb box = f->w->object[0].bounds;
+    assert_true(box.min.x <= part.min.x && box.max.x >= part.max.x);
+    assert_true(box.min.z <= part.min.z && box.max.z >= part.max.z);
+    // The plane x < 0 stands above the difference and cuts it in the world's axes only.
+    assert_true(box.min.z >= part.min.z - 1 && box.max.z <= part.max.z + 1);
+    // y < x, and x goes up to 4.
+    assert_near(f->w->object[1].bounds.max.y, 4, 1e-6);
+    assert_true(f->w->object[1].bounds.max.y >= 4);
+}
+
+// Shadow rays that nothing opaque stops go on among the objects that let light through.
+static void the_clear_world_has_no_opaque_object(void **state)
+{
+    struct fixture *f = *state;
+    add(f, sphere_at(f, 0, 0, 5, 1));
+    struct object *glass = sphere_at(f, 0, 0, 9, 1);
+    glass->texture = (struct attached_texture){&clear_texture, &transform_identity};
+    add(f, glass);
+    add(f, half_space(f, vec3(0, 0, -1), -20));
+    finish(f);
+    const struct ray_query q = query(vec3(0, 0, 0), Z);
+    assert_near(trace_closest_1(f->w, f->s, &q).b.t, 4, 1e-13);
+    assert_non_null(f->w->clear);
+    const struct hit hit = trace_closest_1(f->w->clear, f->s, &q);
+    assert_near(hit.b.t, 8, 1e-13);
+    assert_int_equal(hit.b.leaf, 1);
+    const struct ray_query past = query(vec3(0, 5, 0), Z);
+    assert_true(trace_closest_1(f->w->clear, f->s, &past).b.t == INFINITY);
+}
+
 // T35 at several magnitudes: a ray leaving a convex surface never meets it again, and one
 // that enters meets the far side.
 static void a_ray_leaves_its_surface(void **state)
@@ -563,6 +613,8 @@ int main(void)
         TEST(far_rays_hit),
         TEST(the_sweep_agrees_with_points),
         TEST(many_holes),
+        TEST(turned_planes_cut_boxes),
+        TEST(the_clear_world_has_no_opaque_object),
         TEST(a_ray_leaves_its_surface),
         TEST(small_gaps_are_seen),
         TEST(visibility_and_points),
