@@ -147,6 +147,11 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
         render_state_close(&state, whole);
     ctx->cancel = false;
     keep_stats(ctx, &stats);
+    if (stats.photons_left_out) // PHOTONS_MOST
+        diag_at(&ctx->diags, DIAG_BLOCK_WARNING, (struct span){0}, "photons",
+                "a map holds 67,108,864; the others are left out (a larger spacing or a "
+                "smaller "
+                "count leaves fewer)");
     *out = image;
     return whole ? LAMBERT_OK
                  : context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");

@@ -1,20 +1,44 @@
 #include "trace/photon_map.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/elementary.h"
 
 static const double pi = 3.14159265358979323846;
 
+// Makes room for `more` photons; returns for how many there is.
+static uint32_t room_for(struct photon_map *m, uint32_t more)
+{
+    if (more > PHOTONS_MOST - m->count) {
+        more = PHOTONS_MOST - m->count;
+        m->full = true;
+    }
+    if (m->capacity - m->count >= more)
+        return more;
+    const uint32_t least = m->count + more;
+    m->capacity = m->capacity < 32 ? 64 : 2 * m->capacity;
+    if (m->capacity < least)
+        m->capacity = least;
+    m->photon = realloc(m->photon, m->capacity * sizeof *m->photon);
+    if (!m->photon)
+        abort();
+    return more;
+}
+
 void photon_add(struct photon_map *m, const struct photon *p)
 {
-    if (m->count == m->capacity) {
-        m->capacity = m->capacity ? 2 * m->capacity : 1024;
-        m->photon = realloc(m->photon, m->capacity * sizeof *m->photon);
-        if (!m->photon)
-            abort();
-    }
-    m->photon[m->count++] = *p;
+    if (room_for(m, 1))
+        m->photon[m->count++] = *p;
+}
+
+void photon_map_append(struct photon_map *m, const struct photon_map *from)
+{
+    const uint32_t n = room_for(m, from->count);
+    if (n)
+        memcpy(m->photon + m->count, from->photon, n * sizeof *m->photon);
+    m->count += n;
+    m->full |= from->full;
 }
 
 void photon_map_end(struct photon_map *m)

@@ -15,10 +15,14 @@ struct photon {
 
 // Photons as a balanced kd-tree (Jensen 2001, 7.3): the middle of a range splits it, on the
 // axis along which the range is widest.
+enum { PHOTONS_MOST = 1 << 26 }; // of a map, 2.4 GB: bounds what a spacing of next to
+                                 // nothing can do
+
 struct photon_map {
     struct photon *photon;
     uint8_t *axis; // of each, once the tree is made
     uint32_t count, capacity;
+    bool full;           // there was no room for more
     double radius, step; // to gather in; what it grows by where there are too few
 };
 
@@ -28,6 +32,8 @@ struct photon_near {
 };
 
 void photon_add(struct photon_map *m, const struct photon *p);
+// Adds all of another map, in its order.
+void photon_map_append(struct photon_map *m, const struct photon_map *from);
 void photon_map_end(struct photon_map *m);
 // Makes the tree; the order of the photons changes.
 void photon_map_build(struct photon_map *m);

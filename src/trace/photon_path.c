@@ -60,12 +60,9 @@ static double faded(const struct light *l, double length)
 void photon_leave(struct photon_flight *f, struct photon_map *m, const struct leg *leg,
                   struct vec3 p, double way, struct rgb weight)
 {
-    enum { MOST = 1 << 26 }; // 2.4 GB: bounds what a spacing of next to nothing can do
     const struct photon_gun *g = f->gun;
     const struct vec3 d = leg->path.d;
     const double length = leg->length + way;
-    if (m->count == MOST)
-        return;
     double area = g->spread * g->spread;
     if (!photon_is_parallel(g))
         area *= length * length;

@@ -4,7 +4,7 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
-#include "trace/photon_path.h"
+#include "trace/photon_volley.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -124,7 +124,7 @@ static void aim_ray(const struct aim *a, double theta, double phi, struct vec3 *
 
 struct shooting {
     const struct job *job;
-    struct photon_flight *flight;
+    struct photon_volley *volley;
     double spacing;
     uint32_t drawn;
     const volatile bool *cancel;
@@ -144,38 +144,76 @@ static double step_of(const struct shooting *s, struct aim *a, uint32_t samples)
     return det_atan(a->gun.spread);
 }
 
-// One ring of directions; returns how many of them met the target.
-static uint32_t ring(struct shooting *s, struct aim *a, double theta, double step)
+// One ring of directions.
+static void ring(struct shooting *s, const struct aim *a, double theta, double step)
 {
     const double jitter = s->job->scene->settings.photons.jitter;
     const bool parallel = is_parallel(a->gun.lamp->light);
     const double turn = theta == 0 ? 2 * pi : step / (parallel ? theta : det_sin(theta));
-    uint32_t met = 0;
+    photon_volley_ring(s->volley);
     for (double phi = -pi + turn / 2 * drawn(s); phi < pi; phi += turn) {
         const double q = theta + (drawn(s) - 0.5) * jitter * step;
         const double f = phi + (drawn(s) - 0.5) * jitter * turn;
         struct vec3 o, d;
         aim_ray(a, q, f, &o, &d);
-        met += photon_fly(s->flight, &a->gun, o, d, hash_mix(17, s->drawn));
+        photon_volley_shot(s->volley, o, d, hash_mix(17, s->drawn));
     }
-    return met;
 }
+
+// Rings that are flown together before it is known whether the first ones end the search.
+enum {
+    RINGS = 256,
+    SHOTS_FIRST = 256, // so many, then a quarter of all before,
+    SHOTS_MOST = 8192  // up to these: what is flown in vain stays a small part
+};
+
+struct rings {
+    double theta[RINGS];
+    uint32_t drawn[RINGS]; // when the ring was complete
+};
+
+static double volley_fill(struct shooting *s, const struct aim *a, double theta,
+                          double step, uint32_t shots, struct rings *r)
+{
+    photon_volley_clear(s->volley);
+    for (uint32_t i = 0;
+         i < RINGS && theta < a->widest && photon_volley_shots(s->volley) < shots;
+         i++, theta += step) {
+        ring(s, a, theta, step);
+        r->theta[i] = theta;
+        r->drawn[i] = s->drawn;
+    }
+    return theta;
+}
+
+static bool is_cancelled(const struct shooting *s) { return s->cancel && *s->cancel; }
 
 static void shoot(struct shooting *s, struct aim *a, uint32_t samples)
 {
     const double autostop = s->job->scene->settings.photons.autostop;
     const double step = step_of(s, a, samples);
+    uint32_t next = SHOTS_FIRST, all = 0;
+    struct rings r;
     a->gun.share = 1.0f / (float)samples;
     bool any = false;
     if (!(step > 0))
         return;
-    for (double theta = 0; theta < a->widest; theta += step) {
-        if (s->cancel && *s->cancel)
-            return;
-        const uint32_t met = ring(s, a, theta, step);
-        if (!met && any && theta > autostop * a->widest)
-            break;
-        any |= met > 0;
+    for (double theta = 0; theta < a->widest && !is_cancelled(s);) {
+        theta = volley_fill(s, a, theta, step, next, &r);
+        photon_volley_fly(s->volley, &a->gun);
+        const uint32_t rings = photon_volley_rings(s->volley);
+        for (uint32_t i = 0; i < rings; i++) {
+            const uint32_t met = photon_volley_take(s->volley, i);
+            if (!met && any && r.theta[i] > autostop * a->widest) {
+                s->drawn = r.drawn[i]; // as if the rings after it had not been flown
+                return;
+            }
+            any |= met > 0;
+        }
+        all += photon_volley_shots(s->volley);
+        next = all / 4 < SHOTS_FIRST  ? SHOTS_FIRST
+               : all / 4 < SHOTS_MOST ? all / 4
+                                      : SHOTS_MOST;
     }
 }
 
@@ -288,9 +326,9 @@ struct photons *photons_shoot(const struct job *job, const volatile bool *cancel
     if (settings->adc_bailout >= 0)
         own.adc_bailout = (float)settings->adc_bailout;
     struct shooting s = {.job = &own, .spacing = spacing_of(job), .cancel = cancel};
-    s.flight = photon_flight_new(&own, p);
+    s.volley = photon_volley_new(&own, p, cancel);
     pairs(&s, shoot_from);
-    photon_flight_free(s.flight);
+    photon_volley_free(s.volley);
     const uint32_t total =
         p->surface.count > p->media.count ? p->surface.count : p->media.count;
     p->gather.max = (uint32_t)(settings->gather_max > 0 ? settings->gather_max : 0);

@@ -253,6 +253,8 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     r.stats.seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
     r.stats.cpu_seconds = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin;
     r.stats.tiles_total = r.tiles_total;
+    r.stats.photons_left_out =
+        job.photons && (job.photons->surface.full || job.photons->media.full);
     pthread_mutex_destroy(&r.lock);
     photons_free(photons);
     arena_free(arena);

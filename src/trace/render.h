@@ -66,6 +66,7 @@ struct render_stats {
     double seconds;     // wall, of tracing alone
     double cpu_seconds; // the process's, in that time
     uint32_t tiles_done, tiles_total;
+    bool photons_left_out; // there were more than a map holds
 };
 
 // The photons of a scene (trace/photons.h), for several jobs; NULL: it has none. The

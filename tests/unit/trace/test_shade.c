@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
+#include "trace/photon_map.h"
 #include "trace/render.h"
 
 // Scenes put together by hand, with the linear values that POV-Ray 3.7 renders for the
@@ -157,8 +158,8 @@ static void add_sky(struct setup *s)
     struct pigment_map *map = arena_new_struct(s->arena, struct pigment_map);
     *map = (struct pigment_map){3, weight, entry};
     struct pigment *mean = arena_new_struct(s->arena, struct pigment);
-    *mean = (struct pigment){
-        .kind = PIGMENT_AVERAGE, .map = map, .pattern = &pattern_none};
+    *mean =
+        (struct pigment){.kind = PIGMENT_AVERAGE, .map = map, .pattern = &pattern_none};
     entry[3] = mean;
     struct sky_sphere *sky = arena_new_struct(s->arena, struct sky_sphere);
     *sky = (struct sky_sphere){entry + 3, 1, {1, 1, 1}};
@@ -630,6 +631,36 @@ static void one_picture(void **state)
     image_free(&first);
 }
 
+// A map that holds the most says that there was more, and takes nothing.
+static void a_full_map_of_photons_says_so(void **state)
+{
+    (void)state;
+    const struct photon x = {.p = {1, 2, 3}};
+    struct photon_map some = {0},
+                      full = {.count = PHOTONS_MOST, .capacity = PHOTONS_MOST};
+    for (int i = 0; i < 100; i++)
+        photon_add(&some, &x);
+    assert_int_equal(some.count, 100);
+    assert_false(some.full);
+    struct photon_map more = {0};
+    photon_map_append(&more, &some);
+    photon_map_append(&more, &some);
+    assert_int_equal(more.count, 200);
+    assert_true(more.photon[199].p[2] == 3);
+    photon_map_end(&more);
+    photon_add(&full, &x);
+    assert_true(full.full);
+    full.full = false;
+    photon_map_append(&full, &some);
+    assert_true(full.full);
+    assert_int_equal(full.count, PHOTONS_MOST);
+    const struct photon_map cut = {.full = true};
+    photon_map_append(&some,
+                      &cut); // what another map has left out is missing here as well
+    assert_true(some.full);
+    photon_map_end(&some);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -659,6 +690,7 @@ int main(void)
         cmocka_unit_test(ground_fog),
         cmocka_unit_test(alpha_of_transparency),
         cmocka_unit_test(one_picture),
+        cmocka_unit_test(a_full_map_of_photons_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
