@@ -36,6 +36,7 @@ unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
 struct blob;
 struct extrude_solid;
 struct isosurface;
+struct julia;
 struct polygon;
 struct poly;
 struct shape_kernels {
@@ -47,6 +48,8 @@ struct shape_kernels {
                            unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
+    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays, unsigned lanes,
+                      bool any, struct shape_hits *out);
     unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
                      bool any, struct shape_hits *out);
 };

@@ -96,9 +96,31 @@ static const char *const same_bits[] = {
     "<-.4, 0, -.4>, <.4, 0, -.4>, <.4, 0, .4>, <-.4, 0, .4>, <-.4, 0, -.4> }",
 };
 
+// The same, where a crossing is to be found and not only to be known of.
+static const char *const same_hits[] = {
+    "julia_fractal { <-.083, 0, -.83, -.025> quaternion sqr max_iteration 8 precision 40 "
+    "}",
+    "julia_fractal { <-.2, .6, .2, .1> quaternion cube max_iteration 6 precision 20 "
+    "slice "
+    "<.2, .1, 0, 1>, .1 }",
+    "julia_fractal { <-.083, 0, -.83, -.025> max_iteration 1 }",
+    "julia_fractal { <-.083, 0, -.83, -.025> hypercomplex sqr max_iteration 8 }",
+    "julia_fractal { <.1, .2, .4, -.1> hypercomplex cube max_iteration 5 }",
+    "julia_fractal { <.5, .2, .3, 0> hypercomplex sin max_iteration 6 }",
+    "julia_fractal { <.5, .2, .3, 0> hypercomplex cos max_iteration 5 slice <0, .3, 0, "
+    "1>, .2 }",
+    "julia_fractal { <.5, .2, .3, 0> hypercomplex sinh max_iteration 6 precision 40 }",
+    "julia_fractal { <-.5, .2, .3, 0> hypercomplex cosh max_iteration 5 }",
+    "julia_fractal { <-.5, .2, .3, 0> hypercomplex tan max_iteration 5 }",
+    "julia_fractal { <-.5, .2, .3, 0> hypercomplex tanh max_iteration 5 }",
+    "julia_fractal { <-1, .2, .3, 0> hypercomplex exp max_iteration 5 }",
+    "julia_fractal { <.4, .2, .3, 0> hypercomplex reciprocal max_iteration 5 }",
+};
+
 enum {
     SHAPES = sizeof shapes / sizeof *shapes,
     SAME_BITS = sizeof same_bits / sizeof *same_bits,
+    SAME_HITS = sizeof same_hits / sizeof *same_hits,
     PACKETS = 50,
     MORE_PACKETS = 400
 };
@@ -282,11 +304,25 @@ static void eight_rays_have_the_bits_of_one_line(void **state)
         }
 }
 
+static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SAME_HITS; i++)
+        for (int any = 0; any < 2; any++) {
+            struct loaded l;
+            load(&l, "%s", same_hits[i]);
+            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            look(&l, same_hits[i], any != 0, PACKETS, !any);
+            unload(&l);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_rays_meet_what_one_line_does),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),
+        cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

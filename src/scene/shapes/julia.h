@@ -2,6 +2,7 @@
 #define SCENE_SHAPES_JULIA_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "math/vec.h"
 
@@ -37,5 +38,11 @@ int julia_escape(const struct julia *j, struct vec3 p, struct vec3 d, double *st
                  double *norm);
 // The gradient of iterate k's length, up to a factor.
 struct vec3 julia_gradient(const struct julia *j, struct vec3 p, int k);
+// Which iterate's gradient is the normal at the place `inner` of the line o + t d, just in the
+// set, that it leaves (or enters) before (behind) the place `outer`.
+uint32_t julia_normal(const struct julia *j, struct vec3 o, struct vec3 d, double inner,
+                      double outer, bool exits);
+// Whether julia_lanes.c knows the function.
+bool julia_has_lanes(const struct julia *j);
 
 #endif

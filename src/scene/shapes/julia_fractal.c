@@ -11,6 +11,7 @@
 #include "math/gamma.h"
 #include "scene/args.h"
 #include "scene/shape.h"
+#include "scene/shape_kernels.h"
 #include "scene/shapes/julia.h"
 
 static const char *const function_word[] = {
@@ -195,23 +196,24 @@ static void narrow(const struct march *m, double *lo, double *hi, struct sample 
     }
 }
 
-// Which iterate's gradient is the normal at t: the last, as POV-Ray has it, unless it points
-// into the solid, as it may on thin parts; then the one that leaves the ball.
-static uint32_t normal_of(const struct march *m, double t, bool in, double outside)
+// The last, as POV-Ray has it, unless it points into the solid, as it may on thin parts; then
+// the one that leaves the ball.
+uint32_t julia_normal(const struct julia *j, struct vec3 o, struct vec3 d, double inner,
+                      double outer, bool exits)
 {
-    const int n = m->j->iterations;
-    const struct vec3 g = julia_gradient(m->j, vec3_mad(m->o, t, m->d), n);
-    if ((vec3_dot(g, m->d) > 0) == in)
-        return (uint32_t)n;
+    const struct vec3 g = julia_gradient(j, vec3_mad(o, inner, d), j->iterations);
+    if ((vec3_dot(g, d) > 0) == exits)
+        return (uint32_t)j->iterations;
     double norm;
-    return (uint32_t)julia_escape(m->j, vec3_mad(m->o, outside, m->d), m->d, NULL, &norm);
+    return (uint32_t)julia_escape(j, vec3_mad(o, outer, d), d, NULL, &norm);
 }
 
 static void add(const struct march *m, double inner, double outer, bool exits, double error,
                 struct boundary_list *out)
 {
     boundary_list_add(out, (inner + m->shift) / m->length, error / m->length,
-                      exits ? CROSS_EXIT : CROSS_ENTER, normal_of(m, inner, exits, outer));
+                      exits ? CROSS_EXIT : CROSS_ENTER,
+                      julia_normal(m->j, m->o, m->d, inner, outer, exits));
 }
 
 // Crossings with t > ray->t_min, up to `limit` of them. The ball is left at its surface.
@@ -255,6 +257,15 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     march(shape, ray, out->first_only ? 1 : UINT32_MAX, out);
 }
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    return k->julia(shape, rays, lanes, any, out);
+}
+
+static bool has_lanes(const void *shape) { return julia_has_lanes(shape); }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
@@ -307,6 +318,8 @@ const struct shape_ops julia_fractal_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

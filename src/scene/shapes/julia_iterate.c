@@ -349,3 +349,22 @@ struct vec3 julia_gradient(const struct julia *j, struct vec3 p, int k)
 {
     return j->hypercomplex ? hyper_gradient(j, p, k) : quaternion_gradient(j, p, k);
 }
+
+// What arguments and logarithms are made of is not among the functions of math/quick_lanes.h
+// that have the bits of their one-point forms.
+bool julia_has_lanes(const struct julia *j)
+{
+    switch (j->function) {
+    case JULIA_SQR:
+    case JULIA_CUBE:
+    case JULIA_EXP:
+    case JULIA_RECIPROCAL:
+    case JULIA_SIN:
+    case JULIA_SINH:
+    case JULIA_COS:
+    case JULIA_COSH:
+    case JULIA_TAN:
+    case JULIA_TANH: return true;
+    default: return false;
+    }
+}
