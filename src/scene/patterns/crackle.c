@@ -77,7 +77,7 @@ static double distance_of(double sum, double metric, double offset)
 
 // ---- the nearest points --------------------------------------------------------------
 
-enum { CELLS = 81, NEAREST = 3 };
+enum { CELLS = 81, CELLS_NEAR = 27, NEAREST = 3 }; // NEAR: without those two cells off
 
 // The three smallest sums in ascending order, and the point of the smallest: of equal ones
 // that of the cell which is first in lexical order.
@@ -176,9 +176,12 @@ static inline __attribute__((always_inline)) int search(struct vec3 at, bool squ
         y[i] *= y[i];
         z[i] *= z[i];
     }
+    const double far = fmin(fmin(fmin(x[0], x[4]), fmin(y[0], y[4])), fmin(z[0], z[4]));
     *n = nothing(cell);
     int count = 0;
     for (int i = 0; i < CELLS; i++) {
+        if (i == CELLS_NEAR && far > stretch * n->d[wanted - 1])
+            break;
         const struct cell_offset o = around[i];
         if (x[o.x + 2] + y[o.y + 2] + z[o.z + 2] > stretch * n->d[wanted - 1])
             continue;
