@@ -146,21 +146,24 @@ static const float reach_weight[7] = {0.627123f, -0.186077f, 0.087929f, -0.04315
 
 static int clamped(int i, int count) { return i < 0 ? 0 : i < count ? i : count - 1; }
 
+// Halfway between samples k and k + 1 of `count`, which are `step` apart.
+static float between(const float *from, size_t step, int k, int count)
+{
+    float sum = 0;
+    for (int n = 0; n < 7; n++)
+        sum += reach_weight[n] * (from[(size_t)clamped(k - n, count) * step] +
+                                  from[(size_t)clamped(k + 1 + n, count) * step]);
+    return sum;
+}
+
 // A line of `count` samples, `step` apart in `from`, to `size` texels.
 static void spread_line(const float *from, size_t step, int sampling, int size, float *to)
 {
     const int count = (size + sampling - 1) / sampling;
     for (int i = 0; i < size; i++) {
         const int k = i / sampling;
-        if (sampling != 2 || i % 2 == 0) {
-            to[i] = from[(size_t)k * step];
-            continue;
-        }
-        float sum = 0;
-        for (int n = 0; n < 7; n++)
-            sum += reach_weight[n] * (from[(size_t)clamped(k - n, count) * step] +
-                                      from[(size_t)clamped(k + 1 + n, count) * step]);
-        to[i] = sum;
+        to[i] = sampling != 2 || i % 2 == 0 ? from[(size_t)k * step]
+                                            : between(from, step, k, count);
     }
 }
 
@@ -226,19 +229,120 @@ static void luminance_weights(exr_context_t f, float w[3])
     }
 }
 
+static void rgb_of(float y, float red, float blue, const float w[3], float out[3])
+{
+    out[0] = (red + 1) * y;
+    out[2] = (blue + 1) * y;
+    out[1] = (y - out[0] * w[0] - out[2] * w[2]) / w[1];
+}
+
+static float most(const float c[3]) { return fmaxf(c[0], fmaxf(c[1], c[2])); }
+
+static float saturation(const float c[3])
+{
+    const float max = most(c), min = fminf(c[0], fminf(c[1], c[2]));
+    return max > 0 ? 1 - min / max : 0;
+}
+
+// Paler, of the same luminance.
+static void desaturate(float c[3], float by, const float w[3])
+{
+    const float max = most(c), before = c[0] * w[0] + c[1] * w[1] + c[2] * w[2];
+    float after = 0;
+    for (int k = 0; k < 3; k++) {
+        c[k] = fmaxf(max - (max - c[k]) * by, 0);
+        after += c[k] * w[k];
+    }
+    for (int k = 0; k < 3 && after > 0; k++)
+        c[k] *= before / after;
+}
+
+// Colours that stand out from their four diagonal neighbours come from few samples of
+// chroma at sharp edges: the format's own reader bounds them so.
+static void correct(float c[3], const float neighbour[4], const float w[3])
+{
+    const float here = saturation(c);
+    const float mean =
+        fminf(1, 0.25f * (neighbour[0] + neighbour[1] + neighbour[2] + neighbour[3]));
+    const float bound = fminf(1, 1 - (1 - mean) * 0.25f);
+    if (here > mean && here > bound)
+        desaturate(c, bound / here, w);
+}
+
+// The line before the first: its luminance with differences further out.
+static void saturations_above(const struct planes *p, const float *luma, const float *red,
+                              const float *blue, const float w[3], float *out)
+{
+    const size_t width = (size_t)p->width;
+    const int rows = (p->height + 1) / 2;
+    for (size_t x = 0; x < width; x++) {
+        float c[3];
+        rgb_of(luma[x], between(red + x, 2 * width, -1, rows),
+               between(blue + x, 2 * width, -1, rows), w, c);
+        out[x] = saturation(c);
+    }
+}
+
+static void saturations_of(float *const plane[3], int width, int y, float *out)
+{
+    for (int x = 0; x < width; x++) {
+        const size_t i = (size_t)y * (size_t)width + (size_t)x;
+        out[x] = saturation((const float[]){plane[0][i], plane[1][i], plane[2][i]});
+    }
+}
+
+// Three planes of colours; line: room for the saturations of three lines, that before the
+// first being known.
+static void correct_planes(const struct planes *p, float *const plane[3],
+                           const float w[3], float *line)
+{
+    const int width = p->width, last = p->height - 1;
+    float *above = line, *here = line + width, *below = here + width;
+    saturations_of(plane, width, 0, here);
+    for (int y = 0; y <= last; y++) {
+        if (y < last)
+            saturations_of(plane, width, y + 1, below);
+        // What stands for the line past the end has differences of its own.
+        const float *under = y < last ? below : last % 2 ? above : here;
+        for (int x = 0; x < width; x++) {
+            const int left = x > 0 ? x - 1 : 0, right = x + 1 < width ? x + 1 : x;
+            const size_t i = (size_t)y * (size_t)width + (size_t)x;
+            float c[3] = {plane[0][i], plane[1][i], plane[2][i]};
+            correct(c,
+                    (const float[]){above[left], above[right], under[left], under[right]},
+                    w);
+            for (int k = 0; k < 3; k++)
+                plane[k][i] = c[k];
+        }
+        float *old = above;
+        above = here;
+        here = below;
+        below = old;
+    }
+}
+
 static bool color_planes(exr_context_t f, const struct planes *p, const struct layout *l)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
-    float *luma = p->at, *red = p->at + GREEN * n, *blue = p->at + BLUE * n, w[3];
-    if (!spread_plane(red, p, l) || !spread_plane(blue, p, l))
+    float *plane[3] = {p->at, p->at + GREEN * n, p->at + BLUE * n}, w[3];
+    float *line = malloc(3 * (size_t)p->width * sizeof *line);
+    const bool sparse = l->sample_x == 2 && l->sample_y == 2;
+    if (!line || !spread_plane(plane[1], p, l) || !spread_plane(plane[2], p, l)) {
+        free(line);
         return false;
-    luminance_weights(f, w);
-    for (size_t i = 0; i < n; i++) {
-        const float y = luma[i], r = (red[i] + 1) * y, b = (blue[i] + 1) * y;
-        luma[i] = r;
-        red[i] = (y - r * w[0] - b * w[2]) / w[1];
-        blue[i] = b;
     }
+    luminance_weights(f, w);
+    if (sparse)
+        saturations_above(p, plane[0], plane[1], plane[2], w, line);
+    for (size_t i = 0; i < n; i++) {
+        float c[3];
+        rgb_of(plane[0][i], plane[1][i], plane[2][i], w, c);
+        for (int k = 0; k < 3; k++)
+            plane[k][i] = c[k];
+    }
+    if (sparse)
+        correct_planes(p, plane, w, line);
+    free(line);
     return true;
 }
 
@@ -310,7 +414,7 @@ static bool read_opened(exr_context_t f, struct image *im, size_t size,
     r = r ? r : exr_get_data_window(f, 0, &box);
     r = r ? r : read_layout(f, &l, &known);
     if (r)
-        return codec_fail(e, "%s", exr_get_error_code_as_string(r));
+        return codec_fail(e, "%s", exr_get_default_error_message(r));
     if (!known)
         return codec_fail(e, "the file has neither R G B nor Y channels");
     const int64_t width = (int64_t)box.max.x - box.min.x + 1;
@@ -334,7 +438,7 @@ static bool read_opened(exr_context_t f, struct image *im, size_t size,
     if (!r)
         interleave(im, p.at, l.kind);
     free(p.at);
-    return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
+    return !r || codec_fail(e, "%s", exr_get_default_error_message(r));
 }
 
 static bool exr_decode(struct image *im, const uint8_t *data, size_t size,
@@ -350,7 +454,7 @@ static bool exr_decode(struct image *im, const uint8_t *data, size_t size,
     exr_context_t f;
     exr_result_t r = exr_start_read(&f, "picture", &init);
     if (r)
-        return codec_fail(e, "%s", exr_get_error_code_as_string(r));
+        return codec_fail(e, "%s", exr_get_default_error_message(r));
     bool ok = read_opened(f, im, size, e);
     exr_finish(&f);
     if (!ok)

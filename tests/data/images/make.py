@@ -288,12 +288,12 @@ def hdr():
     save("packed.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 10\n" + lines)
 
 
-def exr(name, channels, chunks, tile=None, width=W):
+def exr(name, channels, chunks, tile=None, width=W, height=H):
     """Not compressed. channels: (name, sampling, value(x, y)); chunks: (place in the file's table, rows, columns)."""
     def attribute(key, kind, data):
         return key + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
 
-    box = struct.pack("<4i", 0, 0, width - 1, H - 1)
+    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
     listed = b"".join(c.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, s, s) for c, s, _ in channels)
     head = struct.pack("<II", 0x01312F76, 0x202 if tile else 2)
     head += attribute(b"channels", b"chlist", listed + b"\0") + attribute(b"compression", b"compression", b"\0")
@@ -321,6 +321,10 @@ def exrs():
     lines = [(struct.pack("<i", y), (y,), range(4)) for y in range(H)]
     exr("luma.exr", [("BY", 2, lambda x, y: -0.25), ("RY", 2, lambda x, y: 0.25 * x + 0.5 * y),
                      ("Y", 1, lambda x, y: (4 * y + x + 1) / 32)], lines, width=4)
+    # Single samples of colours that lie outside the cube: readers make what stands alone paler.
+    lines = [(struct.pack("<i", y), (y,), range(12)) for y in range(10)]
+    exr("saturated.exr", [("BY", 2, lambda x, y: -1 + (5 * x + 3 * y) % 16 / 4), ("RY", 2, lambda x, y: -1 + (x + 7 * y) % 10 / 2),
+                          ("Y", 1, lambda x, y: (12 * y + x + 1) / 120)], lines, width=12, height=10)
 
 
 for make in (pngs, gifs, field_bmps, exrs, tgas, pnms, bmps, iffs, tiffs, hdr):

@@ -37,7 +37,8 @@ image_files = \
 	tests/data/images/palette8.png \
 	tests/data/images/palette8.tif \
 	tests/data/images/photo.exr \
-	tests/data/images/tiled.exr tests/data/images/luma.exr tests/data/images/cmyk.jpg \
+	tests/data/images/tiled.exr tests/data/images/luma.exr tests/data/images/saturated.exr \
+	tests/data/images/saturated.tsv tests/data/images/cmyk.jpg \
 	tests/data/images/rgb555.bmp tests/data/images/rgb565.bmp tests/data/images/argb4444.bmp \
 	tests/data/images/xbgr32.bmp tests/data/images/palette-interlaced.gif \
 	tests/data/images/photo.jpg \

@@ -246,6 +246,36 @@ static void luminance_and_differences(void **state)
     texels_free(&t);
 }
 
+// Colours far from their neighbours' are made paler, as the format's own reader does; it
+// rounds to 11 bits on the way.
+static void lone_colours_are_made_paler(void **state)
+{
+    (void)state;
+    char path[1024], line[256];
+    struct texels t;
+    load(&t, "saturated.exr");
+    path_of(path, sizeof path, "saturated.tsv");
+    FILE *f = fopen(path, "r");
+    assert_non_null(f);
+    int rows = 0;
+    while (fgets(line, sizeof line, f)) {
+        int x, y;
+        double want[3];
+        if (line[0] == '#')
+            continue;
+        assert_int_equal(
+            sscanf(line, "%d %d %lf %lf %lf", &x, &y, &want[0], &want[1], &want[2]), 5);
+        for (int k = 0; k < 3; k++)
+            if (fabs(texels_raw(&t, x, y, k) - want[k]) > 2e-3)
+                fail_msg("%d,%d channel %d: %.6f, not %.6f", x, y, k,
+                         texels_raw(&t, x, y, k), want[k]);
+        rows++;
+    }
+    fclose(f);
+    texels_free(&t);
+    assert_int_equal(rows, 120);
+}
+
 // Adobe's inks are inverted: pure cyan on the left, half magenta under a quarter of black
 // on the right.
 static void inks_of_jpeg(void **state)
@@ -300,27 +330,87 @@ static void bad_files_are_refused(void **state)
     }
 }
 
+// A file of each type with the sizes in its header replaced by the largest that fit: more
+// texels than it can hold, mostly more than 2^31.
+static const struct huge {
+    const char *name;
+    const char *mark; // what stands before the sizes
+    size_t mark_size;
+    size_t at[2]; // width and height after the beginning of the mark
+    int bytes;
+    bool big_endian;
+} huge[] = {
+    {"rgb8.png", "IHDR", 4, {4, 8}, 4, true},
+    {"grey8.tif", "II*", 3, {18, 30}, 4, false},
+    {"rgb24.bmp", "BM", 2, {18, 22}, 4, false},
+    {"rgb24.tga", "\0\0\2", 3, {12, 14}, 2, false},
+    {"rgb24.iff", "BMHD", 4, {8, 10}, 2, true},
+    {"photo.jpg", "\xff\xc0", 2, {7, 5}, 2, true},
+    {"photo.exr", "dataWindow\0box2i", 16, {29, 33}, 4, false},
+    {"tiled.exr", "dataWindow\0box2i", 16, {29, 33}, 4, false},
+};
+
+static void put_most(uint8_t *p, int bytes, bool big_endian)
+{
+    memset(p, 0xff, (size_t)bytes);
+    if (bytes == 4) // signed in some
+        p[big_endian ? 0 : 3] = 0x7f;
+}
+
+// The checksum of a PNG's chunk (ISO/IEC 15948, annex D).
+static void seal_png(uint8_t *type, size_t size)
+{
+    uint32_t c = 0xffffffffu;
+    for (size_t i = 0; i < size; i++) {
+        c ^= type[i];
+        for (int k = 0; k < 8; k++)
+            c = c & 1 ? 0xedb88320u ^ c >> 1 : c >> 1;
+    }
+    for (int i = 0; i < 4; i++)
+        type[size + (size_t)i] = (uint8_t)(~c >> (24 - 8 * i));
+}
+
+static void huge_pictures_are_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof huge / sizeof huge[0]; i++) {
+        const struct huge *h = &huge[i];
+        static uint8_t data[8192];
+        char path[1024], error[256] = "";
+        path_of(path, sizeof path, h->name);
+        FILE *f = fopen(path, "rb");
+        assert_non_null(f);
+        const size_t size = fread(data, 1, sizeof data, f);
+        fclose(f);
+        uint8_t *mark = data;
+        while (mark < data + size && memcmp(mark, h->mark, h->mark_size) != 0)
+            mark++;
+        assert_true(mark + 64 < data + size || h->bytes == 2);
+        put_most(mark + h->at[0], h->bytes, h->big_endian);
+        put_most(mark + h->at[1], h->bytes, h->big_endian);
+        if (strcmp(h->mark, "IHDR") == 0)
+            seal_png(mark, 17);
+        struct texels t;
+        if (texels_decode(&t, data, size, IMAGE_TGA, error, sizeof error))
+            fail_msg("%s with huge sizes was read", h->name);
+        assert_null(t.data);
+        if (!error[0] || strstr(error, "memory"))
+            fail_msg("%s says '%s'", h->name, error);
+        print_message("%s: %s\n", h->name, error);
+    }
+}
+
 // Cut anywhere, a file is either refused or (cut behind its last texel) the same.
 static void truncated_files_are_refused(void **state)
 {
     (void)state;
-    static const char *const names[] = {"rgb8.png",
-                                        "palette.gif",
-                                        "rgb24-rle.tga",
-                                        "rgb16.ppm",
-                                        "palette8.bmp",
-                                        "palette-rle8.bmp",
-                                        "rgb24.iff",
-                                        "plain.hdr",
-                                        "packed.hdr",
-                                        "palette8.tif",
-                                        "photo.jpg",
-                                        "photo.exr",
-                                        "tiled.exr",
-                                        "luma.exr",
-                                        "cmyk.jpg",
-                                        "rgb565.bmp",
-                                        "palette-interlaced.gif"};
+    static const char *const names[] = {
+        "rgb8.png",     "palette.gif",  "rgb24-rle.tga",
+        "rgb16.ppm",    "palette8.bmp", "palette-rle8.bmp",
+        "rgb24.iff",    "plain.hdr",    "packed.hdr",
+        "palette8.tif", "photo.jpg",    "photo.exr",
+        "tiled.exr",    "luma.exr",     "saturated.exr",
+        "cmyk.jpg",     "rgb565.bmp",   "palette-interlaced.gif"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[1024], error[256] = "";
         path_of(path, sizeof path, names[i]);
@@ -358,7 +448,9 @@ int main(void)
         cmocka_unit_test(tiled_exr),
         cmocka_unit_test(luminance_and_differences),
         cmocka_unit_test(inks_of_jpeg),
+        cmocka_unit_test(lone_colours_are_made_paler),
         cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(huge_pictures_are_refused),
         cmocka_unit_test(truncated_files_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
