@@ -13,7 +13,7 @@ liblambert_a_SOURCES += \
 	%D%/shapes/ovus.c %D%/shapes/bicubic_patch.c %D%/shapes/patch.h %D%/shapes/patch_meet.c %D%/shapes/patch_pov.c \
 	%D%/shapes/patch_tree.c %D%/shapes/slabs.h %D%/shapes/plane.c %D%/shapes/plane.h %D%/shapes/poly.c %D%/shapes/poly.h %D%/shapes/poly_bounds.c %D%/shapes/polygon.c %D%/shapes/prism.c \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \
-	%D%/shapes/sor.c %D%/shapes/sphere.c %D%/shapes/sphere.h %D%/shapes/sphere_sweep.c %D%/shapes/superellipsoid.c \
+	%D%/shapes/sor.c %D%/shapes/sphere.c %D%/shapes/sphere.h %D%/shapes/sphere_sweep.c %D%/shapes/superellipsoid.c %D%/shapes/superellipsoid.h \
 	%D%/shapes/text.c %D%/shapes/torus.c %D%/shapes/torus.h %D%/shapes/triangle.c %D%/shapes/triangle.h
 # functions
 liblambert_a_SOURCES += \

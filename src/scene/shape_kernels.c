@@ -7,6 +7,7 @@
 #include "scene/shapes/julia_lanes.h"
 #include "scene/shapes/polygon.h"
 #include "scene/shapes/poly_lanes.h"
+#include "scene/shapes/superellipsoid.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
@@ -18,4 +19,5 @@ const struct shape_kernels PASTE(shape_kernels_, ISA) = {
     .julia = PASTE(julia_closest8_, ISA),
     .polygon = PASTE(polygon_closest8_, ISA),
     .poly = PASTE(poly_closest8_, ISA),
+    .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
 };

@@ -38,6 +38,7 @@ struct extrude_solid;
 struct isosurface;
 struct julia;
 struct polygon;
+struct superellipsoid;
 struct poly;
 struct shape_kernels {
     unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
@@ -52,6 +53,9 @@ struct shape_kernels {
                       bool any, struct shape_hits *out);
     unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
                      bool any, struct shape_hits *out);
+    unsigned (*superellipsoid)(const struct superellipsoid *s,
+                               const struct shape_rays *rays, unsigned lanes, bool any,
+                               struct shape_hits *out);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -115,6 +115,11 @@ static const char *const same_hits[] = {
     "julia_fractal { <-.5, .2, .3, 0> hypercomplex tanh max_iteration 5 }",
     "julia_fractal { <-1, .2, .3, 0> hypercomplex exp max_iteration 5 }",
     "julia_fractal { <.4, .2, .3, 0> hypercomplex reciprocal max_iteration 5 }",
+    "superellipsoid { <.2, .3> }",
+    "superellipsoid { <1.4, .6> }",
+    "superellipsoid { <1, 1> }",
+    "superellipsoid { <2, 2> }",
+    "superellipsoid { <.01, 1e-3> }",
 };
 
 enum {

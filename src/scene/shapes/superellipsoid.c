@@ -10,11 +10,7 @@
 #include "math/quick.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-struct superellipsoid {
-    double p, q; // 2/e and 2/n
-    double e, n;
-};
+#include "scene/shapes/superellipsoid.h"
 
 // The p-norm (a^p + b^p)^(1/p) of a, b >= 0 and its derivatives. With w = (small/big)^p and
 // c = (1 + w)^(1/p) it is c big, its derivatives c/(1 + w) and that times w big/small.
@@ -242,55 +238,50 @@ static struct line line_of(const void *shape, const struct ray *ray)
     return l;
 }
 
+static bool is_convex(const struct superellipsoid *s) { return s->p >= 1 && s->q >= 1; }
+
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct line l = line_of(shape, ray);
     double a, b;
     if (!in_cube(&l, &a, &b))
         return;
-    if (l.s->p >= 1 && l.s->q >= 1)
+    if (is_convex(l.s))
         convex(&l, a, b, out);
     else
         sampled(&l, a, b, HUGE_VAL, out);
 }
 
-// The first crossing that the ray may see, without the second where it is not needed.
+// The first crossing that the ray may see; those behind need not be found.
 static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     const struct line l = line_of(shape, ray);
     const uint32_t leaf = out->leaf;
-    double a, b, first, last, slope;
+    struct boundary room[CROSSINGS];
+    struct boundary_list list = {.at = room, .capacity = CROSSINGS};
+    double a, b;
     if (!in_cube(&l, &a, &b))
         return false;
-    if (l.s->p < 1 || l.s->q < 1) {
-        struct boundary room[CROSSINGS];
-        struct boundary_list list = {.at = room, .capacity = CROSSINGS};
+    if (is_convex(l.s))
+        convex(&l, a, b, &list);
+    else
         sampled(&l, a, b, ray->t_min, &list);
-        for (uint32_t i = 0; i < list.count; i++)
-            if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
-                *out = room[i];
-                out->leaf = leaf;
-                return true;
-            }
-        return false;
-    }
-    const double start = ray->t_min * l.length - l.shift;
-    if (start > a) { // a convex F that rises from above zero has no root ahead
-        const struct sample here = at(&l, start);
-        if (start >= b || (here.f > l.noise && here.slope > 0))
-            return false;
-    }
-    if (!approach(&l, a, b, &first, &slope))
-        return false;
-    *out = crossing_at(&l, first, slope, CROSS_ENTER);
-    out->leaf = leaf;
-    if (out->t > ray->t_min)
-        return out->t < ray->t_max;
-    if (!approach(&l, b, first, &last, &slope))
-        last = first;
-    *out = crossing_at(&l, last, slope, CROSS_EXIT);
-    out->leaf = leaf;
-    return out->t > ray->t_min && out->t < ray->t_max;
+    for (uint32_t i = 0; i < list.count; i++)
+        if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
+            *out = room[i];
+            out->leaf = leaf;
+            return true;
+        }
+    return false;
+}
+
+static bool has_lanes(const void *shape) { return is_convex(shape); }
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    return k->superellipsoid(shape, rays, lanes, any, out);
 }
 
 static bool build(void *shape, struct args *args)
@@ -352,6 +343,8 @@ const struct shape_ops superellipsoid_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest = closest,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

@@ -1,0 +1,133 @@
+// Eight rays and a superellipsoid that is convex: superellipsoid.c in lanes, operation by
+// operation, with the same bits. ISA names the instruction set.
+#include "math/quick_lanes.h"
+#include "scene/shapes/lanes.h"
+#include "scene/shapes/superellipsoid.h"
+
+static const double noise = GAMMA(64), edge = 1 + 0x1p-20;
+
+LANES_INLINE struct real8 pow8(struct real8 x, double y)
+{
+    double in[8], out[8];
+    r8_store(in, x);
+    quick_pow8(in, y, out);
+    return r8_load(out);
+}
+
+LANES_INLINE struct real8 norm2(struct real8 a, struct real8 b, double p,
+                                struct real8 *da, struct real8 *db)
+{
+    const struct real8 one = r8_set(1), zero = r8_set(0);
+    const struct mask8 turned = r8_lt(a, b);
+    const struct real8 big = r8_select(turned, b, a), small = r8_select(turned, a, b);
+    const struct mask8 both = r8_lt(r8_mul(r8_set(0x1p-1000), big), small);
+    const struct real8 q = r8_select(both, r8_div(small, big), one), w = pow8(q, p);
+    const struct real8 sum = r8_add(one, w), c = pow8(sum, 1 / p);
+    const struct real8 by_big = r8_select(both, r8_div(c, sum), one);
+    const struct real8 by_small = r8_select(both, r8_div(r8_mul(by_big, w), q), zero);
+    *da = r8_select(turned, by_small, by_big);
+    *db = r8_select(turned, by_big, by_small);
+    return r8_mul(r8_select(both, c, one), big);
+}
+
+struct samples8 {
+    struct real8 f, slope;
+};
+
+static struct samples8 at(const struct superellipsoid *s, const struct lines8 *l,
+                          struct real8 t)
+{
+    const struct vec8 p = v8_mad(l->o, t, l->u);
+    struct real8 dx, dy, da, dz;
+    const struct real8 a = norm2(r8_abs(p.x), r8_abs(p.y), s->p, &dx, &dy);
+    const struct real8 f = norm2(a, r8_abs(p.z), s->q, &da, &dz);
+    const struct vec8 g = {r8_copysign(r8_mul(da, dx), p.x),
+                           r8_copysign(r8_mul(da, dy), p.y), r8_copysign(dz, p.z)};
+    return (struct samples8){r8_sub(f, r8_set(1)), v8_dot(g, l->u)};
+}
+
+LANES_INLINE void slab(struct real8 o, struct real8 u, struct real8 *a, struct real8 *b,
+                       struct mask8 *beside)
+{
+    const struct real8 side = r8_copysign(r8_set(edge), u);
+    const struct mask8 flat = r8_eq(u, r8_set(0));
+    const struct real8 in = r8_div(r8_sub(r8_neg(side), o), u);
+    const struct real8 out = r8_div(r8_sub(side, o), u);
+    *beside = m8_or(*beside, m8_and(flat, r8_lt(r8_set(edge), r8_abs(o))));
+    *a = r8_select(flat, *a, r8_max(*a, in));
+    *b = r8_select(flat, *b, r8_min(*b, out));
+}
+
+// As approach of superellipsoid.c; returns the lanes with a root.
+static unsigned approach(const struct superellipsoid *s, const struct lines8 *l,
+                         struct real8 t, struct real8 to, double way, unsigned lanes,
+                         struct real8 *root, struct real8 *slope, struct shape_hits *out)
+{
+    const struct real8 zero = r8_set(0), ahead = r8_set(way);
+    unsigned found = 0;
+    for (int i = 0; i < 100 && lanes && !shape_hits_give_up(out); i++) {
+        const struct samples8 v = at(s, l, t);
+        const struct mask8 here = m8_of(lanes);
+        *slope = r8_select(here, v.slope, *slope);
+        *root = r8_select(here, t, *root);
+        const unsigned met = lanes & m8_bits(r8_le(v.f, r8_set(noise)));
+        const struct real8 next = r8_sub(t, r8_div(v.f, v.slope));
+        const unsigned on = m8_bits(m8_and(r8_lt(r8_mul(v.slope, ahead), zero),
+                                           r8_le(zero, r8_mul(r8_sub(to, next), ahead))));
+        const unsigned same = lanes & on & m8_bits(r8_eq(next, t));
+        found |= met | same;
+        lanes &= on & ~met & ~same;
+        t = r8_select(m8_of(lanes), next, t);
+    }
+    return found | lanes; // a graze, where steps only halve
+}
+
+LANES_INLINE unsigned put(const struct lines8 *l, const struct shape_rays *rays,
+                          unsigned lanes, struct real8 t, struct real8 slope, bool exits,
+                          struct shape_hits *out)
+{
+    const struct real8 dt =
+        r8_add(r8_div(r8_set(2 * noise), r8_max(r8_abs(slope), r8_set(0x1p-26))),
+               r8_mul(r8_set(GAMMA(4)), r8_add(r8_abs(l->shift), r8_abs(t))));
+    return lines8_hits(l, rays, lanes, t, dt, exits ? 255 : 0, out);
+}
+
+static unsigned closest(const struct superellipsoid *s, const struct shape_rays *rays,
+                        unsigned lanes, struct shape_hits *out)
+{
+    const struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
+    const struct real8 zero = r8_set(0);
+    struct real8 a = r8_set(-2 * edge), b = r8_set(2 * edge);
+    struct mask8 beside = m8_of(0);
+    slab(l.o.x, l.u.x, &a, &b, &beside);
+    slab(l.o.y, l.u.y, &a, &b, &beside);
+    slab(l.o.z, l.u.z, &a, &b, &beside);
+    lanes &= m8_bits(m8_without(m8_and(r8_lt(a, b), r8_lt(l.lo, b)), beside));
+    const unsigned late = lanes & m8_bits(r8_lt(a, l.lo));
+    if (late) { // a convex F that rises from above zero has no root ahead
+        const struct samples8 here = at(s, &l, l.lo);
+        lanes &= ~(late & m8_bits(m8_and(r8_lt(r8_set(noise), here.f),
+                                         r8_lt(zero, here.slope))));
+    }
+    if (!lanes)
+        return 0;
+    struct real8 first = a, last = b, slope = zero;
+    lanes = approach(s, &l, a, b, 1, lanes, &first, &slope, out);
+    const unsigned met = put(&l, rays, lanes, first, slope, false, out);
+    // Beyond the entry, or not as far.
+    const unsigned within =
+        lanes & ~met & ~m8_bits(r8_lt(r8_load(rays->t_max), r8_load(out->t)));
+    if (!within)
+        return met;
+    const unsigned two = approach(s, &l, b, first, -1, within, &last, &slope, out);
+    last = r8_select(m8_of(two), last, first);
+    return met | put(&l, rays, within, last, slope, true, out);
+}
+
+unsigned LANES_PASTE(superellipsoid_closest8_,
+                     ISA)(const struct superellipsoid *s, const struct shape_rays *rays,
+                          unsigned lanes, bool any, struct shape_hits *out)
+{
+    (void)any;
+    return closest(s, rays, lanes, out);
+}
