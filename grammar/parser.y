@@ -216,15 +216,26 @@ start:
   | START_STRING string                 { p->result = $2; YYACCEPT; }
   | START_STRING subs                   { p->result = $2; YYACCEPT; }
   | START_BRACES '{' braces items '}'   { p->result = all($4); YYACCEPT; }
-  | START_RVALUE colour ';'             { p->result = all($2); YYACCEPT; }
+  | START_RVALUE colour ';'
+    {
+        p->result = all($2);
+        parse_check_first(p, p->result);
+        YYACCEPT;
+    }
   | START_RVALUE colour STOP
     {
         p->result = all($2);
+        parse_check_first(p, p->result);
         parse_missing_semicolon(p, p->result->next ? NULL : p->result);
         YYACCEPT;
     }
   | START_RVALUE whole                  { YYACCEPT; }
-  | START_ARGUMENT colour STOP          { p->result = all($2); YYACCEPT; }
+  | START_ARGUMENT colour STOP
+    {
+        p->result = all($2);
+        parse_check_first(p, p->result);
+        YYACCEPT;
+    }
   | START_ARGUMENT whole                { YYACCEPT; }
   | START_ELEMENTS '{' elements '}'
     {
@@ -567,7 +578,11 @@ element_list:
   ;
 
 element:
-    colour %prec VALUE_ENDS             { $$ = element(p, $1); }
+    colour %prec VALUE_ENDS
+    {
+        $$ = element(p, $1);
+        parse_check_first(p, $$);
+    }
   | string
   | OTHER_NAME
   | block

@@ -18,7 +18,7 @@ struct compile {
     uint32_t count, at;
     struct calc *out;
     struct arena *strings;
-    int depth; // values on the stack
+    int depth;       // values on the stack
     int from_bottom; // steps that leave the lowest value
     int nest, randoms;
     const struct inlined *inlined; // the innermost
@@ -150,16 +150,16 @@ static bool macro(struct compile *c, const struct lexeme *t)
     struct name *name = name_of(c, t);
     const struct macro *m = macro_of(c, name);
     struct inlined in = {.outer = c->inlined, .macro = m, .base = c->depth};
-    if (!m || slot_of(c, t) >= 0 || c->out->macro_count == CALC_MACROS_MAX || !take(c, '('))
+    if (!m || slot_of(c, t) >= 0 || c->out->macro_count == CALC_MACROS_MAX ||
+        !take(c, '('))
         return false;
     for (int i = 0; i < m->parameter_count; i++)
         if ((i && !take(c, ',')) || !arith(c))
             return false;
     if (!take(c, ')'))
         return false;
-    c->out->macro[c->out->macro_count++] =
-        (struct calc_macro){name, m, t->begin, t->begin + t->len,
-                            c->inlined ? c->inlined->index : 0};
+    c->out->macro[c->out->macro_count++] = (struct calc_macro){
+        name, m, t->begin, t->begin + t->len, c->inlined ? c->inlined->index : 0};
     in.index = (uint8_t)c->out->macro_count;
     struct compile outer = *c;
     c->t = m->body;
@@ -458,13 +458,19 @@ static bool ends(struct compile *c)
     }
 }
 
+// Whether a `t` may stand first is the grammar's to say.
+static bool at_t(const struct compile *c)
+{
+    return kind(c) == TOK_CONSTANT && c->t[c->at].word == WORD_t;
+}
+
 static bool assignment(struct compile *c)
 {
     int n;
     if (kind(c) != TOK_NAME)
         return false;
     c->out->target = name_of(c, &c->t[c->at++]);
-    if (!subscripts(c, &n) || !take(c, '='))
+    if (!subscripts(c, &n) || !take(c, '=') || at_t(c))
         return false;
     c->out->subscripts = (uint32_t)n;
     if (!arith(c) || !take(c, ';'))
@@ -487,11 +493,26 @@ static bool is_silent(const struct calc *c, uint32_t i)
     if (op->code != CALC_CALL)
         return op->code != CALC_CONSTANT;
     switch (op->word) {
-    case WORD_mod: case WORD_div: return divisor;
-    case WORD_abs: case WORD_ceil: case WORD_floor: case WORD_int: case WORD_sin:
-    case WORD_cos: case WORD_min: case WORD_max: case WORD_degrees: case WORD_radians:
-    case WORD_vdot: case WORD_vlength: case WORD_concat: case WORD_str: case WORD_strlen:
-    case WORD_strupr: case WORD_strlwr: case WORD_asc: return true;
+    case WORD_mod:
+    case WORD_div: return divisor;
+    case WORD_abs:
+    case WORD_ceil:
+    case WORD_floor:
+    case WORD_int:
+    case WORD_sin:
+    case WORD_cos:
+    case WORD_min:
+    case WORD_max:
+    case WORD_degrees:
+    case WORD_radians:
+    case WORD_vdot:
+    case WORD_vlength:
+    case WORD_concat:
+    case WORD_str:
+    case WORD_strlen:
+    case WORD_strupr:
+    case WORD_strlwr:
+    case WORD_asc: return true;
     default: return false;
     }
 }
@@ -506,10 +527,16 @@ static bool gives_string(const struct calc *c)
 bool calc_compile(struct eval *e, const struct calc_place *at, struct arena *strings,
                   struct calc *out)
 {
-    struct compile c = {.e = e, .t = at->tokens, .text = at->text,
-                        .count = at->count, .out = out, .strings = strings};
+    struct compile c = {.e = e,
+                        .t = at->tokens,
+                        .text = at->text,
+                        .count = at->count,
+                        .out = out,
+                        .strings = strings};
     bool ok = false;
     *out = (struct calc){0};
+    if (at_t(&c))
+        return false;
     switch (at->kind) {
     case CALC_ASSIGNMENT: ok = assignment(&c); break;
     case CALC_CONDITION: ok = take(&c, '(') && full(&c) && take(&c, ')'); break;

@@ -159,6 +159,29 @@ static bool case_matches(struct stream *s, enum word w, double value)
            s->host.number(s->host.user, list->next, &hi) && v <= value && value <= hi;
 }
 
+static bool is_middle(enum word w)
+{
+    return w == WORD_else || w == WORD_elseif || w == WORD_end || w == WORD_break;
+}
+
+// To the first #case or #range, which only other directives may stand before: these are run.
+static void begin_switch(struct stream *s, uint32_t frames)
+{
+    while (still_open(s, frames) && !s->stopped) {
+        stream_pop_finished(s);
+        const bool own = s->frame_count == frames, hash = raw_kind(s) == '#';
+        const enum word w = hash ? (enum word)raw_peek_second(s).word : WORD_NONE;
+        if (raw_kind(s) == TOK_END || (own && (w == WORD_case || w == WORD_range)))
+            return;
+        if (!hash || (own && is_middle(w))) {
+            diag_at(s->diags, DIAG_NO_CASE, raw_peek(s).where, 0);
+            return;
+        }
+        const struct token t = raw_take(s);
+        stream_run_directive(s, &t);
+    }
+}
+
 static void run_switch(struct stream *s, struct token word)
 {
     double value;
@@ -166,6 +189,7 @@ static void run_switch(struct stream *s, struct token word)
     stream_push_frame(s, FRAME_SWITCH, &word)->value = value;
     struct token stop;
     const uint32_t frames = s->frame_count;
+    begin_switch(s, frames);
     while (still_open(s, frames)) {
         if (!directive_skip(s, 1, false, true, &stop)) {
             report_open_frame(s);

@@ -4,10 +4,23 @@
 #include "lang/stream_state.h"
 #include "parser.h"
 
+// Reported once: scenes for old versions may have many macros.
+static bool version_has_macros(struct stream *s, struct span where)
+{
+    if (s->version >= MACRO_VERSION)
+        return true;
+    if (!s->old_macro)
+        diag_hint(s->diags, DIAG_MACRO_VERSION, where,
+                  "write `#version 3.1;` or later before it", s->version);
+    s->old_macro = true;
+    return false;
+}
+
 // #macro NAME(parameters) body #end: the body is kept as a run of tokens.
 void macro_define(struct stream *s, struct token word)
 {
     struct token name;
+    version_has_macros(s, word.where);
     struct macro *m = arena_new_struct(s->arena, struct macro);
     bool ok = raw_expect_name(s, &name, "#macro") && raw_expect(s, '(', "'('", "#macro");
     while (ok && raw_kind(s) != ')') {
@@ -170,6 +183,7 @@ static int read_arguments(struct stream *s, struct span call, const struct macro
 void macro_call(struct stream *s, struct token name, struct macro *m)
 {
     struct arena_mark mark = arena_mark(s->nodes);
+    const bool known = version_has_macros(s, name.where);
     struct macro_argument *args =
         arena_new_array(s->nodes, struct macro_argument, (size_t)m->parameter_count + 1);
     int count = read_arguments(s, name.where, m, args);
@@ -179,7 +193,7 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
         count = -1;
     }
     stream_ask(s, name.where);
-    if (s->stopped)
+    if (s->stopped || !known)
         count = -1;
     if (count >= 0 && s->host.enter_scope(s->host.user, name.where)) {
         bool ok = true;
@@ -188,11 +202,16 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
                                         m->parameter[i].len, &args[i]);
         s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
                                  sizeof *s->cursors);
-        s->cursors[s->cursor_count++] = (struct cursor){
-            .tokens = m->body, .slots = m->slots, .count = m->count, .file = m->file,
-            .text = m->text, .macro = m, .frames = s->frame_count,
-            .at = ok ? 0 : m->count,
-            .expansion = source_expand(s->sources, m->name, name.where)};
+        s->cursors[s->cursor_count++] =
+            (struct cursor){.tokens = m->body,
+                            .slots = m->slots,
+                            .count = m->count,
+                            .file = m->file,
+                            .text = m->text,
+                            .macro = m,
+                            .frames = s->frame_count,
+                            .at = ok ? 0 : m->count,
+                            .expansion = source_expand(s->sources, m->name, name.where)};
         s->calls++;
     }
     arena_rewind(s->nodes, mark);

@@ -5,6 +5,8 @@
 
 enum { PARAMETERS_MAX = 55 };
 
+#define MACRO_VERSION 3.1 // of the language, the first with macros
+
 // A macro as it was defined: its body is a run of tokens. Never changed, and kept as long
 // as the scene is read.
 struct macro {

@@ -283,6 +283,28 @@ struct ast *parse_finish(struct parse *p, struct ast *node)
     return done ? done : node;
 }
 
+void parse_check_first(struct parse *p, const struct ast *n)
+{
+    while (n && !n->parens) {
+        switch (n->kind) {
+        case AST_BINARY:
+        case AST_MEMBER: n = n->left; break;
+        case AST_CONDITIONAL: n = n->list; break;
+        case AST_WORD:
+            if (n->word != WORD_color && n->word != WORD_colour)
+                return;
+            n = n->next;
+            break;
+        case AST_CONSTANT:
+            if (n->word == WORD_t)
+                diag_hint(p->in->diags, DIAG_T_FIRST, n->where,
+                          "it can in parentheses, (t), or as 1*t", 0);
+            return;
+        default: return;
+        }
+    }
+}
+
 // `#declare A = 5` without the ';'. Names and array elements of other types than
 // numbers need none, which only eval can tell.
 void parse_missing_semicolon(struct parse *p, const struct ast *value)

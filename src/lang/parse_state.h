@@ -55,6 +55,8 @@ struct ast *parse_close(struct parse *p, struct ast *node);
 // Of the token looked at, a TOK_LITERAL.
 struct ast *parse_literal(struct parse *p);
 struct ast *parse_finish(struct parse *p, struct ast *node);
+// After a value: it may not begin with a bare `t`, which POV-Ray takes for no value there.
+void parse_check_first(struct parse *p, const struct ast *value);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
 // The kind and place of the next token, which is *p->now then.
 int parse_token(struct parse *p, struct span *where);

@@ -121,8 +121,7 @@ void stream_give_back(struct stream *s, struct token t)
     s->pending_set = true;
 }
 
-// Leaves texts that are read to their end, except the main file.
-static void pop_finished(struct stream *s)
+void stream_pop_finished(struct stream *s)
 {
     if (s->cursors[s->cursor_count - 1].at < s->cursors[s->cursor_count - 1].count)
         return;
@@ -215,7 +214,7 @@ static void take(struct stream *s, struct token *out)
         *out = uncooked(s->pending);
         return;
     }
-    pop_finished(s);
+    stream_pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     uint32_t i = c->at;
     s->steps++;
@@ -247,9 +246,10 @@ static bool may_go_on_after(const struct stream *s, const struct cursor *c)
 enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool local,
                                    struct calc_result *out)
 {
-    if (!s->host.calculate || s->pending_set || s->stopped || diag_full(s->diags))
+    if (!s->host.calculate || s->pending_set || s->stopped || diag_full(s->diags) ||
+        s->version < MACRO_VERSION)
         return CALC_NONE;
-    pop_finished(s);
+    stream_pop_finished(s);
     struct cursor *c = &s->cursors[s->cursor_count - 1];
     uint32_t once = 0; // what no loop or macro can come back to is not remembered
     const bool again = s->frame_count || s->cursor_count > 1;
@@ -424,7 +424,7 @@ static bool take_pending(struct stream *s, struct token *out)
     return true;
 }
 
-static void run_directive(struct stream *s, const struct token *hash)
+void stream_run_directive(struct stream *s, const struct token *hash)
 {
     struct arena_mark mark = arena_mark(s->nodes);
     stream_ask(s, hash->where);
@@ -471,7 +471,7 @@ void stream_take(struct stream *s, struct token *out)
             return;
         }
         if (out->kind == '#')
-            run_directive(s, out);
+            stream_run_directive(s, out);
         else if (cook(s, out))
             return;
     }

@@ -82,11 +82,14 @@ struct stream {
     struct arena_mark statement;
     int runs; // of the grammar, inside each other
     double version;
+    bool old_macro; // a macro below version 3.1 was reported
     uint64_t steps; // tokens taken, those of loops and macros each time anew
     bool stopped;
 };
 
 void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size);
+// Leaves texts that are read to their end, except the main file.
+void stream_pop_finished(struct stream *s);
 void stream_push_file(struct stream *s, uint32_t file);
 struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
                                 const struct token *opener);
@@ -110,6 +113,8 @@ bool raw_lvalue(struct stream *s, struct lvalue *out, const char *where);
 enum calc_outcome stream_calculate(struct stream *s, enum calc_kind kind, bool local,
                                    struct calc_result *out);
 
+// directive_run after asking the host; what it made of s->nodes is given back.
+void stream_run_directive(struct stream *s, const struct token *hash);
 void directive_run(struct stream *s, struct token hash);
 void directive_end_of_cursor(struct stream *s, struct cursor *c);
 bool directive_skip(struct stream *s, uint32_t depth, bool stop_at_else,

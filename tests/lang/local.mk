@@ -198,6 +198,18 @@ lang_scenes = \
 	%D%/312-error-undefined-macro.scn \
 	%D%/314-error-array-access.scn \
 	%D%/315-error-range.scn \
-	%D%/316-error-double-and.scn
+	%D%/316-error-double-and.scn \
+	%D%/325-error-switch-else.scn \
+	%D%/326-error-switch-end.scn \
+	%D%/327-error-switch-object.scn \
+	%D%/328-error-switch-break.scn \
+	%D%/329-switch-directives-first.scn \
+	%D%/330-error-old-macro.scn \
+	%D%/331-error-old-macro-call.scn \
+	%D%/332-error-t-declared.scn \
+	%D%/333-error-t-member.scn \
+	%D%/334-error-t-argument.scn \
+	%D%/335-error-t-element.scn \
+	%D%/336-error-t-colour.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

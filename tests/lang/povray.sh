@@ -19,7 +19,7 @@ for scene; do
   scene=$(cd "$(dirname "$scene")" && pwd)/$(basename "$scene")
   grep -q '^// povray: no' "$scene" && continue # says why
   rm -f "$work"/*
-  (cd "$work" && povray -D -F +W4 +H4 "+L$folder" "+I$scene" +GDdebug +GA- +GS- +GR- \
+  (cd "$work" && timeout 120 povray -D -F +W4 +H4 "+L$folder" "+I$scene" +GDdebug +GA- +GS- +GR- \
     >all 2>&1)
   code=$?
   expected=0
