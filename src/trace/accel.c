@@ -10,6 +10,7 @@
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
+#include "trace/carve.h"
 #include "trace/packet.h"
 
 static void build_leaf_tree(struct arena *a, const struct world *w,
@@ -150,13 +151,20 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
     return PACKET_NONE;
 }
 
-static bool is_intersection(const struct world *w, const struct world_object *o)
+static bool has_intersections_only(const struct world *w, const struct world_object *o)
 {
     if (!o->is_csg || o->bound_count)
         return false;
     for (uint32_t i = o->root; i < o->root + o->node_count; i++)
         if (w->node[i].op != NODE_LEAF && w->node[i].op != NODE_INTERSECTION)
             return false;
+    return true;
+}
+
+static bool is_intersection(const struct world *w, const struct world_object *o)
+{
+    if (!has_intersections_only(w, o))
+        return false;
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
         if (!w->leaf[i].drawn || w->surface[w->leaf[i].surface].opaque != o->opaque)
             return false;
@@ -169,6 +177,35 @@ static bool is_product(const struct accel *accel, const struct world_object *o)
         if (!packet_is_product_shape(accel->leaf_shape[i]))
             return false;
     return o->leaf_count <= PRODUCT_LEAVES;
+}
+
+// Whether every boundary of these shapes is drawn; others may be open, so that what they
+// show first does not tell where they are inside.
+static bool is_closed(const struct shape_ops *ops)
+{
+    return ops == &blob_ops || ops == &text_ops || ops == &poly_ops ||
+           ops == &cubic_ops || ops == &quartic_ops || ops == &polynomial_ops;
+}
+
+static bool is_carved(const struct world *w, const struct accel *accel,
+                      const struct world_object *o)
+{
+    uint32_t solids = 0;
+    bool shown = false, closed = false; // a cut's own face; the solid
+    if (!has_intersections_only(w, o) || o->leaf_count > CARVE_LEAVES)
+        return false;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[i];
+        const bool solid = accel->leaf_shape[i] == PACKET_LANES;
+        if (solid ? !l->drawn : !packet_is_product_shape(accel->leaf_shape[i]))
+            return false;
+        if (l->drawn && w->surface[l->surface].opaque != o->opaque)
+            return false;
+        solids += solid;
+        shown |= !solid && l->drawn;
+        closed |= solid && is_closed(l->ops);
+    }
+    return solids == 1 && (closed || !shown);
 }
 
 static bool is_sponge(const struct world *w, const struct world_object *o)
@@ -198,6 +235,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = PACKET_SPONGE;
         else if (is_intersection(w, o) && is_product(accel, o))
             accel->object_shape[i] = PACKET_PRODUCT;
+        else if (is_carved(w, accel, o))
+            accel->object_shape[i] = PACKET_CARVED;
     }
 }
 

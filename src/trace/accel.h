@@ -21,7 +21,9 @@ enum packet_shape {
     PACKET_MESH,
     PACKET_LANES,   // the shape takes eight rays itself
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
-    PACKET_SPONGE   // of objects: an intersection of few solids less many spheres
+    PACKET_SPONGE,  // of objects: an intersection of few solids less many spheres
+    PACKET_CARVED   // of objects: an intersection of a PACKET_LANES with what may be part of a
+                    // product (trace/carve.h)
 };
 
 // Whether a solid of that shape may be part of a PACKET_PRODUCT.

@@ -6,6 +6,7 @@
 #include "math/gamma.h"
 #include "scene/shape_kernels.h"
 #include "trace/accel.h"
+#include "trace/carve.h"
 #include "trace/packet.h"
 #include "trace/scratch.h"
 #include "trace/user_bounds.h"
@@ -272,6 +273,15 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
                 stab_object(f->w, f->s, object, &q->ray, f->t, out);
             if (r != STAB_UNSURE)
                 return r == STAB_FOUND;
+        }
+        if (f->w->accel->object_shape[object] == PACKET_CARVED) {
+            struct carve_hits hits;
+            const bool met =
+                carve(f->w, f->s, object, &q->ray, &f->t, 1, f->mode, &hits) != 0;
+            if (met)
+                *out = hits.b[0];
+            if (!hits.unsure)
+                return met;
         }
         return sweep_object(f->w, f->s, object, &q->ray, f->t, f->mode, out);
     }

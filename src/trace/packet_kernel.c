@@ -35,6 +35,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         return mesh8(e, bits, object);
     if (shape == PACKET_LANES)
         return lanes8(e, bits, object);
+    if (shape == PACKET_CARVED)
+        return carved8(e, bits, object);
     if (shape == PACKET_SPONGE)
         return accel_large(a, o, object)->ball ? sponge(e, bits, object)
                                                : packet_try_object(p, bits, object);

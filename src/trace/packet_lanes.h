@@ -3,6 +3,7 @@
 
 // Eight rays and an object whose shape takes eight rays itself (shape_ops.closest8).
 #include "scene/shape_kernels.h"
+#include "trace/carve.h"
 #include "trace/packet_objects.h"
 
 static unsigned lanes8(struct eight *e, unsigned bits, uint32_t object)
@@ -41,6 +42,47 @@ static unsigned lanes8(struct eight *e, unsigned bits, uint32_t object)
         p->crossing[i] = crossing_of_leaf(hits.crossing[i], l->inverted);
     }
     return won;
+}
+
+static struct ray ray_of_lane(const struct packet *p, int lane)
+{
+    const struct ray_batch *r = p->rays;
+    const uint32_t i = p->first + (uint32_t)lane;
+    return (struct ray){vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
+                        vec3(r->d[0][i], r->d[1][i], r->d[2][i]), r->t_min[i],
+                        r->t_max[i]};
+}
+
+// The same where simple solids cut something off the shape.
+static unsigned carved8(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world_object *o = &p->w->object[object];
+    struct ray ray[8];
+    struct carve_hits hits;
+    double t[8] = {0};
+    if (!e->boxed)
+        bits &= box_lanes(e, &o->bounds);
+    if (!bits)
+        return 0;
+    for (int i = 0; i < 8; i++)
+        ray[i] = ray_of_lane(p, i);
+    const unsigned met = carve(p->w, p->s, object, ray, p->t, bits, p->mode, &hits);
+    for (unsigned m = met; m; m &= m - 1)
+        t[__builtin_ctz(m)] = hits.b[__builtin_ctz(m)].t;
+    const unsigned won = met ? take(e, met, r8_load(t), object, o->first_leaf) : 0;
+    p->whole |= won;
+    for (unsigned m = won; m; m &= m - 1) {
+        const int i = __builtin_ctz(m);
+        const struct boundary *b = &hits.b[i];
+        p->leaf[i] = b->leaf;
+        p->dt[i] = b->dt;
+        p->u[i] = b->u;
+        p->v[i] = b->v;
+        p->part[i] = b->part;
+        p->crossing[i] = b->crossing;
+    }
+    return hits.unsure ? won | packet_try_object(p, hits.unsure, object) : won;
 }
 
 #endif

@@ -7,7 +7,9 @@
 
 #include "loaded.h"
 #include "scene/shape_kernels.h"
+#include "trace/accel.h"
 #include "trace/packet.h"
+#include "trace/scratch.h"
 
 #define TOUCHED "poly { 2, <1,0,0,0, 0,0,0, 0,0,0> }" // a plane, twice
 
@@ -322,12 +324,89 @@ static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
         }
 }
 
+// Of which simple solids cut something off, or clip it (trace/carve.h).
+#define BLOB                                                                             \
+    "blob { threshold .5 sphere { <-.4, 0, 0>, .8, 1 } sphere { <.4, .2, 0>, .7, 1 } "   \
+    "sphere { <0, -.2, .3>, .5, -1 } rotate <10, 20, 30> }"
+#define WAVES "isosurface { function { y - 0.25*sin(4*x) } }"
+static const char *const carved[] = {
+    "difference { object { " BLOB " } plane { y, -.1 } plane { x, -.2 } rotate 40*y }",
+    "difference { object { " BLOB " } box { <-.2, -1, -1>, <.2, 1, 1> } sphere { <.5, .2, "
+    "-.3>, .3 } cylinder { -2*z, 2*z, .1 } }",
+    "intersection { box { -.7, .7 rotate 30 } object { " BLOB " } }",
+    "difference { box { -.7, .7 rotate 30 } object { " BLOB " } }", // the shape is inverted
+    "difference { quartic { <1,0,0,0,2,0,0,2,0,-1.3, 0,0,0,0,0,0,0,0,0,0, "
+    "1,0,0,2,0,.82,0,0,0,0, 1,0,-1.3,0,.1681> } box { <0, -1, -2>, <2, 1, 2> } "
+    "cone { -y, .9, y, .6 } }",
+    "object { " WAVES " clipped_by { box { -.6, .6 rotate 20*y } } }",
+    "object { " WAVES " clipped_by { sphere { 0, .6 inverse } plane { <1, 1, 1>, .4 } } }",
+    "object { " BLOB " clipped_by { box { <-.3, -2, -2>, <.3, 2, 2> inverse } } }",
+    "difference { text { ttf FONT \"g&8\" .4, <-.3, 0> } plane { x, .3 } sphere { <.8, .3, 0>, "
+    ".3 } }",
+};
+
+// What the carving finds, the sweep finds; batches have the bits of one ray.
+static void carved_shapes_are_as_the_sweep_has_them(void **state)
+{
+    (void)state;
+    uint64_t seed = 77;
+    struct ray_batch *batch = ray_batch_new(8);
+    struct hit_batch *hits = hit_batch_new(8);
+    for (size_t i = 0; i < sizeof carved / sizeof *carved; i++) {
+        struct loaded l;
+        const char *font = font_file();
+        unsigned met = 0;
+        if (!font && strstr(carved[i], "FONT"))
+            continue;
+        load(&l, "#declare FONT = \"%s\"; %s", font ? font : "", carved[i]);
+        assert_int_equal(l.world->accel->object_shape[0], PACKET_CARVED);
+        for (int n = 0; n < MORE_PACKETS; n++) {
+            struct shape_rays rays;
+            uint8_t dark[8];
+            random_rays(&seed, &rays);
+            batch->count = 8;
+            for (int k = 0; k < 8; k++) {
+                for (int a = 0; a < 3; a++) {
+                    batch->o[a][k] = rays.o[a][k];
+                    batch->d[a][k] = rays.d[a][k];
+                }
+                batch->t_min[k] = rays.t_min[k];
+                batch->t_max[k] = rays.t_max[k];
+                batch->hidden_by[k] = 0;
+            }
+            trace_closest(l.world, l.scratch, batch, hits);
+            trace_occluded(l.world, l.scratch, batch, dark);
+            for (int k = 0; k < 8; k++) {
+                const struct ray_query q = {lane(&rays, k), 0};
+                const struct hit one = trace_closest_1(l.world, l.scratch, &q);
+                struct boundary b = {.t = INFINITY};
+                sweep_object(l.world, l.scratch, 0, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
+                assert_true(hits->t[k] == one.b.t);
+                assert_int_equal(one.b.t < INFINITY, b.t < INFINITY);
+                assert_int_equal(dark[k], b.t < INFINITY);
+                if (!(b.t < INFINITY))
+                    continue;
+                assert_true(fabs(one.b.t - b.t) <= 2 * (one.b.dt + b.dt));
+                assert_int_equal(one.b.leaf, b.leaf);
+                assert_int_equal(one.b.crossing, b.crossing);
+                assert_int_equal(hits->leaf[k], b.leaf);
+                met++;
+            }
+        }
+        assert_true(met > MORE_PACKETS / 4);
+        unload(&l);
+    }
+    ray_batch_free(batch);
+    hit_batch_free(hits);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_rays_meet_what_one_line_does),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
+        cmocka_unit_test(carved_shapes_are_as_the_sweep_has_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
