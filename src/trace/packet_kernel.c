@@ -122,8 +122,13 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
     return found;
 }
 
-// Products are for packets, of one ray as well.
-static bool walk_product(struct eight *e, int lane, uint32_t object)
+// Shapes that packets know are for packets, of one ray as well; a mesh is walked by the ray.
+LANES_INLINE bool takes_one(unsigned shape)
+{
+    return shape == PACKET_PRODUCT || shape == PACKET_TORUS;
+}
+
+static bool walk_packet(struct eight *e, int lane, uint32_t object)
 {
     struct packet *p = e->p;
     packet_lane_end(p, lane);
@@ -149,8 +154,8 @@ static bool walk_leaf(struct search *f, const struct ray8 *ray, uint32_t first,
         const uint32_t object = a->top.item[i];
         if (a->ball[3][i] > 0)
             continue;
-        if (e && a->object_shape[object] == PACKET_PRODUCT)
-            found |= walk_product(e, lane, object);
+        if (e && takes_one(a->object_shape[object]))
+            found |= walk_packet(e, lane, object);
         else
             found |= search_try_object(f, object);
     }

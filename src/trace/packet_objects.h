@@ -98,7 +98,8 @@ static struct cross8 cross8_triangle(struct eight *e, const struct triangle *s,
     return cross8_corners(s->p, &e->shear, ray->o_max);
 }
 
-// All that the eight lines have in common with a leaf.
+// All that the eight lines have in common with a leaf, or the first two crossings behind
+// t_min.
 static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
 {
     const struct leaf *l = &e->p->w->leaf[leaf];
@@ -114,7 +115,7 @@ static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
     case PACKET_OPEN_CONE: return cross8_cone(l->shape, ray);
     case PACKET_DISC: return cross8_disc(l->shape, ray);
     case PACKET_QUADRIC: return cross8_quadric(l->shape, ray);
-    case PACKET_TORUS: return cross8_torus(l->shape, ray);
+    case PACKET_TORUS: return cross8_torus(l->shape, ray, e->t_min);
     case PACKET_TRIANGLE: return cross8_triangle(e, l->shape, ray);
     default: return cross8_none();
     }

@@ -2,8 +2,9 @@
 #define TRACE_PACKET_TORUS_H
 
 // Eight lines and a torus, operation by operation as scene/shapes/torus.c and, of
-// math/polynomial.c, the way through certain_roots with no root or two. The other lanes
-// (grazes, lines along the tube, through both sides of it) are left to the one-ray form.
+// math/polynomial.c, the way through certain_roots with no root or two, of the chord whole
+// or of each half. The other lanes (grazes, lines along the tube) are left to the one-ray
+// form.
 #include "scene/shapes/torus.h"
 #include "trace/packet_cross.h"
 
@@ -40,10 +41,10 @@ LANES_INLINE struct real8 quartic8_magnitude(const struct quartic8 *c, struct re
 }
 
 // The Bernstein polygon of bernstein(); the lanes where its signs are clear and change
-// never, and those where they change twice, from above to above.
+// never, those where they change twice or four times, from above to above, and once.
 struct polygon8 {
     struct real8 b[5];
-    unsigned none, two;
+    unsigned none, two, four, one;
 };
 
 LANES_INLINE struct polygon8 polygon8_of(const struct quartic8 *c, struct real8 lo,
@@ -84,11 +85,19 @@ LANES_INLINE struct polygon8 polygon8_of(const struct quartic8 *c, struct real8 
     const unsigned any = d1 | d2 | d3 | d4, odd = d1 ^ d2 ^ d3 ^ d4, all = d1 & d2 & d3 & d4;
     p.none = clear & ~any;
     p.two = clear & any & ~odd & ~all & sign[0];
+    p.four = clear & all & sign[0];
+    p.one = clear & odd & ~((d1 & d2) | (d3 & d4) | ((d1 | d2) & (d3 | d4)));
     return p;
+}
+
+LANES_INLINE struct real8 either8(unsigned lanes, struct real8 x, struct real8 y)
+{
+    return r8_select(m8_of(lanes), x, y);
 }
 
 struct middle8 {
     struct real8 t, left, right;
+    struct real8 lowest; // where it has been sought last
     unsigned found;
 };
 
@@ -105,6 +114,7 @@ LANES_INLINE struct middle8 middle8_of(const struct quartic8 *c, const struct po
     struct middle8 m = {.t = lo, .left = lo, .right = hi, .found = 0};
     struct real8 t =
         r8_add(lo, r8_div(r8_mul(r8_sub(hi, lo), lowest), r8_set(4)));
+    m.lowest = t;
     for (int i = 0; i < TORUS_MIDDLE_STEPS && lanes; i++) {
         const struct real8 v = quartic8_value(c, t), slope = quartic8_slope(c, t);
         const struct real8 bend = quartic8_bend(c, t);
@@ -129,6 +139,7 @@ LANES_INLINE struct middle8 middle8_of(const struct quartic8 *c, const struct po
         lanes &= ~here & m8_bits(r8_lt(r8_set(0), bend));
         t = r8_sub(t, r8_div(slope, bend));
         lanes &= m8_bits(m8_and(r8_lt(lo, t), r8_lt(t, hi)));
+        m.lowest = either8(lanes, t, m.lowest);
     }
     return m;
 }
@@ -254,7 +265,121 @@ LANES_INLINE unsigned tube8_chord(const struct tube8 *v, struct real8 oo, struct
     return lanes & m8_bits(r8_lt(*lo, *hi));
 }
 
-LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8 *ray)
+// Where the tube is entered and left between lo and hi, or in which half of that it is
+// entered first.
+struct stretch8 {
+    struct real8 lo, hi;
+    struct middle8 m;
+};
+
+LANES_INLINE void stretch8_put(struct stretch8 *to, unsigned lanes,
+                               const struct stretch8 *from)
+{
+    to->lo = either8(lanes, from->lo, to->lo);
+    to->hi = either8(lanes, from->hi, to->hi);
+    to->m.t = either8(lanes, from->m.t, to->m.t);
+    to->m.left = either8(lanes, from->m.left, to->m.left);
+    to->m.right = either8(lanes, from->m.right, to->m.right);
+    to->m.found |= from->m.found & lanes;
+}
+
+// The lanes that pass the tube by: on both sides of the lowest value all is above zero, with
+// room for rounding, so that isolated_roots finds no sign that changes.
+LANES_INLINE unsigned misses8(const struct quartic8 *c, struct real8 lo, struct real8 hi,
+                              struct real8 lowest)
+{
+    return polygon8_of(c, lo, lowest).none & polygon8_of(c, lowest, hi).none;
+}
+
+struct half8 {
+    struct stretch8 at; // m.found: lanes that enter and leave the tube in it
+    unsigned one;       // those that do one of both
+    unsigned none;      // those whose polygon says that they do not meet it
+    unsigned missed;    // those that do not, which the polygon does not say
+};
+
+LANES_INLINE struct half8 half8_of(const struct quartic8 *c, struct real8 lo,
+                                   struct real8 hi, unsigned lanes)
+{
+    const struct polygon8 p = polygon8_of(c, lo, hi);
+    struct half8 h = {.at = {lo, hi, middle8_of(c, &p, lo, hi, lanes & p.two)},
+                      .one = lanes & p.one,
+                      .none = lanes & p.none};
+    const unsigned doubt = lanes & p.two & ~h.at.m.found;
+    if (doubt)
+        h.missed = doubt & misses8(c, lo, hi, h.at.m.lowest);
+    return h;
+}
+
+// The stretches of the lanes: *at the first one, *next that of the lanes returned which have
+// another behind it. Takes the lanes without any out of *lanes; at->m.found: those where
+// this is certain.
+LANES_INLINE unsigned stretches8(const struct quartic8 *c, struct real8 lo,
+                                 struct real8 hi, unsigned *lanes, struct stretch8 *at,
+                                 struct stretch8 *next)
+{
+    const struct polygon8 whole = polygon8_of(c, lo, hi);
+    *lanes &= ~whole.none;
+    *at = (struct stretch8){lo, hi, middle8_of(c, &whole, lo, hi, *lanes & whole.two)};
+    const unsigned four = *lanes & whole.four, doubt = *lanes & whole.two & ~at->m.found;
+    if (doubt)
+        *lanes &= ~(doubt & misses8(c, lo, hi, at->m.lowest));
+    *next = *at;
+    if (!four)
+        return 0;
+    const struct real8 middle = r8_mul(r8_set(0.5), r8_add(lo, hi));
+    const struct half8 a = half8_of(c, lo, middle, four),
+                       b = half8_of(c, middle, hi, four);
+    *next = b.at;
+    const unsigned in_a = a.at.m.found, in_b = b.at.m.found;
+    // Where the polygon of one half does not tell, isolated_roots finds those of the other.
+    const unsigned sure = (a.none | in_a) & (b.none | in_b);
+    *lanes &= ~((a.none | a.missed) & (b.none | b.missed));
+    stretch8_put(at, sure & in_a, &a.at);
+    stretch8_put(at, sure & ~in_a & in_b, &b.at);
+    const struct real8 half = r8_set(0.5);
+    const struct stretch8 both = {lo,
+                                  hi,
+                                  {.t = middle,
+                                   .left = r8_mul(half, r8_add(lo, middle)),
+                                   .right = r8_mul(half, r8_add(middle, hi)),
+                                   .found = a.one & b.one}};
+    stretch8_put(at, a.one & b.one, &both);
+    return sure & in_a & in_b;
+}
+
+// A line in the terms of a torus: t = (size t' + shift) / length.
+struct chord8 {
+    struct tube8 tube;
+    struct real8 shift, length;
+    double size;
+};
+
+// The two crossings of a stretch; returns the lanes where they are simple.
+LANES_INLINE unsigned stretch8_cross(const struct quartic8 *c, const struct chord8 *v,
+                                     const struct stretch8 *at, unsigned lanes,
+                                     struct real8 t[2], struct real8 dt[2])
+{
+    const struct middle8 *m = &at->m;
+    lanes &= m->found;
+    unsigned simple = root8_between(c, at->lo, m->t, m->left, false, lanes, &t[0]);
+    simple &= root8_between(c, m->t, at->hi, m->right, true, lanes, &t[1]);
+    for (int i = 0; i < 2; i++) {
+        simple &= root8_error(c, t[i], &dt[i]);
+        sharpen8(&v->tube, simple, &t[i], &dt[i]);
+        t[i] = r8_div(r8_add(r8_mul(r8_set(v->size), t[i]), v->shift), v->length);
+        const struct real8 e =
+            r8_add(r8_mul(r8_set(v->size), dt[i]),
+                   r8_mul(r8_set(GAMMA(8)), r8_add(r8_abs(v->shift), r8_set(v->size))));
+        dt[i] = r8_div(e, v->length);
+    }
+    return simple;
+}
+
+// A line that goes through both sides of the tube has four crossings: the first two are
+// given, or, where both are before t_min, the last two.
+LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8 *ray,
+                                        struct real8 t_min)
 {
     struct cross8 x = cross8_none();
     const double size = s->major + s->minor;
@@ -263,47 +388,53 @@ LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8
     const struct real8 length = r8_sqrt(ray->dd), per = r8_set(1 / size);
     const struct real8 unit = r8_div(r8_set(1), length);
     const struct vec8 d = ray->d;
-    struct tube8 v = {.R = s->major / size, .r = s->minor / size};
-    v.u = (struct vec8){r8_mul(unit, d.x), r8_mul(unit, d.y), r8_mul(unit, d.z)};
-    const struct real8 shift = r8_neg(v8_dot(ray->o, v.u));
-    const struct vec8 near = v8_mad(ray->o, shift, v.u);
-    v.o = (struct vec8){r8_mul(per, near.x), r8_mul(per, near.y), r8_mul(per, near.z)};
-    const struct real8 oo = v8_dot(v.o, v.o), R = r8_set(v.R), r = r8_set(v.r);
+    struct chord8 chord = {.size = size, .length = length};
+    struct tube8 *v = &chord.tube;
+    v->R = s->major / size;
+    v->r = s->minor / size;
+    v->u = (struct vec8){r8_mul(unit, d.x), r8_mul(unit, d.y), r8_mul(unit, d.z)};
+    const struct real8 shift = r8_neg(v8_dot(ray->o, v->u));
+    const struct vec8 near = v8_mad(ray->o, shift, v->u);
+    chord.shift = shift;
+    v->o = (struct vec8){r8_mul(per, near.x), r8_mul(per, near.y), r8_mul(per, near.z)};
+    const struct real8 oo = v8_dot(v->o, v->o), R = r8_set(v->R), r = r8_set(v->r);
     struct real8 lo, hi;
-    const unsigned lanes = tube8_chord(&v, oo, &lo, &hi);
+    unsigned lanes = tube8_chord(v, oo, &lo, &hi);
     if (!lanes)
         return x;
-    const double q = 4 * v.R * v.R;
-    const struct real8 k = r8_add(oo, r8_set((v.R - v.r) * (v.R + v.r)));
-    const struct real8 rho = r8_sqrt(r8_add(r8_mul(v.o.x, v.o.x), r8_mul(v.o.z, v.o.z)));
-    const struct real8 yr = r8_mul(r8_sub(v.o.y, r), r8_add(v.o.y, r));
+    const double q = 4 * v->R * v->R;
+    const struct real8 k = r8_add(oo, r8_set((v->R - v->r) * (v->R + v->r)));
+    const struct real8 rho =
+        r8_sqrt(r8_add(r8_mul(v->o.x, v->o.x), r8_mul(v->o.z, v->o.z)));
+    const struct real8 yr = r8_mul(r8_sub(v->o.y, r), r8_add(v->o.y, r));
     const struct real8 less = r8_sub(rho, R), more = r8_add(rho, R);
     const struct quartic8 c = {
         r8_mul(r8_add(r8_mul(less, less), yr), r8_add(r8_mul(more, more), yr)),
-        r8_mul(r8_set(-2 * q), r8_add(r8_mul(v.o.x, v.u.x), r8_mul(v.o.z, v.u.z))),
-        r8_sub(r8_mul(r8_set(2), k),
-               r8_mul(r8_set(q), r8_add(r8_mul(v.u.x, v.u.x), r8_mul(v.u.z, v.u.z))))};
-    const struct polygon8 polygon = polygon8_of(&c, lo, hi);
-    unsigned two = lanes & polygon.two;
-    if (two) {
-        const struct middle8 m = middle8_of(&c, &polygon, lo, hi, two);
-        struct real8 t[2];
-        two = root8_between(&c, lo, m.t, m.left, false, m.found, &t[0]);
-        two &= root8_between(&c, m.t, hi, m.right, true, m.found, &t[1]);
-        v.noise = r8_mul(r8_set(GAMMA(8)),
-                         r8_add(r8_set(2), r8_div(r8_abs(shift), r8_set(size))));
+        r8_mul(r8_set(-2 * q), r8_add(r8_mul(v->o.x, v->u.x), r8_mul(v->o.z, v->u.z))),
+        r8_sub(r8_mul(r8_set(2), k), r8_mul(r8_set(q), r8_add(r8_mul(v->u.x, v->u.x),
+                                                              r8_mul(v->u.z, v->u.z))))};
+    struct stretch8 at, next;
+    const unsigned more_behind = stretches8(&c, lo, hi, &lanes, &at, &next);
+    if (!at.m.found) {
+        x.odd = m8_of(lanes);
+        return x;
+    }
+    v->noise =
+        r8_mul(r8_set(GAMMA(8)), r8_add(r8_set(2), r8_div(r8_abs(shift), r8_set(size))));
+    unsigned two = stretch8_cross(&c, &chord, &at, lanes, x.t, x.dt);
+    const unsigned behind = more_behind & two & m8_bits(r8_le(x.t[1], t_min));
+    if (behind) {
+        struct real8 t[2], dt[2];
+        unsigned found = stretch8_cross(&c, &chord, &next, behind, t, dt);
+        found &= m8_bits(r8_lt(x.t[1], t[0])); // else twins that changed places
+        two &= ~behind | found;
         for (int i = 0; i < 2; i++) {
-            struct real8 dt;
-            two &= root8_error(&c, t[i], &dt);
-            sharpen8(&v, two, &t[i], &dt);
-            x.t[i] = r8_div(r8_add(r8_mul(r8_set(size), t[i]), shift), length);
-            dt = r8_add(r8_mul(r8_set(size), dt),
-                        r8_mul(r8_set(GAMMA(8)), r8_add(r8_abs(shift), r8_set(size))));
-            x.dt[i] = r8_div(dt, length);
+            x.t[i] = either8(found, t[i], x.t[i]);
+            x.dt[i] = either8(found, dt[i], x.dt[i]);
         }
     }
     x.met = m8_of(two);
-    x.odd = m8_of(lanes & ~polygon.none & ~two);
+    x.odd = m8_of(lanes & ~two);
     return x;
 }
 

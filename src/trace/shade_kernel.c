@@ -63,18 +63,19 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
         .d = d,
         .dt = gather(t->hit->dt, g, rays_in_row),
         .part = gather(t->hit->part, g, rays_in_row),
-        .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d)))};
+        .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d))),
+        .hit = t->hit,
+        .ray = g->ray};
     struct place8 x = {.p = v8_mad(o, at, d)};
     const bool uv = wants_uv(t, leaf);
-    if (!uv && ((!differ && place_leaf(leaf[0], r.part, &x)) || place_spheres(leaf, &x))) {
-        x.ns = x.ng;
-        x.error = place_error_of(leaf[0], &r, x.ng);
-    } else {
-        if (uv)
-            place_each(t, g, 255, &x);
-        else
-            place_mixed(t, leaf, g, &r, &x);
+    if (uv) {
+        place_each(t, g, 255, &x);
         memcpy(g->uv, x.uv, sizeof g->uv);
+    } else if (!differ) {
+        if (!place_leaf(leaf[0], &r, &x))
+            place_each(t, g, 255, &x);
+    } else if (!place_spheres(leaf, &r, &x)) {
+        place_mixed(t, leaf, g, &r, &x);
     }
     v8_store(g->d, d);
     v8_store(g->p, x.p);

@@ -6,9 +6,14 @@
 
 #include "math/gamma.h"
 #include "scene/shapes/box.h"
+#include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
+#include "scene/shapes/disc.h"
 #include "scene/shapes/plane.h"
+#include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
+#include "scene/shapes/torus.h"
+#include "scene/shapes/triangle.h"
 #include "trace/shade_kernel.h"
 #include "trace/shade_lanes.h"
 
@@ -16,6 +21,15 @@ struct place8 {
     struct vec8 p, ng, ns;
     struct real8 error;
     double uv[2][8]; // by place_each alone
+};
+
+// What is known of the hits of a group.
+struct place_rays {
+    struct vec8 d;
+    struct real8 dt, part;
+    struct real8 size; // of the coordinates of o + t d
+    const struct hit_batch *hit;
+    const uint32_t *ray; // of each lane
 };
 
 LANES_INLINE void place_sphere(struct vec8 centre, struct real8 radius, struct place8 *x)
@@ -85,8 +99,10 @@ LANES_INLINE void place_cylinder(const struct cylinder *c, struct real8 part,
 static double place_stretch(const struct mat3 *m)
 {
     double most = 0;
-    for (int i = 0; i < 3; i++)
-        most = fmax(most, fabs(m->m[i][0]) + fabs(m->m[i][1]) + fabs(m->m[i][2]));
+    for (int i = 0; i < 3; i++) {
+        const double sum = fabs(m->m[i][0]) + fabs(m->m[i][1]) + fabs(m->m[i][2]);
+        most = sum > most ? sum : most; // fmax is a call
+    }
     return most;
 }
 
@@ -101,39 +117,162 @@ LANES_INLINE struct real8 place_error(const struct leaf *l, struct real8 size)
         r8_set(fmax(1, place_stretch(&t->linear) * place_stretch(&t->inverse))));
 }
 
-// All lanes hit this leaf; false: its shape has no lanes.
-LANES_INLINE bool place_leaf(const struct leaf *l, struct real8 part, struct place8 *x)
+LANES_INLINE void place_cone(const struct cone *c, struct real8 part, struct place8 *x)
 {
-    const bool moved = !l->transform->identity;
+    const struct frame *f = &c->frame;
+    const struct vec8 v = v8_sub(x->p, V8_SET(f->origin));
+    const struct real8 qx = v8_dot(V8_SET(f->e1), v), qy = v8_dot(V8_SET(f->e2), v);
+    const struct mask8 side = r8_eq(part, r8_set(CONE_SIDE)),
+                       top = r8_eq(part, r8_set(CONE_TOP));
+    const struct real8 length = r8_sqrt(r8_add(r8_mul(qx, qx), r8_mul(qy, qy)));
+    const struct mask8 off_axis = r8_lt(r8_set(0), length);
+    const struct real8 none = r8_set(0);
+    const struct real8 ux = r8_select(off_axis, r8_div(qx, length), none);
+    const struct real8 uy = r8_select(off_axis, r8_div(qy, length), none);
+    const struct real8 uz =
+        r8_select(off_axis, r8_set(-c->slope), r8_set(c->slope > 0 ? -1 : 1));
+    const struct vec8 up = V8_SET(f->e3);
+    x->ng = v8_normalize(
+        v8_select(side, frame8(f, ux, uy, uz), v8_select(top, up, v8_neg(up))));
+}
+
+LANES_INLINE void place_quadric(const struct quadric *s, struct place8 *x)
+{
+    const struct vec8 q = v8_sub(x->p, V8_SET(s->centre));
+    const struct real8 half = r8_set(0.5), two = r8_set(2);
+    const struct real8 xy = r8_set(s->xy), xz = r8_set(s->xz), yz = r8_set(s->yz);
+    const struct vec8 mixed = {r8_add(r8_mul(xy, q.y), r8_mul(xz, q.z)),
+                               r8_add(r8_mul(xy, q.x), r8_mul(yz, q.z)),
+                               r8_add(r8_mul(xz, q.x), r8_mul(yz, q.y))};
+    const struct vec8 m = {r8_add(r8_mul(r8_set(s->xx), q.x), r8_mul(half, mixed.x)),
+                           r8_add(r8_mul(r8_set(s->yy), q.y), r8_mul(half, mixed.y)),
+                           r8_add(r8_mul(r8_set(s->zz), q.z), r8_mul(half, mixed.z))};
+    const struct vec8 n = v8_normalize(
+        v8_add((struct vec8){r8_mul(two, m.x), r8_mul(two, m.y), r8_mul(two, m.z)},
+               V8_SET(s->linear)));
+    const struct mask8 tip = r8_eq(v8_dot(n, n), r8_set(0));
+    x->ng = v8_select(tip, V8_SET(vec3(1, 0, 0)), n);
+}
+
+LANES_INLINE void place_torus(const struct torus *s, struct place8 *x)
+{
+    const struct vec8 p = x->p;
+    const struct real8 none = r8_set(0);
+    const struct real8 rho = r8_sqrt(r8_add(r8_mul(p.x, p.x), r8_mul(p.z, p.z)));
+    const struct real8 k =
+        r8_select(r8_lt(none, rho), r8_div(r8_set(s->major), rho), none);
+    const struct real8 kx = r8_mul(k, p.x), kz = r8_mul(k, p.z);
+    struct vec8 n = {r8_sub(p.x, kx), p.y, r8_sub(p.z, kz)};
+    // on_inner_sheet
+    const struct real8 half = r8_sub(r8_set(s->minor * s->minor), r8_mul(p.y, p.y));
+    const struct mask8 hollow =
+        m8_and(r8_lt(r8_set(s->major * s->major), half), r8_lt(r8_mul(rho, rho), half));
+    n = v8_select(
+        hollow,
+        (struct vec8){r8_sub(r8_neg(p.x), kx), r8_neg(p.y), r8_sub(r8_neg(p.z), kz)}, n);
+    const struct mask8 flat = r8_eq(v8_dot(n, n), none);
+    x->ng = v8_normalize(v8_select(flat, V8_SET(vec3(0, 1, 0)), n));
+}
+
+LANES_INLINE void place_disc(const struct disc *s, struct place8 *x)
+{
+    const struct vec8 n = V8_SET(s->normal);
+    const struct real8 off = v8_dot(n, v8_sub(x->p, V8_SET(s->centre)));
+    x->p = v8_mad(x->p, r8_neg(off), n);
+    x->ng = n;
+}
+
+// Sets the shading normal as well.
+LANES_INLINE void place_triangle(const struct triangle *s, const struct place_rays *r,
+                                 struct place8 *x)
+{
+    x->ng = x->ns = V8_SET(s->face);
+    if (!s->smooth)
+        return;
+    double at[2][8];
+    for (int i = 0; i < 8; i++) {
+        at[0][i] = r->hit->u[r->ray[i]];
+        at[1][i] = r->hit->v[r->ray[i]];
+    }
+    const struct real8 u = r8_load(at[0]), v = r8_load(at[1]);
+    const struct real8 w = r8_sub(r8_sub(r8_set(1), u), v);
+    const struct vec8 a = V8_SET(s->n[0]), b = V8_SET(s->n[1]), c = V8_SET(s->n[2]);
+    const struct vec8 n = {
+        r8_add(r8_mul(w, a.x), r8_add(r8_mul(u, b.x), r8_mul(v, c.x))),
+        r8_add(r8_mul(w, a.y), r8_add(r8_mul(u, b.y), r8_mul(v, c.y))),
+        r8_add(r8_mul(w, a.z), r8_add(r8_mul(u, b.z), r8_mul(v, c.z)))};
+    x->ns = v8_select(r8_lt(r8_set(0), v8_dot(n, n)), v8_normalize(n), x->ns);
+}
+
+// In the space of the shape; false: it has no lanes. *smooth: ns is not ng.
+LANES_INLINE bool place_shape(const struct leaf *l, const struct place_rays *r,
+                              struct place8 *x, bool *smooth)
+{
     const struct shape_ops *ops = l->ops;
-    if (ops != &sphere_ops && ops != &box_ops && ops != &plane_ops &&
-        ops != &cylinder_ops)
-        return false;
-    if (moved)
-        x->p = v8_row_times(v8_sub(x->p, V8_SET(l->transform->offset)),
-                            &l->transform->inverse);
+    const void *shape = l->shape;
+    *smooth = false;
     if (ops == &sphere_ops) {
-        const struct sphere *s = l->shape;
+        const struct sphere *s = shape;
         place_sphere(V8_SET(s->centre), r8_set(s->radius), x);
     } else if (ops == &box_ops) {
-        place_box(l->shape, part, x);
+        place_box(shape, r->part, x);
     } else if (ops == &plane_ops) {
-        place_plane(l->shape, x);
+        place_plane(shape, x);
+    } else if (ops == &cylinder_ops) {
+        place_cylinder(shape, r->part, x);
+    } else if (ops == &cone_ops) {
+        place_cone(shape, r->part, x);
+    } else if (ops == &quadric_ops) {
+        place_quadric(shape, x);
+    } else if (ops == &torus_ops) {
+        place_torus(shape, x);
+    } else if (ops == &disc_ops) {
+        place_disc(shape, x);
+    } else if (ops == &triangle_ops || ops == &smooth_triangle_ops) {
+        place_triangle(shape, r, x);
+        *smooth = ((const struct triangle *)shape)->smooth;
     } else {
-        place_cylinder(l->shape, part, x);
+        return false;
     }
+    return true;
+}
+
+LANES_INLINE struct real8 place_error_of(const struct leaf *l, const struct place_rays *r,
+                                         struct vec8 ng)
+{
+    return r8_add(r8_mul(r->dt, r8_abs(v8_dot(r->d, ng))), place_error(l, r->size));
+}
+
+// All lanes hit this leaf; false: its shape has no lanes.
+static bool place_leaf(const struct leaf *l, const struct place_rays *r, struct place8 *x)
+{
+    const bool moved = !l->transform->identity;
+    const struct transform *m = l->transform;
+    bool smooth;
+    if (moved)
+        x->p = v8_row_times(v8_sub(x->p, V8_SET(m->offset)), &m->inverse);
+    if (!place_shape(l, r, x, &smooth))
+        return false;
     if (moved) {
-        x->p = v8_add(v8_row_times(x->p, &l->transform->linear),
-                      V8_SET(l->transform->offset));
-        x->ng = v8_normalize(v8_times_column(&l->transform->inverse, x->ng));
+        x->p = v8_add(v8_row_times(x->p, &m->linear), V8_SET(m->offset));
+        x->ng = v8_normalize(v8_times_column(&m->inverse, x->ng));
+        if (smooth)
+            x->ns = v8_normalize(v8_times_column(&m->inverse, x->ns));
     }
-    if (l->inverted)
+    if (l->inverted) {
         x->ng = v8_neg(x->ng);
+        if (smooth)
+            x->ns = v8_neg(x->ns);
+    }
+    if (!smooth)
+        x->ns = x->ng;
+    x->error = place_error_of(l, r, x->ng);
     return true;
 }
 
 // All lanes hit spheres that stand where they are written.
-LANES_INLINE bool place_spheres(const struct leaf *const leaf[8], struct place8 *x)
+LANES_INLINE bool place_spheres(const struct leaf *const leaf[8],
+                                const struct place_rays *r, struct place8 *x)
 {
     double centre[3][8], radius[8];
     unsigned inverted = 0;
@@ -148,7 +287,8 @@ LANES_INLINE bool place_spheres(const struct leaf *const leaf[8], struct place8 
         inverted |= (unsigned)leaf[i]->inverted << i;
     }
     place_sphere(v8_load((const double(*)[8])centre), r8_load(radius), x);
-    x->ng = v8_select(m8_of(inverted), v8_neg(x->ng), x->ng);
+    x->ns = x->ng = v8_select(m8_of(inverted), v8_neg(x->ng), x->ng);
+    x->error = place_error_of(leaf[0], r, x->ng);
     return true;
 }
 
@@ -181,19 +321,6 @@ static void place_each(struct tracer *t, const struct simple_group *g, unsigned 
     x->error = r8_load(error);
 }
 
-// What is known of the hits of a group.
-struct place_rays {
-    struct vec8 d;
-    struct real8 dt, part;
-    struct real8 size; // of the coordinates of o + t d
-};
-
-LANES_INLINE struct real8 place_error_of(const struct leaf *l, const struct place_rays *r,
-                                         struct vec8 ng)
-{
-    return r8_add(r8_mul(r->dt, r8_abs(v8_dot(r->d, ng))), place_error(l, r->size));
-}
-
 // Leaf by leaf.
 static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
                         const struct simple_group *g, const struct place_rays *r,
@@ -206,12 +333,8 @@ static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
         unsigned bits = 0;
         for (unsigned i = 0; i < 8; i++)
             bits |= (unsigned)(leaf[i] == l) << i;
-        if (place_leaf(l, r->part, &y)) {
-            y.ns = y.ng;
-            y.error = place_error_of(l, r, y.ng);
-        } else {
+        if (!place_leaf(l, r, &y))
             place_each(t, g, bits, &y);
-        }
         const struct mask8 m = m8_of(bits);
         const bool first = left == 255;
         x->p = first ? y.p : v8_select(m, y.p, x->p);
