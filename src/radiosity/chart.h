@@ -27,9 +27,10 @@ struct chart {
     const struct tess_map *map; // mapped
     struct vec3 o, a, b, n;     // frame; n: outwards where it is constant
     double r0, r1, length;
-    int axis;            // projected
-    uint32_t nu, nv;     // cells
-    uint32_t first_cell; // row by row, v upwards
+    int axis;             // projected
+    double area, side[2]; // in the world; lengths along u and v
+    uint32_t nu, nv;      // cells
+    uint32_t first_cell;  // row by row, v upwards
     bool wrap, curved;
 };
 

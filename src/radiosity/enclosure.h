@@ -47,6 +47,9 @@ struct enclosure {
                   struct element_point *out);
     // The same without regard to what exists; NULL: the polygon has it.
     bool (*surface)(void *state, uint32_t element, double u, double v, struct vec3 *p);
+    // The element beside another in one of 8 directions, 7 - k on the other side of k;
+    // ELEMENT_NONE: there is none, or something stands between. NULL: not known.
+    uint32_t (*neighbour)(const void *user, uint32_t element, int k);
     // Whether anything can come between points of two elements; NULL: it may.
     bool (*may_hide)(void *state, uint32_t a, uint32_t b);
     // Whether something opaque lies on each ray.

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/hemicube.h"
-#include "base/parallel.h"
 #include "trace/intersect.h"
 
 enum { FACTOR_RAYS = 1024 };

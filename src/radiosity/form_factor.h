@@ -1,8 +1,8 @@
 #ifndef RADIOSITY_FORM_FACTOR_H
 #define RADIOSITY_FORM_FACTOR_H
 
-#include "radiosity/enclosure.h"
 #include "base/watch.h"
+#include "radiosity/enclosure.h"
 
 struct form_factor_settings {
     const char *method; // a name of form_factors.def

@@ -6,5 +6,6 @@ liblambert_a_SOURCES += \
 	%D%/display.c %D%/elements.c %D%/error_target.c %D%/lamps.c %D%/radiosity.c %D%/radiosity.h %D%/store.c \
 	%D%/prune.c %D%/refine.c %D%/shafts.c \
 	%D%/sequence.c %D%/sequence.h %D%/solve_dense.c %D%/solve_gather.c %D%/solve_gather.h %D%/solve_hierarchical.c \
+	%D%/solve_smooth.c %D%/solve_smooth.h \
 	%D%/solve_shoot.c %D%/solve_stochastic.c %D%/solve_sweep.c %D%/solver.c \
 	%D%/solver.h %D%/solvers.def

@@ -286,6 +286,11 @@ static bool bare_surface(void *state, uint32_t element, double u, double v,
                        c->v + v * c->dv, p, &n);
 }
 
+static uint32_t neighbour_of(const void *user, uint32_t element, int k)
+{
+    return patch_neighbour(user, element, k);
+}
+
 static bool may_hide(void *state, uint32_t a, uint32_t b)
 {
     const struct of_thread *t = state;
@@ -374,6 +379,7 @@ void patches_enclosure(struct patches *p)
                                       .thread_end = thread_end,
                                       .point = point,
                                       .surface = bare_surface,
+                                      .neighbour = neighbour_of,
                                       .may_hide = may_hide,
                                       .occluded = occluded,
                                       .closest = closest};

@@ -12,6 +12,13 @@ const struct patch_settings patch_defaults = {.count = 2000, .samples = 3, .dept
 // How far above the surface, relative to the cell, a probing ray starts.
 static const double probe_height = 1e-5;
 
+// Inside of a disc is the half space below it, but what lies there is in the open.
+static bool encloses(const struct world *w, uint32_t object)
+{
+    const struct world_object *o = &w->object[object];
+    return o->is_csg || w->leaf[o->first_leaf].ops != &disc_ops;
+}
+
 static bool in_room(const struct patches *p, struct vec3 at)
 {
     enum { MOST = 64 };
@@ -20,7 +27,8 @@ static bool in_room(const struct patches *p, struct vec3 at)
     for (uint32_t i = 0, k = 0; i < n; i++) {
         while (k < p->room_count && p->room[k] < object[i])
             k++;
-        if (k == p->room_count || p->room[k] != object[i])
+        if ((k == p->room_count || p->room[k] != object[i]) &&
+            encloses(p->job->world, object[i]))
             return false;
     }
     return true;
@@ -41,8 +49,10 @@ bool patch_point(const struct patch_probe *probe, const struct cell *c, int side
     const struct vec3 from = vec3_mad(out->p, height, out->normal);
     const struct ray_query q = {{from, vec3_neg(out->normal), 0, 2 * height},
                                 OBJECT_NO_RADIOSITY};
+    if (!in_room(p, from))
+        return false;
     *hit = trace_closest_1(p->job->world, probe->scratch, &q);
-    if (hit->b.t == INFINITY || hit->b.leaf != chart->leaf || !in_room(p, from))
+    if (hit->b.t == INFINITY || hit->b.leaf != chart->leaf)
         return false;
     *ray = q.ray;
     struct interaction at;
@@ -62,7 +72,7 @@ static void room_add(struct patches *p, struct vec3 at, uint32_t except)
         uint32_t k = 0;
         while (k < p->room_count && p->room[k] < object[i])
             k++;
-        if (object[i] == except || (k < p->room_count && p->room[k] == object[i]))
+        if (object[i] == except || !encloses(p->job->world, object[i]) || (k < p->room_count && p->room[k] == object[i]))
             continue;
         memmove(p->room + k + 1, p->room + k, (p->room_count - k) * sizeof *p->room);
         p->room[k] = object[i];
@@ -133,52 +143,102 @@ static void find_rooms(struct patches *p)
             glow_room(p, l);
 }
 
+// ---- what has nothing before it ----------------------------------------------------
+// Where rays of the camera may start and what all objects lie in; false: not known.
+static bool scene_points(const struct job *job, struct vec3 out[12], uint32_t *count)
+{
+    const struct world *w = job->world;
+    const struct camera *c = job->camera;
+    const struct aabb *b = &w->bounds;
+    const bool wide = c->kind == CAMERA_ORTHOGRAPHIC;
+    uint32_t n = 0;
+    if (c->aperture > 0 || c->kind == CAMERA_MESH || c->normal ||
+        (c->kind >= CAMERA_CYLINDER_1 && c->kind <= CAMERA_CYLINDER_4))
+        return false;
+    for (uint32_t o = 0; o < w->object_count; o++)
+        if (!aabb_is_finite(w->object[o].bounds))
+            return false;
+    for (int k = 0; k < 8; k++)
+        out[n++] = vec3(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y,
+                        k & 4 ? b->max.z : b->min.z);
+    for (int k = 0; k < (wide ? 4 : 1); k++) {
+        const struct vec3 across = vec3_scale(wide ? (k & 1) - .5 : 0, c->right);
+        const struct vec3 up = vec3_scale(wide ? (k >> 1) - .5 : 0, c->up);
+        out[n++] = vec3_add(c->location, vec3_add(across, up));
+    }
+    *count = n;
+    return true;
+}
+
+// Sides of flat charts that face away from all objects and the camera: no light goes
+// from there to either, the bits of cell.dead.
+static uint8_t sides_alone(const struct patches *p, const struct chart *c)
+{
+    // What stands out of a plane by less sees nothing of it.
+    static const double flush = 1e-9; // of the scene's extent
+    const struct leaf *l = &p->job->world->leaf[c->leaf];
+    struct vec3 point[12], at, normal;
+    uint32_t count;
+    double before = 0, behind = 0, extent = 0;
+    if ((c->kind != CHART_FLAT && c->kind != CHART_TRIANGLE && c->kind != CHART_RING) ||
+        !scene_points(p->job, point, &count) || !chart_point(c, l, .5, .5, &at, &normal))
+        return 0;
+    const struct vec3 out = l->inverted ? vec3_neg(normal) : normal;
+    for (uint32_t k = 0; k < count; k++) {
+        const struct vec3 r = vec3_sub(point[k], at);
+        const double height = vec3_dot(r, out);
+        before = fmax(before, height);
+        behind = fmax(behind, -height);
+        extent = fmax(extent, vec3_length(r));
+    }
+    return (uint8_t)((before <= flush * extent ? 1 : 0) |
+                     (behind <= flush * extent ? 2 : 0));
+}
+
 // ---- cells -------------------------------------------------------------------------
-static double chart_area(const struct patches *p, const struct chart *c, double side[2])
+static void chart_measure(const struct patches *p, struct chart *c)
 {
     enum { N = 8 };
     const struct leaf *l = &p->job->world->leaf[c->leaf];
-    double area = 0;
-    side[0] = side[1] = 0;
     for (int i = 0; i < N * N; i++) {
         const double u = (i % N + .5) / N, v = (i / N + .5) / N;
-        area += chart_density(c, l, u, v, 1e-4, 1e-4) / (N * N);
+        c->area += chart_density(c, l, u, v, 1e-4, 1e-4) / (N * N);
         struct vec3 a, b, n;
         const double h = .5 / N;
         if (chart_point(c, l, u - h, v, &a, &n) && chart_point(c, l, u + h, v, &b, &n))
-            side[0] += vec3_length(vec3_sub(b, a)) / N;
+            c->side[0] += vec3_length(vec3_sub(b, a)) / N;
         if (chart_point(c, l, u, v - h, &a, &n) && chart_point(c, l, u, v + h, &b, &n))
-            side[1] += vec3_length(vec3_sub(b, a)) / N;
-    }
-    return area;
-}
-
-// Cells along u and v so that none is longer than the size.
-static void chart_grid(const struct patches *p, struct chart *c)
-{
-    double side[2];
-    const double area = chart_area(p, c, side);
-    if (!(area > 0)) {
-        c->nu = c->nv = 0;
-        return;
+            c->side[1] += vec3_length(vec3_sub(b, a)) / N;
     }
     if (c->kind == CHART_PROJECTED) {
         const struct transform *t = p->job->world->leaf[c->leaf].transform;
-        side[0] = vec3_length(transform_vector(t, c->a));
-        side[1] = vec3_length(transform_vector(t, c->b));
+        c->side[0] = vec3_length(transform_vector(t, c->a));
+        c->side[1] = vec3_length(transform_vector(t, c->b));
     }
+}
+
+// Cells along u and v so that none is longer than the size.
+static void chart_grid(const struct chart *c, double size, uint32_t grid[2])
+{
+    grid[0] = grid[1] = 0;
+    if (!(c->area > 0))
+        return;
     // 1e-9: a side of exactly n sizes is n cells.
-    c->nu = (uint32_t)fmax(c->wrap ? 8 : 1, ceil(side[0] / p->size - 1e-9));
+    grid[0] = (uint32_t)fmax(c->wrap ? 8 : 1, ceil(c->side[0] / size - 1e-9));
     const bool ends = c->kind == CHART_SPHERE || c->kind == CHART_MAPPED;
-    c->nv = (uint32_t)fmax(ends ? 4 : 1, ceil(side[1] / p->size - 1e-9));
+    grid[1] = (uint32_t)fmax(ends ? 4 : 1, ceil(c->side[1] / size - 1e-9));
 }
 
 static void chart_cells(struct patches *p, uint32_t index)
 {
     struct chart *c = &p->chart[index];
-    chart_grid(p, c);
+    uint32_t grid[2];
+    chart_grid(c, p->size, grid);
+    c->nu = grid[0];
+    c->nv = grid[1];
     c->first_cell = p->cell_count;
     const uint32_t n = c->nu * c->nv;
+    const uint8_t dead = sides_alone(p, c);
     struct cell *cell = cells_add(p, n);
     for (uint32_t i = 0; i < n; i++)
         cell[i] = (struct cell){.u = (double)(i % c->nu) / c->nu,
@@ -186,6 +246,7 @@ static void chart_cells(struct patches *p, uint32_t index)
                                 .du = 1.0 / c->nu,
                                 .dv = 1.0 / c->nv,
                                 .chart = index,
+                                .dead = dead,
                                 .element = {ELEMENT_NONE, ELEMENT_NONE}};
 }
 
@@ -284,9 +345,9 @@ static void charts_build(struct patches *p)
 
 static double size_for(const struct patches *p)
 {
-    double area = 0, side[2];
-    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(p->settings.watch); i++)
-        area += chart_area(p, &p->chart[i], side);
+    double area = 0;
+    for (uint32_t i = 0; i < p->chart_count; i++)
+        area += p->chart[i].area;
     return sqrt(area / fmax(p->settings.count, 1));
 }
 
@@ -300,6 +361,8 @@ static struct patches *build(const struct job *job, const struct patch_settings 
     if (p->settings.samples < 1)
         p->settings.samples = 1;
     charts_build(p);
+    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
+        chart_measure(p, &p->chart[i]);
     p->size = s->size > 0 ? s->size : size_for(p);
     if (!(p->size > 0 && p->size < INFINITY)) {
         patches_free(p);
@@ -310,6 +373,7 @@ static struct patches *build(const struct job *job, const struct patch_settings 
         chart_cells(p, i);
     elements_find(p);
     patches_enclosure(p);
+    patches_neighbours(p);
     patches_prune(p);
     return p;
 }
@@ -323,38 +387,109 @@ void patches_connect(struct patches *p)
     patches_shafts(p);
 }
 
-struct patches *patches_build(const struct job *job, const struct patch_settings *s)
+// ---- how many there will be --------------------------------------------------------
+// What a coarse trial says about the number of elements at other sizes of cells.
+struct forecast {
+    const struct patches *trial;
+    double *whole; // by chart: elements of a cell, both sides
+    double *cut;   // and cells that exist in part
+    double scale;  // of what was built to what was expected
+};
+
+static void forecast_init(struct forecast *f, const struct patches *trial)
+{
+    *f = (struct forecast){trial, calloc(trial->chart_count + 1, sizeof *f->whole),
+                           calloc(trial->chart_count + 1, sizeof *f->cut), 1};
+    if (!f->whole || !f->cut)
+        abort();
+    for (uint32_t i = 0; i < trial->element_count; i++) {
+        const uint32_t c = trial->cell[trial->element_cell[i] / 2].chart;
+        f->whole[c] += trial->element[i].area / trial->chart[c].area;
+        f->cut[c] += trial->element[i].partial;
+    }
+}
+
+static double forecast_count(const struct forecast *f, double size)
+{
+    // A cut cell is quartered twice: so many elements more than one of its area.
+    static const double more = 4.5;
+    double count = 0;
+    for (uint32_t i = 0; i < f->trial->chart_count; i++) {
+        uint32_t grid[2];
+        chart_grid(&f->trial->chart[i], size, grid);
+        count +=
+            f->whole[i] * grid[0] * grid[1] + more * f->cut[i] * f->trial->size / size;
+    }
+    return f->scale * count;
+}
+
+// The largest size of cells that gives as many elements.
+static double forecast_size(const struct forecast *f, double count)
+{
+    enum { STEPS = 40 };
+    double few = f->trial->size, many = few, area = 0;
+    // Cells of the size of all there is are more than coarse.
+    for (uint32_t i = 0; i < f->trial->element_count; i++)
+        area += f->trial->element[i].area;
+    few = fmax(few, sqrt(area));
+    if (forecast_count(f, few) > count)
+        return few;
+    for (int k = 0; k < STEPS && forecast_count(f, many) < count; k++)
+        many /= 2;
+    for (int k = 0; k < STEPS; k++) {
+        const double middle = sqrt(few * many);
+        if (forecast_count(f, middle) < count)
+            few = middle;
+        else
+            many = middle;
+    }
+    return many;
+}
+
+// As many elements as are wanted, about; cells that are quartered and small charts make
+// more than was counted on.
+static struct patches *build_counted(const struct job *job,
+                                     const struct patch_settings *s)
 {
     enum { TRIAL = 400, RETRIES = 3 };
     static const double most = 1.15; // elements, of those wanted
     struct patch_settings settings = *s;
-    if (s->size <= 0) {
-        // How much of the surfaces takes part is known from a coarse trial.
-        double area = 0;
-        settings.count = fmin(s->count, TRIAL);
-        settings.depth = 0;
-        struct patches *trial = build(job, &settings);
-        for (uint32_t i = 0; trial && i < trial->element_count; i++)
-            area += trial->element[i].area;
+    settings.count = fmin(s->count, TRIAL);
+    settings.depth = 0;
+    settings.trial = true;
+    struct patches *p = NULL, *trial = build(job, &settings);
+    if (!trial || !trial->element_count) {
         patches_free(trial);
-        settings = *s;
-        settings.size = sqrt(area / fmax(s->count, 1));
+        return NULL;
     }
-    struct patches *p = settings.size > 0 ? build(job, &settings) : NULL;
-    // Cells that are quartered and small charts may be more than was counted on.
-    for (int k = 0; k < RETRIES && p && s->size <= 0 &&
-                    p->element_count > most * s->count && !watch_cancelled(s->watch);
-         k++) {
-        const uint32_t before = p->element_count;
-        settings.size *= sqrt(before / s->count);
+    struct forecast f;
+    forecast_init(&f, trial);
+    settings = *s;
+    settings.size = forecast_size(&f, s->count);
+    for (int k = 0; k <= RETRIES && !watch_cancelled(s->watch); k++) {
+        const double before = p ? p->element_count : 0;
         patches_free(p);
         p = build(job, &settings);
-        if (p && p->element_count > .9 * before)
+        if (!p || p->element_count <= most * s->count ||
+            (k && p->element_count > .9 * before))
             break;
+        f.scale *= p->element_count / forecast_count(&f, settings.size);
+        const double size = forecast_size(&f, s->count);
+        if (size <= settings.size)
+            break;
+        settings.size = size;
     }
-    if (!p)
-        return NULL;
-    patches_connect(p);
+    free(f.whole);
+    free(f.cut);
+    patches_free(trial);
+    return p;
+}
+
+struct patches *patches_build(const struct job *job, const struct patch_settings *s)
+{
+    struct patches *p = s->size > 0 ? build(job, s) : build_counted(job, s);
+    if (p)
+        patches_shafts(p);
     return p;
 }
 

@@ -1,9 +1,9 @@
 #ifndef RADIOSITY_PATCHES_H
 #define RADIOSITY_PATCHES_H
 
+#include "base/watch.h"
 #include "radiosity/chart.h"
 #include "radiosity/enclosure.h"
-#include "base/watch.h"
 #include "trace/job.h"
 
 struct tracer;
@@ -16,6 +16,7 @@ struct patch_settings {
     double count; // elements wanted, about
     int samples;  // along a side of a cell, for area and colour
     int depth;    // how often cells that exist in part are quartered
+    bool trial;   // only to know how many there are: what is hard to reach may be missed
     int threads;
     struct watch *watch;
 };

@@ -1,10 +1,10 @@
 // Elements that no light can reach on its way to the camera: the outside of a room, the
-// inside of what is closed. Elements that see each other form groups; only the groups of
-// the camera and the lamps stay.
+// inside of what is closed. Elements that see each other or lie beside each other form
+// groups; only the groups of the camera and the lamps stay.
 #include <stdlib.h>
 
-#include "radiosity/form_factor.h"
 #include "base/parallel.h"
+#include "radiosity/form_factor.h"
 #include "radiosity/patches.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
@@ -154,6 +154,17 @@ static void run(struct groups *g, uint32_t count,
     parallel_run(&p, count);
 }
 
+// Light that reaches an element reaches those beside it with nothing between.
+static void unite_neighbours(struct groups *g)
+{
+    for (uint32_t i = 0; i < g->p->element_count; i++)
+        for (int k = 0; k < 8; k++) {
+            const uint32_t j = patch_neighbour(g->p, i, k);
+            if (j != ELEMENT_NONE)
+                unite(g, i, j);
+        }
+}
+
 // Sends rays [first, first + rays) of the elements in the list and unites what they meet.
 static void look_from(struct groups *g, uint32_t *list, uint32_t count, uint32_t first,
                       uint32_t rays)
@@ -292,6 +303,7 @@ static void keep_reached(struct patches *p, const bool *reached)
             continue;
         }
         p->element[kept] = p->element[i];
+        p->neighbours[kept] = p->neighbours[i];
         p->element_cell[kept++] = p->element_cell[i];
     }
     p->element_count = p->enclosure.count = kept;
@@ -332,8 +344,10 @@ void patches_prune(struct patches *p)
     look_around(&g, p->job->camera->location);
     for (uint32_t i = 0; i < p->job->lamp_count && i < EYES_MOST; i++)
         look_around(&g, p->job->lamp[i].light->location);
+    unite_neighbours(&g);
     look_from(&g, all, n, 0, ELEMENT_RAYS);
-    for (int round = 0; round < ROUNDS && g.size[group_of(&g, n)] <= n && look_again(&g);
+    const int rounds = p->settings.trial ? 0 : ROUNDS;
+    for (int round = 0; round < rounds && g.size[group_of(&g, n)] <= n && look_again(&g);
          round++)
         ;
     // A camera that sees nothing of the scene's elements tells nothing.

@@ -78,7 +78,7 @@ static const char *solver_for(const struct radiosity_options *s, uint32_t n)
 static double bytes_needed(const char *solver, uint32_t n)
 {
     const enum solver_kind k = solver_find(solver);
-    double bytes = 600.0 * n;
+    double bytes = (double)STOCHASTIC_BYTES * n;
     if (solver_needs_matrix(k))
         bytes += factors_bytes(n);
     if (k == SOLVER_elimination)

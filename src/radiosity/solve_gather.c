@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "radiosity/factor_nodes.h"
 #include "base/parallel.h"
+#include "radiosity/factor_nodes.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 

@@ -11,6 +11,7 @@
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 #include "radiosity/solve_gather.h"
+#include "radiosity/solve_smooth.h"
 
 enum { SHOT_BATCH = 1024, SHOT_TRIES = 64 };
 
@@ -249,25 +250,6 @@ static void shots_pass(struct shots *w, double rays)
             w->h[i][c] += w->h_emitted[i][c];
 }
 
-// Relative rms of half the difference of the halves' reflected light: the error of their
-// mean.
-static double halves_error(const struct radiosity_system *s, double (*a)[3],
-                           double (*b)[3])
-{
-    double off = 0, all = 0;
-    for (uint32_t i = 0; i < s->e->count; i++) {
-        double rho[3];
-        element_reflectance(&s->e->element[i], rho);
-        for (int c = 0; c < 3; c++) {
-            const double d = rho[c] * (a[i][c] - b[i][c]) / 2;
-            const double m = rho[c] * (a[i][c] + b[i][c]) / 2;
-            off += s->e->element[i].area * d * d;
-            all += s->e->element[i].area * m * m;
-        }
-    }
-    return all > 0 ? sqrt(off / all) : 0;
-}
-
 static void mix(double (*mean)[3], double (*pass)[3], uint32_t n, double weight)
 {
     for (uint32_t i = 0; i < n; i++)
@@ -302,23 +284,24 @@ struct halves {
     const struct solver_settings *settings;
     struct radiosity_solution *out;
     struct shots shots[2];
-    double (*h[2])[3];
+    struct light_part mean[2];
+    struct smoother smoother;
     double done; // rays of the mean so far
 };
 
 // Adds passes of `weight` rays each to the means of the halves.
-static void halves_add(struct halves *w, double (*h[2])[3], double (*h_emitted[2])[3],
-                       double weight)
+static void halves_add(struct halves *w, double weight)
 {
     const uint32_t n = w->out->count;
     const double share = weight / (w->done + weight);
-    for (int k = 0; k < 2; k++)
-        mix(w->h[k], h[k], n, share);
-    mix(h_emitted[0], h_emitted[1], n, 0.5);
-    mix(w->out->h_emitted, h_emitted[0], n, share);
+    for (int k = 0; k < 2; k++) {
+        mix(w->mean[k].h, w->shots[k].h, n, share);
+        mix(w->mean[k].h_emitted, w->shots[k].h_emitted, n, share);
+    }
     w->done += weight;
     w->out->steps++;
-    w->out->error = halves_error(w->s, w->h[0], w->h[1]);
+    const struct light_part out = {w->out->h, w->out->h_emitted};
+    w->out->error = smoother_mean(&w->smoother, w->mean, &out);
     w->out->converged = w->settings->rays || w->out->error <= w->settings->tolerance;
     // Four times the rays halve the error.
     const double left = w->out->error / w->settings->tolerance;
@@ -329,9 +312,7 @@ static void shoot(struct halves *w, double rays)
 {
     for (int k = 0; k < 2; k++)
         shots_pass(&w->shots[k], rays);
-    double(*h[2])[3] = {w->shots[0].h, w->shots[1].h};
-    double(*h_emitted[2])[3] = {w->shots[0].h_emitted, w->shots[1].h_emitted};
-    halves_add(w, h, h_emitted, rays);
+    halves_add(w, rays);
 }
 
 // From what was shot, elements gather until the error is met, each half by itself.
@@ -349,18 +330,17 @@ static void gather(struct halves *w, uint32_t most)
     w->done = 0; // what was shot is but the beginning
     while (w->out->steps < most && !w->out->converged &&
            !watch_cancelled(w->settings->watch)) {
-        double(*h[2])[3] = {w->shots[0].h, w->shots[1].h};
-        double(*h_emitted[2])[3] = {w->shots[0].h_emitted, w->shots[1].h_emitted};
         for (int k = 0; k < 2; k++) {
             for (uint32_t i = 0; i < n; i++) {
                 double rho[3];
                 element_reflectance(&w->s->e->element[i], rho);
                 for (int c = 0; c < 3; c++)
-                    b[i][c] = source[i][c] + rho[c] * w->h[k][i][c];
+                    b[i][c] = source[i][c] + rho[c] * w->mean[k].h[i][c];
             }
-            w->out->rays += gather_pass(&g[k], b, first, count, h[k], h_emitted[k]);
+            w->out->rays +=
+                gather_pass(&g[k], b, first, count, w->shots[k].h, w->shots[k].h_emitted);
         }
-        halves_add(w, h, h_emitted, count);
+        halves_add(w, count);
         first += count;
         count = first; // as many again
     }
@@ -401,23 +381,24 @@ void solve_stochastic(struct radiosity_solution *out, const struct radiosity_sys
     struct halves w = {.s = s, .settings = settings, .out = out};
     for (uint32_t k = 0; k < 2; k++) {
         shots_init(&w.shots[k], s, settings, k);
-        w.h[k] = solver_alloc(n, sizeof *w.h[k]);
+        w.mean[k].h = solver_alloc(n, sizeof *w.mean[k].h);
+        w.mean[k].h_emitted = solver_alloc(n, sizeof *w.mean[k].h_emitted);
     }
+    smoother_init(&w.smoother, s, settings->threads);
     if (n && !watch_cancelled(settings->watch))
         shoot(&w, settings->rays ? (double)settings->rays / 2 : fmax(start * n, 4096));
     const bool gathers = n && !out->converged;
     if (gathers)
         gather(&w, most);
-    for (uint32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++)
-            out->h[i][c] = (w.h[0][i][c] + w.h[1][i][c]) / 2;
     if (gathers && s->closed)
         balance(out, s);
     finish(out, s, w.shots);
     out->rays += w.shots[0].rays + w.shots[1].rays;
-    out->bytes = (double)n * (2 * (2 * sizeof *w.h[0] + 2 * sizeof *w.h[0] + 60) + 72);
+    out->bytes = (double)n * STOCHASTIC_BYTES;
     for (int k = 0; k < 2; k++) {
         shots_free(&w.shots[k]);
-        free(w.h[k]);
+        free(w.mean[k].h);
+        free(w.mean[k].h_emitted);
     }
+    smoother_free(&w.smoother);
 }

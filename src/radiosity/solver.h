@@ -30,6 +30,8 @@ struct solver_settings {
     struct watch *watch;
 };
 extern const struct solver_settings solver_defaults;
+// Bytes an element takes in the solver without a matrix.
+enum { STOCHASTIC_BYTES = 900 };
 
 struct radiosity_solution {
     uint32_t count;

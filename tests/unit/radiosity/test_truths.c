@@ -50,10 +50,12 @@ static const struct factor_case cases[] = {
     {"T10 discs 1, 2 at 1.5",
      CAMERA("<3, 0, .5>") "disc { 0, z, 1" A_ "} disc { 1.5*z, z, 2" B_ "}", UP, ANY,
      0.601653344388043880, PI, 0.012, 160},
-    // Seen from <3, 0, .5>, 600 patches of them lose a disc (doc/radiosity.md).
     {"T10 discs 1, .5 at 3",
      CAMERA("<.1, 0, 1.5>") "disc { 0, z, 1" A_ "} disc { 3*z, z, .5" B_ "}", UP, ANY,
      0.0244485592242087456, PI, 0.012, 160},
+    {"T10 discs 1, .5 at 3, seen from the side",
+     CAMERA("<4, .2, 1.5>") "disc { 0, z, 1" A_ "} disc { 3*z, z, .5" B_ "}", UP, ANY,
+     0.0244485592242087456, PI, 0.012, 600},
     {"T10 discs at .01",
      CAMERA("<.1, 0, .005>") "disc { 0, z, 1" A_ "} disc { .01*z, z, 1" B_ "}", UP, ANY,
      0.990049875000781, PI, 0.12, 160},
