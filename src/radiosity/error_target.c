@@ -8,7 +8,7 @@
 
 enum { LEVELS_MOST = 12, FIRST_ELEMENTS = 150 };
 
-// ---- the estimate ------------------------------------------------------------------
+// ---- what is refined ---------------------------------------------------------------
 // What elements reflect; areas beside.
 struct reflected {
     uint32_t count;
@@ -38,32 +38,6 @@ static void light_free(struct reflected *l)
     *l = (struct reflected){0};
 }
 
-// Relative rms difference of the means over the coarse elements: what a coarse element
-// does wrong as a whole. Within an element light varies, which the picture interpolates.
-static double difference(const struct reflected *fine, const uint32_t *origin,
-                         const struct reflected *coarse)
-{
-    double off = 0, all = 0;
-    double(*mean)[3] = solver_alloc(coarse->count, sizeof *mean);
-    double *area = solver_alloc(coarse->count, sizeof *area);
-    for (uint32_t i = 0; i < fine->count; i++) {
-        area[origin[i]] += fine->area[i];
-        for (int c = 0; c < 3; c++)
-            mean[origin[i]][c] += fine->area[i] * fine->of[i][c];
-    }
-    for (uint32_t e = 0; e < coarse->count; e++) {
-        for (int c = 0; c < 3 && area[e] > 0; c++) {
-            const double b = mean[e][c] / area[e], d = b - coarse->of[e][c];
-            off += area[e] * d * d;
-            all += area[e] * b * b;
-        }
-    }
-    free(mean);
-    free(area);
-    return all > 0 ? sqrt(off / all) : 0;
-}
-
-// ---- what is refined ---------------------------------------------------------------
 struct change {
     double value;
     uint32_t element;
@@ -77,9 +51,10 @@ static int by_value(const void *a, const void *b)
     return x->element < y->element ? -1 : 1;
 }
 
-// Elements with the greatest steps to their neighbours, times the area, up to a share of
-// all such steps.
-static bool *choose(const struct radiosity *r, const struct reflected *l)
+// Elements with the greatest steps to their neighbours, times the area, or found to be off
+// by more, up to a share of all of that.
+static bool *choose(const struct radiosity *r, const struct reflected *l,
+                    const double *off)
 {
     static const double share = .9;
     const uint32_t n = l->count;
@@ -93,7 +68,7 @@ static bool *choose(const struct radiosity *r, const struct reflected *l)
             for (int c = 0; c < 3 && j != ELEMENT_NONE; c++)
                 step = fmax(step, fabs(l->of[i][c] - l->of[j][c]));
         }
-        change[i] = (struct change){l->area[i] * step * step, i};
+        change[i] = (struct change){fmax(l->area[i] * step * step, off[i]), i};
         all += change[i].value;
     }
     qsort(change, n, sizeof *change, by_value);
@@ -119,24 +94,15 @@ static bool level_solve(struct radiosity *r, uint32_t level, char *error,
     return radiosity_level(r, error, error_size);
 }
 
-// From the step between two levels, continued: what is left after the last one falls as
-// the steps do, within bounds.
-static double error_left(double step, double before)
+static void refine(struct radiosity *r, const double *off)
 {
-    static const double fast = .3, slow = .6;
-    double q = .5;
-    if (before > 0)
-        q = fmin(fmax(step / before, fast), slow);
-    return step * q / (1 - q);
-}
-
-static void refine(struct radiosity *r, struct reflected *light, uint32_t **origin)
-{
-    bool *split = choose(r, light);
+    struct reflected light = light_of(r);
+    bool *split = choose(r, &light, off);
+    light_free(&light);
     solution_free(&r->solution);
     free(r->lamps);
     r->lamps = NULL;
-    *origin = patches_refine(r->patches, split);
+    free(patches_refine(r->patches, split));
     free(split);
 }
 
@@ -145,9 +111,7 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
 {
     static const double visibility = 2.5e-2; // error of a factor, of the target
     const double target = r->settings.error;
-    struct reflected last = {0};
-    uint32_t *origin = NULL;
-    double before = 0;
+    double *off = NULL;
     bool ok = true;
     r->settings.patches.size = 0;
     r->settings.patches.count = FIRST_ELEMENTS;
@@ -164,27 +128,16 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
     r->report.converged = false;
     for (uint32_t level = 0; ok && level < LEVELS_MOST; level++) {
         if (level)
-            refine(r, &last, &origin);
+            refine(r, off);
+        free(off);
         ok = level_solve(r, level, error, error_size);
-        struct reflected light = ok ? light_of(r) : (struct reflected){0};
-        if (ok && level) {
-            const double step = difference(&light, origin, &last);
-            const double mesh = error_left(step, before);
-            const double rest = fmax(r->solution.error, 0);
-            r->report.error = sqrt(mesh * mesh + rest * rest);
-            before = step;
-        } else {
-            r->report.error = 1;
-        }
+        off = solver_alloc(r->patches->element_count, sizeof *off);
+        r->report.error = ok ? fmax(radiosity_probe(r, off), r->solution.error) : 1;
         r->report.converged = ok && r->report.error <= target;
-        light_free(&last);
-        last = light;
-        free(origin);
-        origin = NULL;
         if (r->report.converged)
             break;
     }
-    light_free(&last);
+    free(off);
     if (ok)
         r->key = radiosity_key(r);
     return ok;

@@ -72,7 +72,8 @@ static void room_add(struct patches *p, struct vec3 at, uint32_t except)
         uint32_t k = 0;
         while (k < p->room_count && p->room[k] < object[i])
             k++;
-        if (object[i] == except || !encloses(p->job->world, object[i]) || (k < p->room_count && p->room[k] == object[i]))
+        if (object[i] == except || !encloses(p->job->world, object[i]) ||
+            (k < p->room_count && p->room[k] == object[i]))
             continue;
         memmove(p->room + k + 1, p->room + k, (p->room_count - k) * sizeof *p->room);
         p->room[k] = object[i];

@@ -81,6 +81,10 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size);
 // Solves at rising numbers of elements until the estimated error is met.
 bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
                         size_t error_size);
+// The estimated error of what the elements show, relative rms of the reflected light.
+// share: of each element, the square of what it is off times its area; 0 where none of
+// the few points lay on it.
+double radiosity_probe(struct radiosity *r, double *share);
 void radiosity_level_free(struct radiosity *r);
 
 #endif

@@ -197,6 +197,68 @@ static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
             g->h[i][c] += g->h_emitted[i][c];
 }
 
+// ---- at a point --------------------------------------------------------------------
+static void point_around(const struct gather *g, struct factor_state *s,
+                         const struct element_point *at, uint32_t seed, uint32_t rays,
+                         double h[3])
+{
+    s->rays->count = 0;
+    for (uint32_t k = 0; k < rays; k++) {
+        double x[4];
+        sobol_point(k, seed, x);
+        ray_put(s->rays, at, cosine_direction(at->normal, x[0], x[1]), INFINITY);
+    }
+    g->s->e->closest(s->of_enclosure, s->rays, s->met);
+    for (uint32_t r = 0; r < rays; r++) {
+        double own[3];
+        if (s->met[r] == ELEMENT_NONE)
+            continue;
+        element_emission(&g->s->e->element[s->met[r]], own);
+        for (int c = 0; c < 3; c++)
+            h[c] += (g->b[s->met[r]][c] - (g->direct ? own[c] : 0)) / rays;
+    }
+    s->rays->count = 0;
+}
+
+static void point_emitters(const struct gather *g, struct factor_state *s,
+                           const struct element_point *at, uint32_t seed, uint32_t rays,
+                           double h[3])
+{
+    double light[GATHER_BATCH][3], offset[4];
+    random_point(0, seed, offset);
+    s->rays->count = 0;
+    for (uint32_t k = 0; k < rays; k++) {
+        struct element_point of;
+        double y[4], own[3];
+        const uint32_t n = emitter_at(g, (k + offset[0]) / rays * g->power);
+        const uint32_t e = g->emitter[n];
+        const double seen = factor_from_point(s, at, e);
+        if (seen <= 0 || !point_of(s, e, sequence_seed(seed, k), 0, y, &of))
+            continue;
+        const double chance = (g->up_to[n] - (n ? g->up_to[n - 1] : 0)) / g->power;
+        element_emission(&g->s->e->element[e], own);
+        for (int c = 0; c < 3; c++)
+            light[s->rays->count][c] = own[c] * seen / chance / rays;
+        ray_put_between(s->rays, at, &of);
+    }
+    if (g->s->e->occluded)
+        g->s->e->occluded(s->of_enclosure, s->rays, s->hidden);
+    for (uint32_t r = 0; r < s->rays->count; r++)
+        for (int c = 0; c < 3 && !(g->s->e->occluded && s->hidden[r]); c++)
+            h[c] += light[r][c];
+    s->rays->count = 0;
+}
+
+void gather_at(const struct gather *g, struct factor_state *s,
+               const struct element_point *at, uint32_t seed, uint32_t rays, double h[3])
+{
+    const uint32_t n = rays < GATHER_BATCH ? rays : GATHER_BATCH;
+    h[0] = h[1] = h[2] = 0;
+    point_around(g, s, at, sequence_seed(seed, 0), n, h);
+    if (g->direct && g->emitter_count)
+        point_emitters(g, s, at, sequence_seed(seed, 1), n, h);
+}
+
 uint64_t gather_pass(struct gather *g, double (*b)[3], uint32_t first, uint32_t count,
                      double (*h)[3], double (*h_emitted)[3])
 {

@@ -23,4 +23,8 @@ void gather_free(struct gather *g);
 uint64_t gather_pass(struct gather *g, double (*b)[3], uint32_t first, uint32_t count,
                      double (*h)[3], double (*h_emitted)[3]);
 
+// Irradiance at one point by elements of radiosity g->b, from so many rays (at most 1024).
+void gather_at(const struct gather *g, struct factor_state *s,
+               const struct element_point *at, uint32_t seed, uint32_t rays, double h[3]);
+
 #endif
