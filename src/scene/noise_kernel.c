@@ -65,32 +65,38 @@ LANES_INLINE struct real8 whole8(struct real8 x)
 #endif
 }
 
-LANES_INLINE struct real8 split8(struct real8 v, struct real8 *cell)
+// `near`: |v| < PLACE_NEAR in all lanes.
+#define PLACE_NEAR 0x1p50
+
+LANES_INLINE struct real8 split8(struct real8 v, bool near, struct real8 *cell)
 {
-    v = r8_select(r8_lt(r8_abs(v), r8_set(NOISE_FAR)), v, r8_set(0));
+    if (!near)
+        v = r8_select(r8_lt(r8_abs(v), r8_set(NOISE_FAR)), v, r8_set(0));
     const struct real8 below =
         r8_select(r8_lt(v, r8_set(0)), r8_set(1 - NOISE_EDGE), r8_set(0));
-    // A sum with 0 has no negative zero.
-    const struct real8 t = r8_add(whole8(r8_sub(v, below)), r8_set(0));
-    *cell = t;
-    return r8_sub(v, t);
+    *cell = whole8(r8_sub(v, below));
+    return r8_sub(v, *cell);
 }
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-// 10000 cells further, modulo 4096.
-LANES_INLINE __m512i number8(struct real8 cell, uint64_t out[8])
+// 10000 cells further, modulo 4096. Near: the last bits of a sum that rounds to whole
+// numbers.
+LANES_INLINE __m512i number8(struct real8 cell, bool near, uint64_t out[8])
 {
-    const __m512i n = _mm512_and_si512(
-        _mm512_add_epi64(_mm512_cvttpd_epi64(cell.a), _mm512_set1_epi64(10000)),
-        _mm512_set1_epi64(4095));
+    const __m512i sum =
+        near
+            ? _mm512_castpd_si512(_mm512_add_pd(cell.a, _mm512_set1_pd(0x1.8p52 + 10000)))
+            : _mm512_add_epi64(_mm512_cvttpd_epi64(cell.a), _mm512_set1_epi64(10000));
+    const __m512i n = _mm512_and_si512(sum, _mm512_set1_epi64(4095));
     _mm512_storeu_si512(out, n);
     return n;
 }
 
-LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+LANES_INLINE void number_cells(struct vec8 cell, bool near, struct place8 *p)
 {
-    const __m512i x = number8(cell.x, p->number[0]), y = number8(cell.y, p->number[1]),
-                  z = number8(cell.z, p->number[2]);
+    const __m512i x = number8(cell.x, near, p->number[0]),
+                  y = number8(cell.y, near, p->number[1]),
+                  z = number8(cell.z, near, p->number[2]);
     p->key = _mm512_or_si512(
         _mm512_or_si512(_mm512_slli_epi64(x, 24), _mm512_slli_epi64(y, 12)), z);
 }
@@ -108,15 +114,14 @@ LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
         p->key, _mm512_permutexvar_epi64(_mm512_set1_epi64(lane), p->key));
 }
 #elif defined(__AVX2__)
-// 10000 cells further, modulo 4096: the last bits of a sum that rounds to whole numbers.
-LANES_INLINE keys8 number8(struct real8 cell, uint64_t out[8])
+// As above.
+LANES_INLINE keys8 number8(struct real8 cell, bool near, uint64_t out[8])
 {
-    static const double far = 0x1p51;
     const __m256d more = _mm256_set1_pd(0x1.8p52 + 10000);
     const __m256i mask = _mm256_set1_epi64x(4095);
     keys8 n = {_mm256_and_si256(mask, _mm256_castpd_si256(_mm256_add_pd(cell.a, more))),
                _mm256_and_si256(mask, _mm256_castpd_si256(_mm256_add_pd(cell.b, more)))};
-    if (m8_bits(r8_lt(r8_abs(cell), r8_set(far))) != 255) {
+    if (!near) {
         double c[8];
         r8_store(c, cell);
         for (int i = 0; i < 8; i++)
@@ -135,10 +140,11 @@ LANES_INLINE __m256i key4(__m256i x, __m256i y, __m256i z)
         _mm256_or_si256(_mm256_slli_epi64(x, 24), _mm256_slli_epi64(y, 12)), z);
 }
 
-LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+LANES_INLINE void number_cells(struct vec8 cell, bool near, struct place8 *p)
 {
-    const keys8 x = number8(cell.x, p->number[0]), y = number8(cell.y, p->number[1]),
-                z = number8(cell.z, p->number[2]);
+    const keys8 x = number8(cell.x, near, p->number[0]),
+                y = number8(cell.y, near, p->number[1]),
+                z = number8(cell.z, near, p->number[2]);
     p->key = (keys8){key4(x.a, y.a, z.a), key4(x.b, y.b, z.b)};
 }
 
@@ -165,8 +171,9 @@ LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
     return same_keys(p->key, k, k);
 }
 #else
-LANES_INLINE void number_cells(struct vec8 cell, struct place8 *p)
+LANES_INLINE void number_cells(struct vec8 cell, bool near, struct place8 *p)
 {
+    (void)near;
     double c[3][8];
     r8_store(c[0], cell.x);
     r8_store(c[1], cell.y);
@@ -195,14 +202,22 @@ LANES_INLINE unsigned key_lanes(const struct place8 *p, int lane)
 }
 #endif
 
-LANES_INLINE void place_of(struct vec8 p, double scale, struct place8 *out)
+LANES_INLINE void place_of(struct vec8 p, double scale, bool near, struct place8 *out)
 {
     struct vec8 cell;
     const struct real8 s = r8_set(scale);
-    out->fx = split8(r8_mul(s, p.x), &cell.x);
-    out->fy = split8(r8_mul(s, p.y), &cell.y);
-    out->fz = split8(r8_mul(s, p.z), &cell.z);
-    number_cells(cell, out);
+    out->fx = split8(r8_mul(s, p.x), near, &cell.x);
+    out->fy = split8(r8_mul(s, p.y), near, &cell.y);
+    out->fz = split8(r8_mul(s, p.z), near, &cell.z);
+    number_cells(cell, near, out);
+}
+
+// Whether all points stay near, even times `scale`.
+LANES_INLINE bool are_near(struct vec8 p, double scale)
+{
+    const struct real8 least = r8_set(PLACE_NEAR / fmax(1, fabs(scale)));
+    return m8_bits(m8_and(m8_and(r8_lt(r8_abs(p.x), least), r8_lt(r8_abs(p.y), least)),
+                          r8_lt(r8_abs(p.z), least))) == 255;
 }
 
 static inline const double *corner(unsigned hash_xy, unsigned z)
@@ -295,10 +310,10 @@ LANES_INLINE void corners_of(const struct place8 *l, struct corner8 out[8])
                                   dx[c & 1], dy[c >> 1 & 1], dz[c >> 2]};
 }
 
+// Of numbers.
 LANES_INLINE struct real8 clamp8(struct real8 v)
 {
-    const struct real8 zero = r8_set(0), one = r8_set(1);
-    return r8_select(r8_lt(v, zero), zero, r8_select(r8_lt(one, v), one, v));
+    return r8_min(r8_max(v, r8_set(0)), r8_set(1));
 }
 
 LANES_INLINE struct real8 value_corners8(const struct place8 *p, const struct lattice8 *l,
@@ -423,7 +438,7 @@ static void value(const double p[3][8], double scale, int generator, double out[
         r8_store(out, gradient_value8(at, scale));
         return;
     }
-    place_of(at, scale, &place);
+    place_of(at, scale, are_near(at, scale), &place);
     r8_store(out, lattice_value8(&place, generator));
 }
 
@@ -472,7 +487,8 @@ LANES_INLINE void store8(double out[3][8], struct vec8 v)
 static void vector(const double p[3][8], double scale, double out[3][8])
 {
     struct place8 place;
-    place_of(load8(p), scale, &place);
+    const struct vec8 at = load8(p);
+    place_of(at, scale, are_near(at, scale), &place);
     store8(out, vector8(&place));
 }
 
@@ -501,8 +517,18 @@ enum { AHEAD = 4 };
 LANES_INLINE void look_ahead(struct vec8 at, double scale, double lambda, int left,
                              struct place8 out[AHEAD])
 {
-    for (int k = 0; k < AHEAD && (k == 0 || k < left); k++, scale *= lambda)
-        place_of(at, scale, &out[k]);
+    const int count = left < 1 ? 1 : left < AHEAD ? left : AHEAD;
+    double largest = fabs(scale), last = scale;
+    for (int k = 1; k < count; k++) {
+        last *= lambda;
+        largest = fmax(largest, fabs(last));
+    }
+    if (are_near(at, largest))
+        for (int k = 0; k < count; k++, scale *= lambda)
+            place_of(at, scale, true, &out[k]);
+    else
+        for (int k = 0; k < count; k++, scale *= lambda)
+            place_of(at, scale, false, &out[k]);
 }
 
 static void values(const double p[3][8], const struct noise_octaves *o, int generator,
