@@ -50,7 +50,8 @@ static double unpremultiply(double c[3], double alpha)
 // The encoding is monotone, so a code is found by comparing with the least value of each
 // code: the same result as the formula, without a power per sample.
 
-enum { BUCKET_BITS = 17, BUCKETS = 13 << (23 - BUCKET_BITS), EXPONENT_LEAST = 127 - 13 };
+// So fine that buckets mostly have one border between 8 bit codes at most.
+enum { BUCKET_BITS = 15, BUCKETS = 13 << (23 - BUCKET_BITS), EXPONENT_LEAST = 127 - 13 };
 
 // A table costs more than it saves for files of more bits.
 enum { TABLE_BITS_MAX = 10 };
@@ -179,6 +180,7 @@ static uint16_t code_of(const struct quantizer *q, const struct image_write_opti
     if (!q->least)
         return quantize(encode(o, v), q->max);
     int i = q->guess[bucket_of((float)v)];
+    i += v >= q->least[i + 1]; // no branch: noise is hard to predict
     while (v < q->least[i])
         i--;
     while (v >= q->least[i + 1])
