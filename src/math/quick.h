@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "math/elementary.h"
+
 // Elementary functions for inner loops of geometry: the same bits on every CPU, as det_*,
 // but a few roundings off instead of below one. Errors are given in units of ROUNDOFF.
 
@@ -23,7 +25,8 @@ static inline double quick_log(double x)
     const double s = (m - 1) / (m + 1), s2 = s * s, s4 = s2 * s2, s8 = s4 * s4;
     const double a = 1. / 3 + s2 * (1. / 5), b = 1. / 7 + s2 * (1. / 9);
     const double c = 1. / 11 + s2 * (1. / 13), d = 1. / 15 + s2 * (1. / 17);
-    const double tail = (a + s4 * b) + s8 * ((c + s4 * d) + s8 * (1. / 19 + s2 * (1. / 21)));
+    const double tail =
+        (a + s4 * b) + s8 * ((c + s4 * d) + s8 * (1. / 19 + s2 * (1. / 21)));
     return (double)k * 0x1.62e42fefa39efp-1 + (2 * s + 2 * s * s2 * tail);
 }
 
@@ -53,6 +56,29 @@ static inline double quick_pow(double x, double y)
     if (!(e > -700 && e < 700))
         return e > 0 ? HUGE_VAL : e <= 0 ? 0 : e;
     return quick_exp(e);
+}
+
+// atan2(y, x): relative error <= 4. atan(c) for c the quarter next to the ratio, and the
+// series of the rest, which is at most 1/8.
+static inline double quick_atan2(double y, double x)
+{
+    static const double quarters[] = {0, 0x1.f5b75f92c80ddp-3, 0x1.dac670561bb4fp-2,
+                                      0x1.4978fa3269ee1p-1, 0x1.921fb54442d18p-1};
+    static const double term[] = {1. / 21,  -1. / 19, 1. / 17, -1. / 15, 1. / 13,
+                                  -1. / 11, 1. / 9,   -1. / 7, 1. / 5,   -1. / 3};
+    const double ax = fabs(x), ay = fabs(y);
+    const double num = ax < ay ? ax : ay, den = ax < ay ? ay : ax;
+    if (!(0x1p-900 < den && den < HUGE_VAL))
+        return det_atan2(y, x);
+    const double k = floor(4 * (num / den) + 0.5), c = k * 0.25;
+    const double t = (num - c * den) / (den + c * num), t2 = t * t;
+    double p = term[0];
+    for (int i = 1; i < 10; i++)
+        p = p * t2 + term[i];
+    double a = quarters[(int)k] + (t + (t * t2) * p);
+    a = ax < ay ? 0x1.921fb54442d18p+0 - a : a;
+    a = x < 0 ? 0x1.921fb54442d18p+1 - a : a;
+    return copysign(a, y);
 }
 
 // sin and cos for |x| < 10^5: |error| <= 2.

@@ -46,8 +46,7 @@ LANES_INLINE void quick_sincos8(struct real8 x, struct real8 *sine, struct real8
 #undef MAD
 }
 
-// det_atan2 to 4 units of ROUNDOFF, relative: atan(c) for c the quarter next to the ratio,
-// and the series of the rest, which is at most 1/8.
+// quick_atan2, operation by operation.
 static inline struct real8 quick_atan2_8(struct real8 y, struct real8 x)
 {
     static const double term[] = {1. / 21,  -1. / 19, 1. / 17, -1. / 15, 1. / 13,

@@ -23,8 +23,8 @@ static bool spherical(struct vec3 p, double *u, double *v)
         return false;
     p = vec3(p.x / rho, p.y / rho, p.z / rho);
     const double length = sqrt(p.x * p.x + p.z * p.z);
-    *u = length == 0 ? 0 : azimuth(p.x, p.z, length) / (2 * PATTERN_PI);
-    *v = 0.5 + det_asin(p.y < -1 ? -1 : p.y > 1 ? 1 : p.y) / PATTERN_PI;
+    *u = length == 0 ? 0 : azimuth(p.x, p.z) / (2 * PATTERN_PI);
+    *v = 0.5 + quick_atan2(p.y, length) / PATTERN_PI;
     return true;
 }
 
@@ -34,10 +34,10 @@ static bool toroidal(struct vec3 p, double *u, double *v)
     const double r = sqrt(x * x + p.y * p.y);
     if (length == 0 || r == 0)
         return false;
-    double phi = det_acos(-x / r);
+    double phi = quick_atan2(fabs(p.y), -x);
     if (p.y > 0)
         phi = 2 * PATTERN_PI - phi;
-    *u = azimuth(p.x, p.z, length) / (2 * PATTERN_PI);
+    *u = azimuth(p.x, p.z) / (2 * PATTERN_PI);
     *v = phi / (2 * PATTERN_PI);
     return true;
 }
@@ -55,7 +55,7 @@ static bool project(const struct image_map *m, struct vec3 p, double w, double h
     case IMAGE_CYLINDRICAL:
         if (length == 0 || (m->once && (p.y < 0 || p.y > 1)))
             return false;
-        *u = azimuth(p.x, p.z, length) / (2 * PATTERN_PI) * w;
+        *u = azimuth(p.x, p.z) / (2 * PATTERN_PI) * w;
         *v = fmod(p.y * h, h);
         return true;
     case IMAGE_TOROIDAL:

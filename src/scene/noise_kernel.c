@@ -583,6 +583,22 @@ static void cycloidals(const double v[8], double out[8])
     r8_store(out, cycloidal8(r8_load(v)));
 }
 
+static void sines(const double v[8], double out[8])
+{
+    const struct real8 x = r8_load(v);
+    struct real8 s, c;
+    quick_sincos8(x, &s, &c);
+    r8_store(out, s);
+    const unsigned near = m8_bits(r8_lt(r8_abs(x), r8_set(QUICK_SINE_MOST)));
+    for (unsigned bits = 255 & ~near; bits; bits &= bits - 1)
+        out[__builtin_ctz(bits)] = det_sin(v[__builtin_ctz(bits)]);
+}
+
+static void angles(const double y[8], const double x[8], double out[8])
+{
+    r8_store(out, quick_atan2_8(r8_load(y), r8_load(x)));
+}
+
 static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
 
 const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
@@ -593,6 +609,8 @@ const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
                                                          PASTE(noise_nearest_, ISA),
                                                          PASTE(noise_bounds_, ISA),
                                                          cycloidals,
+                                                         sines,
+                                                         angles,
                                                          powers,
                                                          PASTE(noise_rings_, ISA),
                                                          PASTE(noise_ring_slopes_, ISA),

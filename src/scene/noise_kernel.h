@@ -65,6 +65,8 @@ struct noise_kernels {
     noise_bounds_kernel *bounds;
     // cycloidal of scene/pattern_math.h, and quick_pow.
     void (*cycloidal)(const double v[8], double out[8]);
+    void (*sine)(const double v[8], double out[8]);                     // pattern_sine
+    void (*atan2)(const double y[8], const double x[8], double out[8]); // quick_atan2
     void (*power)(const double x[8], double y, double out[8]);
     noise_rings_kernel *rings;
     noise_ring_slopes_kernel *ring_slopes;

@@ -19,6 +19,7 @@ double pattern_wave(const struct pattern *p, double v);
 // The small functions that the formulas of spec/textures are written in (section 0).
 
 #define PATTERN_PI   3.14159265358979323846
+#define QUICK_SINE_MOST 1e5
 #define PATTERN_EDGE 1e-10 // EPS of the specification: part of the pictures
 
 static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
@@ -67,13 +68,23 @@ static inline int pattern_wave_count(const struct pattern *p)
     return n < 1 ? 1 : n;
 }
 
-// Angle of (x, z) from the x axis, 0..2pi (spec/textures 4.3); length of (x, z) given.
-static inline double azimuth(double x, double z, double length)
+// Angle of (x, z) from the x axis, 0..2pi (spec/textures 4.3).
+static inline double azimuth(double x, double z)
 {
     if (z == 0)
         return x > 0 ? 0 : PATTERN_PI;
-    double a = det_acos(x / length);
-    return z < 0 ? 2 * PATTERN_PI - a : a;
+    const double a = quick_atan2(z, x);
+    return a < 0 ? 2 * PATTERN_PI + a : a;
+}
+
+// sin(x), but for the last two bits of most.
+static inline double pattern_sine(double x)
+{
+    double sine, cosine;
+    if (!(fabs(x) < QUICK_SINE_MOST))
+        return det_sin(x);
+    quick_sincos(x, &sine, &cosine);
+    return sine;
 }
 
 #endif

@@ -2,15 +2,29 @@
 
 #include "scene/pattern_math.h"
 
+static double turned(double angle)
+{
+    return 0.25 + (angle + PATTERN_PI) / (2 * PATTERN_PI);
+}
+
+static bool is_axis(double x, double z) { return fabs(x) < 0.001 && fabs(z) < 0.001; }
+
 static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
     (void)p;
     (void)c;
-    if (fabs(at.x) < 0.001 && fabs(at.z) < 0.001)
-        return 0.25;
-    return 0.25 + (det_atan2(at.x, at.z) + PATTERN_PI) / (2 * PATTERN_PI);
+    return is_axis(at.x, at.z) ? 0.25 : turned(quick_atan2(at.x, at.z));
+}
+
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    (void)p;
+    k->atan2(at[0], at[2], out);
+    for (int i = 0; i < 8; i++)
+        out[i] = is_axis(at[0][i], at[2][i]) ? 0.25 : turned(out[i]);
 }
 
 const struct pattern_ops radial_pattern_ops = {
-    .keyword = "radial", .frequency = 1, .value = value};
+    .keyword = "radial", .frequency = 1, .value = value, .values = values};

@@ -9,7 +9,7 @@ static inline double spiral_value(const struct pattern *p, struct vec3 at, doubl
     const double r = sqrt(at.x * at.x + at.y * at.y);
     double angle = 0;
     if (r != 0) {
-        angle = det_asin(at.y / r);
+        angle = quick_atan2(at.y, fabs(at.x));
         angle = at.x < 0 ? 3 * PATTERN_PI / 2 - angle : PATTERN_PI / 2 + angle;
     }
     double v = at.z + r + p->integer[0] * angle / (2 * PATTERN_PI);
