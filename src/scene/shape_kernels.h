@@ -35,8 +35,10 @@ unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
 // What shapes have compiled once per instruction set, with the same results.
 struct blob;
 struct extrude_solid;
+struct height_field;
 struct isosurface;
 struct julia;
+struct patch;
 struct polygon;
 struct superellipsoid;
 struct poly;
@@ -45,8 +47,12 @@ struct shape_kernels {
                      struct shape_hits *out, unsigned *odd);
     unsigned (*extrude)(const struct extrude_solid *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out, unsigned *odd);
+    unsigned (*height_field)(const struct height_field *f, const struct shape_rays *rays,
+                             unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*isosurface)(const struct isosurface *s, const struct shape_rays *rays,
                            unsigned lanes, bool any, struct shape_hits *out);
+    unsigned (*patch)(const struct patch *p, const struct shape_rays *rays,
+                      unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
     unsigned (*julia)(const struct julia *j, const struct shape_rays *rays, unsigned lanes,

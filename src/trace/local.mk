@@ -21,7 +21,9 @@ packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noi
 	src/scene/shapes/blob.h src/scene/shapes/blob_lanes.c \
 	src/scene/shapes/extrude_lanes.c src/scene/shapes/extrude_lanes.h src/scene/shapes/outline_lanes.h \
 	src/scene/shapes/polygon.h src/scene/shapes/polygon_lanes.c \
+	src/scene/shapes/height_field_lanes.c src/scene/shapes/height_field_lanes.h \
 	src/scene/shapes/isosurface_lanes.c src/scene/shapes/isosurface_lanes.h \
+	src/scene/shapes/patch_lanes.c src/scene/shapes/patch_lanes.h \
 	src/scene/shapes/isosurface_lane_roots.h src/scene/shapes/isosurface_lane_values.h \
 	src/scene/shapes/julia_lanes.c src/scene/shapes/julia_lanes.h src/scene/shapes/lanes.h src/scene/shapes/superellipsoid_lanes.c src/scene/shapes/poly_lanes.c src/scene/shapes/poly_lanes.h \
 	%D%/packet_kernel.c %D%/packet_product.h %D%/packet_quick.h \

@@ -71,6 +71,29 @@ static const char *const shapes[] = {
     "rand(S)>*1.6 - .8, .3, 1 } #end }",
 };
 
+// Trees and grids, which rays meet at edges and corners too.
+static const char *const walked[] = {
+    "height_field { function 9, 9 { x*y } }",
+    "height_field { function 5, 9 { sin(12*x)*cos(9*y)/2 + .5 } water_level .4 }",
+    "height_field { function 3, 2 { abs(x - .4) } smooth }",
+    "height_field { function 70, 33 { pattern { bumps scale .05 } } }",
+    "height_field { function 9, 9 { .5 } }",
+    "bicubic_patch { type 1 <-1, 0, -1>, <-.3, .3, -1>, <.3, -.3, -1>, <1, 0, -1>, "
+    "<-1, .2, -.3>, <-.3, .9, -.3>, <.3, -.9, -.3>, <1, .3, -.3>, <-1, -.2, .3>, "
+    "<-.3, -.9, .3>, <.3, .9, .3>, <1, .1, .3>, <-1, 0, 1>, <-.3, .1, 1>, <.3, .6, 1>, "
+    "<1, 0, 1> }",
+    "bicubic_patch { type 1 <-1, 0, -1>, <-.3, 0, -1>, <.3, 0, -1>, <1, 0, -1>, "
+    "<-1, 0, -.3>, <-.3, 0, -.3>, <.3, 0, -.3>, <1, 0, -.3>, <-1, 0, .3>, <-.3, 0, .3>, "
+    "<.3, 0, .3>, <1, 0, .3>, <-1, 0, 1>, <-.3, 0, 1>, <.3, 0, 1>, <1, 0, 1> }",
+    "bicubic_patch { type 1 <0, 1, 0>, <0, 1, 0>, <0, 1, 0>, <0, 1, 0>, <.55, 1, 0>, "
+    "<.55, 1, .3>, <.3, 1, .55>, <0, 1, .55>, <1, .55, 0>, <1, .55, .55>, "
+    "<.55, .55, 1>, <0, .55, 1>, <1, 0, 0>, <1, 0, .55>, <.55, 0, 1>, <0, 0, 1> }",
+    "bicubic_patch { type 1 <-1, 0, -1>, <2, 0, -1>, <-2, 0, -1>, <1, 0, -1>, "
+    "<-1, .5, -.3>, <2, .5, -.3>, <-2, .5, -.3>, <1, .5, -.3>, <-1, .5, .3>, "
+    "<2, .5, .3>, <-2, .5, .3>, <1, .5, .3>, <-1, 0, 1>, <2, 0, 1>, <-2, 0, 1>, "
+    "<1, 0, 1> }",
+};
+
 // Those whose lanes have the bits of the one line's crossings.
 static const char *const same_bits[] = {
     "prism { -.4, .5, 5, <-.8, -.7>, <.9, -.5>, <.7, .8>, <-.6, .6>, <-.8, -.7> }",
@@ -126,6 +149,7 @@ static const char *const same_hits[] = {
 
 enum {
     SHAPES = sizeof shapes / sizeof *shapes,
+    WALKED = sizeof walked / sizeof *walked,
     SAME_BITS = sizeof same_bits / sizeof *same_bits,
     SAME_HITS = sizeof same_hits / sizeof *same_hits,
     PACKETS = 50,
@@ -138,6 +162,13 @@ static double unit(uint64_t *s)
     return ((double)(*s >> 33) + .5) / 2147483648.;
 }
 
+// Now and then on a grid.
+static double coordinate(uint64_t *s)
+{
+    const double v = 2 * unit(s) - 1, kind = unit(s);
+    return kind < .05 ? 0 : kind < .2 ? round(4 * v) / 4 : v;
+}
+
 // Side by side or in all directions, from outside or inside, some along an axis, some
 // through the middle.
 static void random_rays(uint64_t *s, struct shape_rays *r)
@@ -148,12 +179,14 @@ static void random_rays(uint64_t *s, struct shape_rays *r)
     for (int l = 0; l < 8; l++) {
         for (int k = 0; k < 3; k++)
             if (l == 0 || !together) {
-                p[k] = unit(s) < .05 ? 0 : 2 * unit(s) - 1;
-                d[k] = axis ? k == along : 2 * unit(s) - 1;
+                p[k] = coordinate(s);
+                d[k] = axis ? k == along : coordinate(s);
             } else {
                 p[k] += .02 * unit(s);
                 d[k] += axis ? 0 : .02 * unit(s);
             }
+        if (d[0] == 0 && d[1] == 0 && d[2] == 0)
+            d[along] = -1;
         for (int k = 0; k < 3; k++) {
             r->o[k][l] = p[k] - (inside ? 0 : 3 * d[k]);
             r->d[k][l] = d[k];
@@ -293,6 +326,19 @@ static void eight_rays_meet_what_one_line_does(void **state)
         }
 }
 
+static void eight_rays_walk_as_one_line_does(void **state)
+{
+    (void)state;
+    for (int i = 0; i < WALKED; i++)
+        for (int any = 0; any < 2; any++) {
+            struct loaded l;
+            load(&l, "%s", walked[i]);
+            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            look(&l, walked[i], any != 0, MORE_PACKETS, false);
+            unload(&l);
+        }
+}
+
 static void eight_rays_have_the_bits_of_one_line(void **state)
 {
     (void)state;
@@ -404,6 +450,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_rays_meet_what_one_line_does),
+        cmocka_unit_test(eight_rays_walk_as_one_line_does),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
         cmocka_unit_test(carved_shapes_are_as_the_sweep_has_them),

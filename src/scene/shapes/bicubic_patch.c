@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "scene/args.h"
-#include "scene/shape.h"
+#include "scene/shape_kernels.h"
 #include "scene/shapes/extrude.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/patch.h"
@@ -15,14 +15,15 @@ struct bicubic {
     struct patch patch;
     struct vec2 uv[4];
     long type;
-    bool empty; // a point or a line
-    double hint[4]; // as hint_word
+    bool empty;                   // a point or a line
+    double hint[4];               // as hint_word
     const struct mesh *triangles; // drawn instead; NULL: the surface
     struct arena *arena;          // to make them anew
 };
 
 enum { FLATNESS, U_STEPS, V_STEPS, ACCURACY, HINTS };
-static const char *const hint_word[HINTS] = {"flatness", "u_steps", "v_steps", "accuracy"};
+static const char *const hint_word[HINTS] = {"flatness", "u_steps", "v_steps",
+                                             "accuracy"};
 
 static bool read_options(struct bicubic *s, struct args *args)
 {
@@ -206,57 +207,31 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     boundary_list_sort(out, from);
 }
 
+// Where there is no tree.
 static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
     const struct bicubic *s = shape;
-    const struct patch *p = &s->patch;
-    if (s->triangles)
-        return mesh_closest(s->triangles, ray, out);
-    if (s->empty)
-        return false;
-    const struct slabs slabs = slabs_of(&p->bounds, ray);
-    const struct patch_ray r = patch_ray_of(ray);
-    uint32_t stack[STACK], depth = 0;
-    double t_max = ray->t_max;
-    bool found = false;
-    stack[depth++] = 0;
-    while (depth) {
-        const uint32_t at = stack[--depth];
-        const struct patch_node *n = &p->node[at];
-        struct patch_hit hit[PATCH_HITS];
-        double t, t0, t1;
-        if (!slabs_meet(&n->box, &slabs, ray->t_min, t_max, &t))
-            continue;
-        if (n->other) {
-            const bool b0 =
-                slabs_meet(&p->node[at + 1].box, &slabs, ray->t_min, t_max, &t0);
-            const bool b1 =
-                slabs_meet(&p->node[n->other].box, &slabs, ray->t_min, t_max, &t1);
-            const bool second_first = b0 && b1 && t1 < t0;
-            if (b0 && second_first)
-                stack[depth++] = at + 1;
-            if (b1)
-                stack[depth++] = n->other;
-            if (b0 && !second_first)
-                stack[depth++] = at + 1;
-            continue;
-        }
-        const int count = patch_meet_leaf(&p->leaf[n->leaf], &r, hit);
-        for (int i = 0; i < count; i++)
-            if (hit[i].t > ray->t_min && hit[i].t < t_max) {
-                fill(out, &hit[i]);
-                t_max = hit[i].t;
-                found = true;
-            }
-    }
-    return found;
+    return s->triangles && mesh_closest(s->triangles, ray, out);
+}
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    return k->patch(&((const struct bicubic *)shape)->patch, rays, lanes, any, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    const struct bicubic *s = shape;
+    return !s->triangles && !s->empty;
 }
 
 // At a collapsed edge, where one derivative vanishes, the limit from the inside.
 static struct vec3 normal_at(const struct patch *p, double u, double v)
 {
     struct vec3 at, du, dv, n = {0, 0, 0};
-    for (double move = 0; move < 0.5; move = move > 0 ? 16 * move : 0x1p-20) {
+    for (double move = 0; move<0.5; move = move> 0 ? 16 * move : 0x1p-20) {
         patch_derivatives(p, u + move * (0.5 - u), v + move * (0.5 - v), &at, &du, &dv);
         n = vec3_cross(du, dv);
         const double size = vec3_max_abs(vec3_sub(p->bounds.max, p->bounds.min));
@@ -322,6 +297,8 @@ const struct shape_ops bicubic_patch_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest = closest,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

@@ -15,10 +15,8 @@
 #include "image/texels.h"
 #include "math/gamma.h"
 #include "scene/args.h"
-#include "scene/shape.h"
+#include "scene/shape_kernels.h"
 #include "scene/shapes/extrude.h"
-
-static const double UNIT = 65536; // value of height 1
 
 static double value(const struct height_field *f, int i, int j)
 {
@@ -49,29 +47,45 @@ static void child_range(const struct height_field *f, int level, int i, int j,
     range[1] = r[1] > range[1] ? r[1] : range[1];
 }
 
+static void make_level(struct height_field *f, int n, int from_w, int from_h)
+{
+    const struct height_level *l = &f->level[n];
+    for (int j = 0; j < l->height; j++)
+        for (int i = 0; i < l->width; i++) {
+            float *r = l->range[(size_t)j * (size_t)l->width + (size_t)i];
+            r[0] = HUGE_VALF;
+            r[1] = -HUGE_VALF;
+            for (int k = 0; k < 4; k++)
+                if (2 * i + (k & 1) < from_w && 2 * j + (k >> 1) < from_h)
+                    child_range(f, n - 1, 2 * i + (k & 1), 2 * j + (k >> 1), r);
+        }
+}
+
 static void make_levels(struct height_field *f, struct arena *arena)
 {
-    int w = f->h.width - 1, h = f->h.height - 1;
-    int n = 0;
+    int w = f->h.width - 1, h = f->h.height - 1, n = 0;
+    size_t all = 0;
     while (w > 1 || h > 1 || n == 0) {
-        const int from_w = w, from_h = h;
         struct height_level *l = &f->level[++n];
         l->width = w = (w + 1) / 2;
         l->height = h = (h + 1) / 2;
-        l->range = arena_alloc(arena, (size_t)w * (size_t)h * sizeof *l->range);
-        for (int j = 0; j < h; j++)
-            for (int i = 0; i < w; i++) {
-                float *r = l->range[(size_t)j * (size_t)w + (size_t)i];
-                r[0] = HUGE_VALF;
-                r[1] = -HUGE_VALF;
-                for (int k = 0; k < 4; k++)
-                    if (2 * i + (k & 1) < from_w && 2 * j + (k >> 1) < from_h)
-                        child_range(f, n - 1, 2 * i + (k & 1), 2 * j + (k >> 1), r);
-            }
+        f->level_from[n] = (double)all;
+        f->level_width[n] = w;
+        all += (size_t)w * (size_t)h;
     }
     f->top = n;
-    f->low = (double)f->level[n].range[0][0] / UNIT;
-    f->high = (double)f->level[n].range[0][1] / UNIT;
+    f->ranges = arena_alloc(arena, all * sizeof *f->ranges);
+    w = f->h.width - 1;
+    h = f->h.height - 1;
+    for (n = 1; n <= f->top; n++) {
+        struct height_level *l = &f->level[n];
+        l->range = f->ranges + (size_t)f->level_from[n];
+        make_level(f, n, w, h);
+        w = l->width;
+        h = l->height;
+    }
+    f->low = (double)f->level[f->top].range[0][0] / HEIGHT_UNIT;
+    f->high = (double)f->level[f->top].range[0][1] / HEIGHT_UNIT;
 }
 
 // The picture's bottom row lies at z = 0.
@@ -88,7 +102,7 @@ static bool read_heights(struct height_field *f, struct args *args)
     const size_t w = (size_t)t->width;
     f->h.width = t->width;
     f->h.height = t->height;
-    f->h.at = arena_new_array(args_arena(args), float, w * (size_t)t->height);
+    f->h.at = arena_new_array(args_arena(args), float, w *(size_t)t->height);
     for (int j = 0; j < t->height; j++)
         for (int i = 0; i < t->width; i++)
             f->h.at[(size_t)j * w + (size_t)i] =
@@ -116,7 +130,7 @@ static bool build(void *shape, struct args *args)
         }
     }
     make_levels(f, args_arena(args));
-    f->water = fmax(f->low, water) - 0.001 / UNIT;
+    f->water = fmax(f->low, water) - 0.001 / HEIGHT_UNIT;
     f->under_water = f->water > f->low;
     return true;
 }
@@ -126,58 +140,53 @@ static bool build(void *shape, struct args *args)
 static void side(struct height_walk *w, double t)
 {
     boundary_list_add(w->out, (t + w->shift) / w->length, w->error / w->length,
-                      w->in ? CROSS_EXIT : CROSS_ENTER, 0)->drawn = 0;
+                      w->in ? CROSS_EXIT : CROSS_ENTER, 0)
+        ->drawn = 0;
 }
 
-// The state from t on; false: enough is known.
-static bool turn(struct height_walk *w, bool in, double t, double dt, uint32_t part)
+// The state from t on.
+static void turn(struct height_walk *w, bool in, double t, double dt, uint32_t part)
 {
     if (!w->started) { // what the line's first piece says
         w->started = true;
         if (in && w->sides)
             side(w, t);
         w->in = in;
-        return true;
+        return;
     }
     if (in == w->in)
-        return true;
-    struct boundary *b =
-        boundary_list_add(w->out, (t + w->shift) / w->length, (dt + w->error) / w->length,
-                          w->in ? CROSS_EXIT : CROSS_ENTER, part);
+        return;
+    boundary_list_add(w->out, (t + w->shift) / w->length, (dt + w->error) / w->length,
+                      w->in ? CROSS_EXIT : CROSS_ENTER, part);
     w->in = in;
-    if (!w->first_only)
-        return true;
-    const double y = w->o[1] + t * w->d[1];
-    if (b->t > w->t_min && b->t < w->t_max && y >= w->field->water)
-        return false;
-    w->out->count--;
-    return b->t < w->t_max;
 }
 
 // One triangle's plane between t0 and t1: height h + hx x + hz z over the cell's corner.
-static bool piece(struct height_walk *w, const double plane[3], const double corner[2],
+static void piece(struct height_walk *w, const double plane[3], const double corner[2],
                   double t0, double t1, uint32_t part)
 {
     const double x = w->o[0] - corner[0], z = w->o[2] - corner[1];
     const double above = w->o[1] - (plane[0] + plane[1] * x + plane[2] * z);
     const double slope = w->d[1] - (plane[1] * w->d[0] + plane[2] * w->d[2]);
-    if (!w->started && !turn(w, above + t0 * slope < 0, t0, 0, part))
-        return false;
+    if (!w->started)
+        turn(w, above + t0 * slope < 0, t0, 0, part);
     const bool in = above + t1 * slope < 0;
     if (in == w->in)
-        return true;
-    const double noise =
-        GAMMA(8) * ((w->cells + fabs(w->o[0]) + fabs(w->o[2])) *
-                        (fabs(plane[1]) + fabs(plane[2])) + fabs(plane[0]) + fabs(w->o[1]));
+        return;
+    const double noise = GAMMA(8) * ((w->cells + fabs(w->o[0]) + fabs(w->o[2])) *
+                                         (fabs(plane[1]) + fabs(plane[2])) +
+                                     fabs(plane[0]) + fabs(w->o[1]));
     const double t = fmax(t0, fmin(t1, -above / slope));
-    return turn(w, in, t, fmin(noise / fabs(slope), t1 - t0), part);
+    turn(w, in, t, fmin(noise / fabs(slope), t1 - t0), part);
 }
 
-static bool cell(struct height_walk *w, int i, int j, double t0, double t1)
+static void cell(struct height_walk *w, int i, int j, double t0, double t1)
 {
     const struct height_field *f = w->field;
-    const double y00 = value(f, i, j) / UNIT, y10 = value(f, i + 1, j) / UNIT;
-    const double y01 = value(f, i, j + 1) / UNIT, y11 = value(f, i + 1, j + 1) / UNIT;
+    const double y00 = value(f, i, j) / HEIGHT_UNIT,
+                 y10 = value(f, i + 1, j) / HEIGHT_UNIT;
+    const double y01 = value(f, i, j + 1) / HEIGHT_UNIT,
+                 y11 = value(f, i + 1, j + 1) / HEIGHT_UNIT;
     const double below[3] = {y00, y10 - y00, y01 - y00};
     const double beyond[3] = {y11, y11 - y01, y11 - y10};
     const double near[2] = {i, j}, far[2] = {i + 1, j + 1};
@@ -185,17 +194,22 @@ static bool cell(struct height_walk *w, int i, int j, double t0, double t1)
     // x + z over the cell's diagonal
     const double over = w->o[0] + w->o[2] - (i + j + 1.), rise = w->d[0] + w->d[2];
     const bool first = over + t0 * rise < 0, last = over + t1 * rise < 0;
-    if (first == last)
-        return first ? piece(w, below, near, t0, t1, part)
-                     : piece(w, beyond, far, t0, t1, part + 1);
-    const double t = fmax(t0, fmin(t1, -over / rise));
+    const double t = first == last ? t1 : fmax(t0, fmin(t1, -over / rise));
     if (first)
-        return piece(w, below, near, t0, t, part) && piece(w, beyond, far, t, t1, part + 1);
-    return piece(w, beyond, far, t0, t, part + 1) && piece(w, below, near, t, t1, part);
+        piece(w, below, near, t0, t, part);
+    else
+        piece(w, beyond, far, t0, t, part + 1);
+    if (first == last)
+        return;
+    if (last)
+        piece(w, below, near, t, t1, part);
+    else
+        piece(w, beyond, far, t, t1, part + 1);
 }
 
 // Where the line passes a grid line of axis 0 or 2, and on which side of it it is at t0.
-static double pass(const struct height_walk *w, int axis, int line, double t0, int *side_at)
+static double pass(const struct height_walk *w, int axis, int line, double t0,
+                   int *side_at)
 {
     const double d = w->d[axis], t = (line - w->o[axis]) / d;
     if (d == 0) {
@@ -216,18 +230,22 @@ static uint32_t part_at(const struct height_walk *w, double t)
     return 2 * ((uint32_t)j * (uint32_t)columns + (uint32_t)i) + (x - i + z - j >= 1);
 }
 
-static bool block(struct height_walk *w, int level, int i, int j, double t0, double t1)
+static void block(struct height_walk *w, int level, int i, int j, double t0, double t1)
 {
     const struct height_field *f = w->field;
-    if (level == 0)
-        return cell(w, i, j, t0, t1);
+    if (level == 0) {
+        cell(w, i, j, t0, t1);
+        return;
+    }
     const struct height_level *l = &f->level[level];
     const float *range = l->range[(size_t)j * (size_t)l->width + (size_t)i];
     const double y0 = w->o[1] + t0 * w->d[1], y1 = w->o[1] + t1 * w->d[1];
     const double margin = GAMMA(16) * (fabs(w->o[1]) + fabs(y0) + fabs(y1) + 1);
-    const bool over = fmin(y0, y1) > (double)range[1] / UNIT + margin;
-    if (over || fmax(y0, y1) < (double)range[0] / UNIT - margin)
-        return turn(w, !over, t0, w->error, part_at(w, t0));
+    const bool over = fmin(y0, y1) > (double)range[1] / HEIGHT_UNIT + margin;
+    if (over || fmax(y0, y1) < (double)range[0] / HEIGHT_UNIT - margin) {
+        turn(w, !over, t0, w->error, part_at(w, t0));
+        return;
+    }
     const int half = 1 << (level - 1), child = level - 1;
     const int child_w = child ? f->level[child].width : f->h.width - 1;
     const int child_h = child ? f->level[child].height : f->h.height - 1;
@@ -239,8 +257,7 @@ static bool block(struct height_walk *w, int level, int i, int j, double t0, dou
         tz = pass(w, 2, (2 * j + 1) * half, t0, &b);
     for (double t = t0; t < t1;) {
         const double next = fmin(t1, fmin(tx, tz));
-        if (!block(w, child, 2 * i + a, 2 * j + b, t, next))
-            return false;
+        block(w, child, 2 * i + a, 2 * j + b, t, next);
         if (tx <= next) {
             a = !a;
             tx = HUGE_VAL;
@@ -251,7 +268,6 @@ static bool block(struct height_walk *w, int level, int i, int j, double t0, dou
         }
         t = next;
     }
-    return true;
 }
 
 // The stretch of the line over the square; false: none.
@@ -294,15 +310,17 @@ static struct height_walk walk_of(const struct height_field *f, const struct ray
 }
 
 // From t0 to t1 of the walk; whole vertical lines in one cell.
-static bool walk(struct height_walk *w, double t0, double t1)
+static void walk(struct height_walk *w, double t0, double t1)
 {
     const struct height_field *f = w->field;
-    if (w->d[0] != 0 || w->d[2] != 0)
-        return block(w, f->top, 0, 0, t0, t1);
+    if (w->d[0] != 0 || w->d[2] != 0) {
+        block(w, f->top, 0, 0, t0, t1);
+        return;
+    }
     const int i = (int)fmax(0, fmin(floor(w->o[0]), f->h.width - 2.));
     const int j = (int)fmax(0, fmin(floor(w->o[2]), f->h.height - 2.));
     const double reach = fabs(w->o[1]) + fabs(f->low) + fabs(f->high) + 1;
-    return cell(w, i, j, fmax(t0, -reach), fmin(t1, reach));
+    cell(w, i, j, fmax(t0, -reach), fmin(t1, reach));
 }
 
 // The half space below the water within the same stretch of the line.
@@ -355,21 +373,18 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     unite(out, from, isinf(t0) && w.d[1] > 0 ? 2 : 0);
 }
 
-static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
 {
-    struct boundary room[2];
-    struct boundary_list l = {.at = room, .capacity = 2};
-    struct height_walk w = walk_of(shape, ray, &l);
-    w.first_only = true;
-    w.t_min = ray->t_min;
-    w.t_max = ray->t_max;
-    double t0 = ray->t_min * w.length - w.shift, t1 = ray->t_max * w.length - w.shift;
-    if (!clip(&w, &t0, &t1) || walk(&w, t0, t1) || l.count == 0)
-        return false;
-    const uint32_t leaf = out->leaf;
-    *out = room[0];
-    out->leaf = leaf;
-    return true;
+    return k->height_field(shape, rays, lanes, any, out);
+}
+
+// Lanes number samples by 31 bits.
+static bool has_lanes(const void *shape)
+{
+    const struct height_field *f = shape;
+    return (size_t)f->h.width * (size_t)f->h.height < (size_t)1 << 30;
 }
 
 // ---- the rest -------------------------------------------------------------------------
@@ -400,7 +415,7 @@ static bool inside(const void *shape, struct vec3 p)
     const double y00 = value(f, i, j), y11 = value(f, i + 1, j + 1);
     const double y = u + v < 1 ? y00 + u * (y10 - y00) + v * (y01 - y00)
                                : y11 + (1 - u) * (y01 - y11) + (1 - v) * (y10 - y11);
-    return p.y < fmax(y / UNIT, f->water);
+    return p.y < fmax(y / HEIGHT_UNIT, f->water);
 }
 
 // In value and cell units: up, along the slopes a and b.
@@ -415,8 +430,10 @@ static struct vec3 sample_normal(const struct height_field *f, int i, int j)
     const bool left = i > 0, right = i < f->h.width - 1;
     const bool down = j > 0, up = j < f->h.height - 1;
     const double y = value(f, i, j);
-    const double a = right ? y - value(f, i + 1, j) : 0, b = left ? value(f, i - 1, j) - y : 0;
-    const double c = up ? y - value(f, i, j + 1) : 0, d = down ? value(f, i, j - 1) - y : 0;
+    const double a = right ? y - value(f, i + 1, j) : 0,
+                 b = left ? value(f, i - 1, j) - y : 0;
+    const double c = up ? y - value(f, i, j + 1) : 0,
+                 d = down ? value(f, i, j - 1) - y : 0;
     struct vec3 n = {0, 0, 0};
     if (right && up)
         n = vec3_add(n, unit_normal(a, c));
@@ -426,7 +443,8 @@ static struct vec3 sample_normal(const struct height_field *f, int i, int j)
         n = vec3_add(n, unit_normal(b, d));
     if (right && down)
         n = vec3_add(n, unit_normal(a, d));
-    return vec3_normalize(vec3(n.x * (f->h.width - 1), n.y * UNIT, n.z * (f->h.height - 1)));
+    return vec3_normalize(
+        vec3(n.x * (f->h.width - 1), n.y * HEIGHT_UNIT, n.z * (f->h.height - 1)));
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
@@ -438,8 +456,9 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     const double y10 = value(f, i + 1, j), y01 = value(f, i, j + 1);
     const double corner = b->part % 2 ? value(f, i + 1, j + 1) : value(f, i, j);
     const double sx = f->h.width - 1, sz = f->h.height - 1;
-    const struct vec3 n = b->part % 2 ? vec3(sx * (y01 - corner), UNIT, sz * (y10 - corner))
-                                      : vec3(sx * (corner - y10), UNIT, sz * (corner - y01));
+    const struct vec3 n =
+        b->part % 2 ? vec3(sx * (y01 - corner), HEIGHT_UNIT, sz * (y10 - corner))
+                    : vec3(sx * (corner - y10), HEIGHT_UNIT, sz * (corner - y01));
     out->p = p;
     out->ng = out->ns = vec3_normalize(n);
     out->uv = (struct vec2){p.x, p.y};
@@ -458,7 +477,7 @@ static void print(const void *shape, FILE *out)
     const struct height_field *f = shape;
     fprintf(out, "height_field { /* %d x %d samples */", f->h.width, f->h.height);
     fputs(f->smooth ? " smooth water_level " : " water_level ", out);
-    shape_print_number(out, f->water + 0.001 / UNIT);
+    shape_print_number(out, f->water + 0.001 / HEIGHT_UNIT);
 }
 
 const struct shape_ops height_field_ops = {
@@ -470,7 +489,8 @@ const struct shape_ops height_field_ops = {
     .surface_bounds = surface_bounds,
     .inside = inside,
     .intersect = intersect,
-    .closest = closest,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

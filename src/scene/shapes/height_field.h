@@ -4,9 +4,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "math/vec.h"
 #include "scene/boundary.h"
 
-// Samples at x = i/(width - 1) and z = j/(height - 1): at[j * width + i], 65536 for height 1.
+#define HEIGHT_UNIT 65536. // value of height 1
+
+// Samples at x = i/(width - 1) and z = j/(height - 1): at[j * width + i].
 struct heights {
     int width, height;
     float *at;
@@ -24,6 +27,9 @@ struct height_field {
     struct heights h;
     struct height_level level[HEIGHT_LEVELS]; // from 1 on
     int top;
+    // All levels' ranges lie in one array, for lanes: where a level begins, its width.
+    float (*ranges)[2];
+    double level_from[HEIGHT_LEVELS], level_width[HEIGHT_LEVELS];
     double low, high, water; // in the shape's space
     bool smooth, under_water;
 };
@@ -34,9 +40,7 @@ struct height_walk {
     const struct height_field *field;
     double o[3], d[3];
     double shift, length, error, cells;
-    bool started, in, sides;     // the state is known; which it is; report where it begins
-    bool first_only;             // stop at the first drawn crossing
-    double t_min, t_max;
+    bool started, in, sides; // the state is known; which it is; report where it begins
     struct boundary_list *out;
 };
 

@@ -1,6 +1,7 @@
 #ifndef SCENE_SHAPES_PATCH_H
 #define SCENE_SHAPES_PATCH_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -10,12 +11,18 @@ struct arena;
 
 // A bicubic Bezier patch as a tree of sub-patches (research 4.8). Control points [i][j]: i
 // along u, j along v.
+struct patch_half;
 struct patch_leaf {
     struct vec3 p[4][4];
     double u[2], v[2]; // the part of the whole it is
     double size;       // largest coordinate
-    struct vec3 middle, du, dv, n; // S at the middle, mean derivatives, their cross product
-    double bend; // how far derivatives are from their means, times the longer of these
+    struct vec3 middle, du, dv,
+        n;                  // S at the middle, mean derivatives, their cross product
+    struct vec3 n_dv, du_n; // n x dv, du x n
+    // How far derivatives are from their means, in parts of du, dv and n: the largest
+    // coefficient of either derivative, both added.
+    double bend[3];
+    _Atomic(struct patch_half *) half; // made when a line needs them (patch_halves)
 };
 
 struct patch_node {
@@ -24,9 +31,17 @@ struct patch_node {
     uint32_t leaf;
 };
 
+// A leaf's halves, for lines that its own bend is too large for.
+struct patch_half {
+    struct aabb box;
+    struct patch_leaf leaf;
+};
+
 // What a bicubic_patch begins with.
 struct patch {
     struct vec3 p[4][4];
+    double power[3][4][4]; // an axis: coefficients of powers of u - 1/2 and v - 1/2
+    double size;           // largest sum of the terms' sizes
     struct patch_node *node;
     struct patch_leaf *leaf;
     uint32_t nodes, leaves;
@@ -38,6 +53,8 @@ struct patch_hit {
 };
 
 void patch_build(struct patch *p, struct arena *arena);
+// Two of them, the same whatever line comes first.
+struct patch_half *patch_halves(struct patch_leaf *l);
 void patch_derivatives(const struct patch *p, double u, double v, struct vec3 *at,
                        struct vec3 *du, struct vec3 *dv);
 

@@ -81,7 +81,7 @@ static bool excludes(const struct net *n, double noise, double *extent)
 }
 
 struct frame {
-    double du[2], dv[2]; // mean derivatives across the line
+    double du[2], dv[2];  // mean derivatives across the line
     double inverse[2][2]; // of the map (s, t) -> s du + t dv, rows
     double norm;          // of the inverse: largest row sum
     double off;           // how far from the identity
@@ -103,7 +103,7 @@ static bool invert(struct frame *f)
     f->inverse[1][0] = -f->du[1] / det;
     f->inverse[1][1] = f->du[0] / det;
     f->norm = larger(fabs(f->inverse[0][0]) + fabs(f->inverse[0][1]),
-                   fabs(f->inverse[1][0]) + fabs(f->inverse[1][1]));
+                     fabs(f->inverse[1][0]) + fabs(f->inverse[1][1]));
     return true;
 }
 
@@ -173,8 +173,8 @@ static inline void evaluate(const struct net *n, const double st[2], int from, i
 }
 
 // Keeps a zero unless a neighbouring piece has found it.
-static void keep(struct search *s, double t, double dt, double u, double v, double reach_u,
-                 double reach_v)
+static void keep(struct search *s, double t, double dt, double u, double v,
+                 double reach_u, double reach_v)
 {
     for (int i = 0; i < s->count; i++)
         if (fabs(s->hit[i].u - u) <= reach_u && fabs(s->hit[i].v - v) <= reach_v)
@@ -185,8 +185,8 @@ static void keep(struct search *s, double t, double dt, double u, double v, doub
 
 static double within(double w) { return w < 0 ? 0 : w > 1 ? 1 : w; }
 
-static void keep_at(struct search *s, const struct net *n, const double st[2], double slack,
-                    double dt, double along)
+static void keep_at(struct search *s, const struct net *n, const double st[2],
+                    double slack, double dt, double along)
 {
     const double wu = n->u[1] - n->u[0], wv = n->v[1] - n->v[0];
     keep(s, along, dt, within(n->u[0] + wu * st[0]), within(n->v[0] + wv * st[1]),
@@ -219,7 +219,8 @@ static bool newton(struct search *s, const struct net *n, const struct frame *f)
         st[0] -= step[0];
         st[1] -= step[1];
         if (size <= slack || (size >= last && size < 0x1p-20)) {
-            if (st[0] < -slack || st[0] > 1 + slack || st[1] < -slack || st[1] > 1 + slack)
+            if (st[0] < -slack || st[0] > 1 + slack || st[1] < -slack ||
+                st[1] > 1 + slack)
                 return true;
             evaluate(n, here_st, 2, 3, at, du, dv);
             const double along = at[2] - step[0] * du[2] - step[1] * dv[2];
@@ -308,18 +309,25 @@ struct patch_ray patch_ray_of(const struct ray *ray)
     return r;
 }
 
-// Where the ray meets the plane of a leaf's mean derivatives, when seen from it the leaf is
-// nearer to that plane than IDENTITY: a deviation e from the mean derivatives counts at most
-// |e| max(|du|, |dv|) / |n.d|. False: that far from the middle that the leaf is not met.
-static bool meets_plane(const struct patch_leaf *l, const struct patch_ray *r, double facing,
-                        double noise)
+// How far a leaf's derivative, seen along the ray and multiplied by the inverse of its mean,
+// is from the identity.
+static double off_of(const struct patch_leaf *l, const struct patch_ray *r, double facing)
+{
+    const double tilt_u = fabs(vec3_dot(l->n_dv, r->d) / facing);
+    const double tilt_v = fabs(vec3_dot(l->du_n, r->d) / facing);
+    return larger(l->bend[0] + l->bend[2] * tilt_u, l->bend[1] + l->bend[2] * tilt_v);
+}
+
+// Where the ray meets the plane of a leaf's mean derivatives. False: that far from the
+// middle that the leaf is not met.
+static bool meets_plane(const struct patch_leaf *l, const struct patch_ray *r,
+                        double facing, double off, double noise)
 {
     const struct vec3 q = vec3_sub(l->middle, r->o);
     const double s = vec3_dot(q, vec3_cross(l->dv, r->d)) / facing;
     const double t = vec3_dot(q, vec3_cross(r->d, l->du)) / facing;
     const double longer = larger(vec3_max_abs(l->du), vec3_max_abs(l->dv));
-    const double reach = 0.5 * (1 + l->bend / fabs(facing)) +
-                         8 * noise * longer / fabs(facing) + 0x1p-40;
+    const double reach = 0.5 * (1 + off) + 8 * noise * longer / fabs(facing) + 0x1p-40;
     return fabs(s) <= reach && fabs(t) <= reach;
 }
 
@@ -328,8 +336,9 @@ int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *r,
 {
     const double noise = GAMMA(16) * larger(r->size, leaf->size);
     const double facing = vec3_dot(leaf->n, r->d);
-    const bool plain = leaf->bend < IDENTITY * fabs(facing);
-    if (plain && !meets_plane(leaf, r, facing, noise))
+    const double off = off_of(leaf, r, facing);
+    const bool plain = off < IDENTITY;
+    if (plain && !meets_plane(leaf, r, facing, off, noise))
         return 0;
     struct net n = {.u = {leaf->u[0], leaf->u[1]}, .v = {leaf->v[0], leaf->v[1]}};
     for (int i = 0; i < 4; i++)
@@ -343,7 +352,7 @@ int patch_meet_leaf(const struct patch_leaf *leaf, const struct patch_ray *r,
     s.hit = hit;
     s.count = s.splits = 0;
     s.noise = noise;
-    struct frame f = {.off = leaf->bend / fabs(facing)};
+    struct frame f = {.off = off};
     if (plain)
         mean(&n, &f);
     if (!plain || !invert(&f) || !newton(&s, &n, &f))
