@@ -418,33 +418,58 @@ static bool inside(const void *shape, struct vec3 p)
     return p.y < fmax(y / HEIGHT_UNIT, f->water);
 }
 
-// In value and cell units: up, along the slopes a and b.
-static struct vec3 unit_normal(double a, double b)
+// Slopes from a sample along the two sides of one axis, in value and cell units; 0 with
+// weight 0 at the field's edge.
+struct slopes {
+    double at[2], weight[2];
+};
+
+static struct slopes slopes_of(double before, double here, double behind, int i,
+                               int count)
 {
-    return vec3_normalize(vec3(a, 1, b));
+    const bool low = i > 0, high = i < count - 1;
+    return (struct slopes){{high ? here - behind : 0, low ? before - here : 0},
+                           {high, low}};
 }
 
-// The mean of the normals of the triangles at a sample, in the shape's space.
-static struct vec3 sample_normal(const struct height_field *f, int i, int j)
+// The means of the normals of the triangles at the samples of a cell's corners: at
+// n[axis][corner], in the shape's space. Loops over all are what compilers take in lanes.
+static void corner_normals(const struct height_field *f, int i, int j, double n[3][4])
 {
-    const bool left = i > 0, right = i < f->h.width - 1;
-    const bool down = j > 0, up = j < f->h.height - 1;
-    const double y = value(f, i, j);
-    const double a = right ? y - value(f, i + 1, j) : 0,
-                 b = left ? value(f, i - 1, j) - y : 0;
-    const double c = up ? y - value(f, i, j + 1) : 0,
-                 d = down ? value(f, i, j - 1) - y : 0;
-    struct vec3 n = {0, 0, 0};
-    if (right && up)
-        n = vec3_add(n, unit_normal(a, c));
-    if (left && up)
-        n = vec3_add(n, unit_normal(b, c));
-    if (left && down)
-        n = vec3_add(n, unit_normal(b, d));
-    if (right && down)
-        n = vec3_add(n, unit_normal(a, d));
-    return vec3_normalize(
-        vec3(n.x * (f->h.width - 1), n.y * HEIGHT_UNIT, n.z * (f->h.height - 1)));
+    double a[16], b[16], weight[16], length[4];
+    const int w = f->h.width, h = f->h.height;
+    for (int k = 0; k < 4; k++) {
+        const int x = i + (k & 1), z = j + (k >> 1);
+        const double y = value(f, x, z);
+        const struct slopes sx = slopes_of(x > 0 ? value(f, x - 1, z) : 0, y,
+                                           x < w - 1 ? value(f, x + 1, z) : 0, x, w);
+        const struct slopes sz = slopes_of(z > 0 ? value(f, x, z - 1) : 0, y,
+                                           z < h - 1 ? value(f, x, z + 1) : 0, z, h);
+        for (int q = 0; q < 4; q++) {
+            a[4 * q + k] = sx.at[q & 1];
+            b[4 * q + k] = sz.at[q >> 1];
+            weight[4 * q + k] = sx.weight[q & 1] * sz.weight[q >> 1];
+        }
+    }
+    for (int k = 0; k < 16; k++)
+        weight[k] /= sqrt(a[k] * a[k] + 1 + b[k] * b[k]);
+    for (int k = 0; k < 4; k++) {
+        n[0][k] = n[1][k] = n[2][k] = 0;
+        for (int q = k; q < 16; q += 4) {
+            n[0][k] += weight[q] * a[q];
+            n[1][k] += weight[q];
+            n[2][k] += weight[q] * b[q];
+        }
+        n[0][k] *= w - 1;
+        n[1][k] *= HEIGHT_UNIT;
+        n[2][k] *= h - 1;
+        length[k] = n[0][k] * n[0][k] + n[1][k] * n[1][k] + n[2][k] * n[2][k];
+    }
+    for (int k = 0; k < 4; k++) {
+        const double by = 1 / sqrt(length[k]);
+        for (int axis = 0; axis < 3; axis++)
+            n[axis][k] *= by;
+    }
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
@@ -465,10 +490,12 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     if (!f->smooth)
         return;
     const double u = fmax(0, fmin(1, p.x * sx - i)), v = fmax(0, fmin(1, p.z * sz - j));
-    struct vec3 s = vec3_scale((1 - u) * (1 - v), sample_normal(f, i, j));
-    s = vec3_mad(s, u * (1 - v), sample_normal(f, i + 1, j));
-    s = vec3_mad(s, (1 - u) * v, sample_normal(f, i, j + 1));
-    s = vec3_mad(s, u * v, sample_normal(f, i + 1, j + 1));
+    const double share[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+    double corner_n[3][4];
+    struct vec3 s = {0, 0, 0};
+    corner_normals(f, i, j, corner_n);
+    for (int k = 0; k < 4; k++)
+        s = vec3_mad(s, share[k], vec3(corner_n[0][k], corner_n[1][k], corner_n[2][k]));
     out->ns = vec3_normalize(s);
 }
 

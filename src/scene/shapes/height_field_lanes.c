@@ -151,6 +151,7 @@ LANES_INLINE unsigned cross(struct over8 *w, const struct plane8 *p, struct real
             const int l = __builtin_ctz(left);
             w->out->part[l] =
                 2 * ((uint32_t)j[l] * columns + (uint32_t)i[l]) + (beyond >> l & 1);
+            w->out->u[l] = w->out->v[l] = 0;
             w->out->crossing[l] = w->in >> l & 1 ? CROSS_EXIT : CROSS_ENTER;
         }
     }

@@ -22,7 +22,7 @@ static const double OFF_MAX = 0.4;
 // Newton's step, as a share of the piece, after which the next would be lost in rounding:
 // what is left is about the product of its square and of `off`.
 static const double LAST_STEP = 0x1p-25;
-enum { STEPS_MAX = 10, HALVES_MAX = 8 };
+enum { STEPS_MAX = 10, HALVES_MAX = 3 };
 
 struct lines8 {
     const struct patch *p;
@@ -157,17 +157,32 @@ LANES_INLINE struct real8 clamp(struct real8 x, double lo, double hi)
     return r8_min(r8_max(x, r8_set(lo)), r8_set(hi));
 }
 
+// Lanes that this crossing is the first of so far. Of two pieces with a common edge either
+// may be asked first: of equal t the one with the better bound or at the lesser u is kept.
+LANES_INLINE unsigned first_of(const struct lines8 *w, unsigned lanes, struct real8 t,
+                               struct real8 dt, struct real8 u)
+{
+    const struct real8 best_dt = r8_load(w->out->dt), best_u = r8_load(w->out->u);
+    const struct mask8 better =
+        m8_or(r8_lt(dt, best_dt), m8_and(r8_eq(dt, best_dt), r8_lt(u, best_u)));
+    const unsigned same = ~w->met | m8_bits(better);
+    return lanes & m8_bits(r8_lt(w->t_min, t)) &
+           (m8_bits(r8_lt(t, w->best)) | (same & m8_bits(r8_eq(t, w->best))));
+}
+
 static void put(struct lines8 *w, unsigned lanes, struct real8 t, struct real8 dt,
                 struct real8 u, struct real8 v)
 {
-    lanes &= m8_bits(m8_and(r8_lt(w->t_min, t), r8_le(t, w->best)));
+    u = clamp(u, 0, 1);
+    v = clamp(v, 0, 1);
+    lanes = first_of(w, lanes, t, dt, u);
     if (!lanes)
         return;
     const struct mask8 m = m8_of(lanes);
     keep(w->out->t, m, t);
     keep(w->out->dt, m, dt);
-    keep(w->out->u, m, clamp(u, 0, 1));
-    keep(w->out->v, m, clamp(v, 0, 1));
+    keep(w->out->u, m, u);
+    keep(w->out->v, m, v);
     w->met |= lanes;
     w->best = r8_select(m, t, w->best);
     // A neighbouring piece that has the same point may have it a little nearer.
@@ -281,6 +296,33 @@ static void newton(struct lines8 *w, const struct patch_leaf *l, const struct vi
         meet_alone(w, l, lanes);
 }
 
+// Lanes that pass through the box around the piece along its own frame, which is thin where
+// the piece is flat: a line that runs along it seldom does.
+static unsigned meet_own_box(const struct lines8 *w, const struct patch_leaf *l,
+                             unsigned lanes)
+{
+    const struct vec8 o = v8_sub(w->o, V8_SET(l->middle));
+    const struct vec3 axis[3] = {l->n_dv, l->du_n, l->n};
+    struct real8 enter = w->t_min, leave = w->limit;
+    for (int k = 0; k < 3; k++) {
+        const struct vec8 a = V8_SET(axis[k]);
+        const struct real8 at = v8_dot(a, o),
+                           inverse = r8_div(r8_set(1), v8_dot(a, w->d));
+        const struct real8 slack = r8_mul(w->noise, r8_set(5 * vec3_max_abs(axis[k])));
+        const struct mask8 back = r8_lt(inverse, r8_set(0));
+        const struct real8 lo = r8_sub(r8_set(l->own[k][0]), slack);
+        const struct real8 hi = r8_add(r8_set(l->own[k][1]), slack);
+        const struct real8 p = r8_mul(r8_sub(r8_select(back, hi, lo), at), inverse);
+        const struct real8 q = r8_mul(r8_sub(r8_select(back, lo, hi), at), inverse);
+        enter = r8_max(p, enter);
+        leave = r8_min(q, leave);
+    }
+    const struct real8 slack =
+        r8_mul(r8_set(GAMMA(12)), r8_add(r8_abs(enter), r8_abs(leave)));
+    return lanes &
+           m8_bits(m8_or(r8_le(enter, leave), r8_le(r8_sub(enter, leave), slack)));
+}
+
 static void meet_piece(struct lines8 *w, struct patch_leaf *l, unsigned lanes, int depth)
 {
     const struct view8 x = view_of(w, l);
@@ -291,7 +333,9 @@ static void meet_piece(struct lines8 *w, struct patch_leaf *l, unsigned lanes, i
         plain & m8_bits(m8_and(r8_le(r8_abs(x.s), reach), r8_le(r8_abs(x.t), reach)));
     if (near)
         newton(w, l, &x, near);
-    const unsigned rough = lanes & ~plain & w->alive;
+    unsigned rough = lanes & ~plain & w->alive;
+    if (rough)
+        rough = meet_own_box(w, l, rough);
     if (!rough)
         return;
     if (depth == HALVES_MAX) {

@@ -75,6 +75,8 @@ static double bend(const struct patch_leaf *l, bool along_u, double *length)
     return most;
 }
 
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
 // Adds to l->bend how far one derivative is from its mean.
 static void add_bend(struct patch_leaf *l, bool along_u)
 {
@@ -85,12 +87,27 @@ static void add_bend(struct patch_leaf *l, bool along_u)
             const struct vec3 d = along_u ? vec3_sub(l->p[i + 1][j], l->p[i][j])
                                           : vec3_sub(l->p[j][i + 1], l->p[j][i]);
             const struct vec3 e = vec3_sub(vec3_scale(3, d), along_u ? l->du : l->dv);
-            most[0] = fmax(most[0], fabs(vec3_dot(e, l->n_dv)));
-            most[1] = fmax(most[1], fabs(vec3_dot(e, l->du_n)));
-            most[2] = fmax(most[2], fabs(vec3_dot(e, l->n)));
+            most[0] = larger(most[0], fabs(vec3_dot(e, l->n_dv)));
+            most[1] = larger(most[1], fabs(vec3_dot(e, l->du_n)));
+            most[2] = larger(most[2], fabs(vec3_dot(e, l->n)));
         }
     for (int k = 0; k < 3; k++)
         l->bend[k] += nn > 0 ? most[k] / nn : INFINITY;
+}
+
+static void measure_own(struct patch_leaf *l)
+{
+    const struct vec3 axis[3] = {l->n_dv, l->du_n, l->n};
+    for (int k = 0; k < 3; k++) {
+        double *own = l->own[k];
+        own[0] = HUGE_VAL;
+        own[1] = -HUGE_VAL;
+        for (int i = 0; i < 16; i++) {
+            const double at = vec3_dot(axis[k], vec3_sub(l->p[i / 4][i % 4], l->middle));
+            own[0] = at < own[0] ? at : own[0];
+            own[1] = larger(at, own[1]);
+        }
+    }
 }
 
 // What is known of a leaf from all directions.
@@ -102,7 +119,7 @@ static void finish_leaf(struct patch_leaf *l)
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
             l->middle = vec3_mad(l->middle, b[i] * b[j], l->p[i][j]);
-            l->size = fmax(l->size, vec3_max_abs(l->p[i][j]));
+            l->size = larger(l->size, vec3_max_abs(l->p[i][j]));
         }
     for (int i = 0; i < 4; i++) {
         l->du = vec3_mad(l->du, 0.25, vec3_sub(l->p[3][i], l->p[0][i]));
@@ -114,6 +131,7 @@ static void finish_leaf(struct patch_leaf *l)
     l->bend[0] = l->bend[1] = l->bend[2] = 0;
     add_bend(l, true);
     add_bend(l, false);
+    measure_own(l);
     atomic_init(&l->half, NULL);
 }
 
