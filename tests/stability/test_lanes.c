@@ -368,7 +368,7 @@ static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
             struct loaded l;
             load(&l, "%s", same_hits[i]);
             assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
-            look(&l, same_hits[i], any != 0, PACKETS, !any);
+            look(&l, same_hits[i], any != 0, PACKETS, false, !any);
             unload(&l);
         }
 }
@@ -412,7 +412,7 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
         for (int n = 0; n < MORE_PACKETS; n++) {
             struct shape_rays rays;
             uint8_t dark[8];
-            random_rays(&seed, &rays);
+            random_rays(&seed, false, &rays);
             batch->count = 8;
             for (int k = 0; k < 8; k++) {
                 for (int a = 0; a < 3; a++) {
