@@ -7,7 +7,7 @@
 #include "base/arena.h"
 #include "base/diag.h"
 #include "fake_args.h"
-#include "scene/shape.h"
+#include "scene/shape_kernels.h"
 
 static double uniform(uint64_t *seed)
 {
@@ -44,6 +44,37 @@ static const struct shape_ops *make(struct arena *a, const char *word, const cha
 static struct ray ray_to(struct vec3 from, struct vec3 to)
 {
     return (struct ray){from, vec3_sub(to, from), -INFINITY, INFINITY};
+}
+
+// The first drawn crossing by the shape's own short cut: `closest`, lanes, or a list of one.
+static bool first_of(const struct shape_ops *ops, const void *shape, const struct ray *r,
+                     struct boundary *first)
+{
+    if (ops->has_lanes && ops->has_lanes(shape)) {
+        struct shape_rays rays;
+        struct shape_hits hits = {.evaluations = 0};
+        for (int i = 0; i < 8; i++) {
+            for (int k = 0; k < 3; k++) {
+                rays.o[k][i] = vec3_axis(r->o, k);
+                rays.d[k][i] = vec3_axis(r->d, k);
+            }
+            rays.t_min[i] = r->t_min;
+            rays.t_max[i] = r->t_max;
+        }
+        if (!ops->closest8(&shape_kernels_base, shape, &rays, 1, false, &hits))
+            return false;
+        *first = (struct boundary){.t = hits.t[0], .dt = hits.dt[0], .part = hits.part[0]};
+        return true;
+    }
+    if (ops->closest)
+        return ops->closest(shape, r, first);
+    struct boundary_list l = {.first_only = true};
+    ops->intersect(shape, r, &l);
+    const bool found = l.count > 0 && l.at[0].t > r->t_min && l.at[0].t < r->t_max;
+    if (found)
+        *first = l.at[0];
+    boundary_list_free(&l);
+    return found;
 }
 
 // ---- patches --------------------------------------------------------------------------
@@ -170,7 +201,7 @@ static void shared_edge_is_closed(void **state)
             at = vec3_mad(at, b[j], c[0].p[j]);
         const struct ray r = ray_to(vec3_add(at, vec3(uniform(&seed) - .5, uniform(&seed) - .5,
                                                       -2 - 3 * uniform(&seed))), at);
-        bool met = false;
+        bool met = false, first_met = false;
         for (int i = 0; i < 2; i++) {
             struct boundary first;
             l.count = 0;
@@ -178,10 +209,9 @@ static void shared_edge_is_closed(void **state)
             for (uint32_t n = 0; n < l.count; n++)
                 met |= fabs(l.at[n].t - 1) < 1e-6;
             const struct ray ahead = {r.o, r.d, 0, INFINITY};
-            bool there = ops->closest(shape[i], &ahead, &first);
-            assert_true(!there || (l.count && first.t <= 1 + 1e-6) || first.t > 1);
+            first_met |= first_of(ops, shape[i], &ahead, &first) && first.t < 1 + 1e-6;
         }
-        if (!met)
+        if (!met || !first_met)
             fail_msg("a ray slips through the edge at w = %.17g", w);
     }
     boundary_list_free(&l);
@@ -451,7 +481,7 @@ static void height_field_is_watertight(void **state)
         const bool upright = r.d.x == 0 && r.d.z == 0;
         assert_true(l.count >= 1 && (upright ? l.count == 1 : l.count % 2 == 0));
         const struct ray ahead = {r.o, r.d, 0, 1};
-        assert_true(ops->closest(shape, &ahead, &first));
+        assert_true(first_of(ops, shape, &ahead, &first));
         const struct vec3 p = ray_at(&r, first.t);
         assert_true(ops->inside(shape, vec3_add(p, vec3(0, -1e-9, 0))));
         assert_false(ops->inside(shape, vec3_add(p, vec3(0, 1e-9, 0))));
@@ -485,21 +515,6 @@ static void caps_of_a_sor_have_uv(void **state)
 }
 
 // ---- closest --------------------------------------------------------------------------
-
-// The first crossing by the shape's own short cut: `closest`, or a list of one.
-static bool first_of(const struct shape_ops *ops, const void *shape, const struct ray *r,
-                     struct boundary *first)
-{
-    if (ops->closest)
-        return ops->closest(shape, r, first);
-    struct boundary_list l = {.first_only = true};
-    ops->intersect(shape, r, &l);
-    const bool found = l.count > 0 && l.at[0].t > r->t_min && l.at[0].t < r->t_max;
-    if (found)
-        *first = l.at[0];
-    boundary_list_free(&l);
-    return found;
-}
 
 static void closest_is_the_first_crossing(void **state)
 {
@@ -537,9 +552,10 @@ static void closest_is_the_first_crossing(void **state)
                 if (l.at[i].drawn && l.at[i].t > r.t_min && l.at[i].t < r.t_max)
                     want = &l.at[i];
             const bool found = first_of(ops, shape, &r, &first);
-            if (found != (want != NULL) || (want && (want->t != first.t ||
-                                                     want->part != first.part ||
-                                                     want->dt != first.dt)))
+            // Lanes come by other roundings to it.
+            const double slack = want && ops->closest8 ? want->dt + first.dt : 0;
+            if (found != (want != NULL) || (want && (fabs(want->t - first.t) > slack ||
+                                                     want->part != first.part)))
                 fail_msg("%s { %s }: ray %d: %.17g, not %.17g", all[n].word, all[n].text, k,
                          found ? first.t : NAN, want ? want->t : NAN);
             met += found;
