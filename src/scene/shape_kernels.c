@@ -7,8 +7,9 @@
 #include "scene/shapes/isosurface_lanes.h"
 #include "scene/shapes/julia_lanes.h"
 #include "scene/shapes/patch_lanes.h"
-#include "scene/shapes/polygon.h"
 #include "scene/shapes/poly_lanes.h"
+#include "scene/shapes/polygon.h"
+#include "scene/shapes/sphere_sweep.h"
 #include "scene/shapes/superellipsoid.h"
 
 #define PASTE_(a, b) a##b
@@ -24,4 +25,5 @@ const struct shape_kernels PASTE(shape_kernels_, ISA) = {
     .polygon = PASTE(polygon_closest8_, ISA),
     .poly = PASTE(poly_closest8_, ISA),
     .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
+    .sphere_sweep = PASTE(sweep_closest8_, ISA),
 };

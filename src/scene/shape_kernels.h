@@ -42,6 +42,7 @@ struct patch;
 struct polygon;
 struct superellipsoid;
 struct poly;
+struct sweep;
 struct shape_kernels {
     unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
                      struct shape_hits *out, unsigned *odd);
@@ -62,6 +63,8 @@ struct shape_kernels {
     unsigned (*superellipsoid)(const struct superellipsoid *s,
                                const struct shape_rays *rays, unsigned lanes, bool any,
                                struct shape_hits *out);
+    unsigned (*sphere_sweep)(const struct sweep *s, const struct shape_rays *rays,
+                             unsigned lanes, struct shape_hits *out, unsigned *odd);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -64,10 +64,13 @@ static const char *const shapes[] = {
     "xyz(2,0,0): 2+4*Q, xyz(0,2,0): 2+4*Q, xyz(0,0,2): 2+4*Q, xyz(0,0,0): -1-2*Q }",
     "blob { threshold .5 sphere { <-.4, 0, 0>, .8, 1 } sphere { <.4, .2, 0>, .7, 1 } "
     "sphere { <0, -.2, .3>, .5, -1 } }",
-    "blob { threshold .3 cylinder { <-.6, -.2, 0>, <.6, .3, .2>, .5, 1 } sphere { 0, .6, 1 "
-    "scale <1, .5, 2> rotate 30*z } cylinder { <0, -.8, 0>, <0, .8, 0>, .3, 2 rotate 20*x } "
+    "blob { threshold .3 cylinder { <-.6, -.2, 0>, <.6, .3, .2>, .5, 1 } sphere { 0, .6, "
+    "1 "
+    "scale <1, .5, 2> rotate 30*z } cylinder { <0, -.8, 0>, <0, .8, 0>, .3, 2 rotate "
+    "20*x } "
     "}",
-    "blob { threshold .6 #declare S = seed(1); #for (I, 0, 119) sphere { <rand(S), rand(S), "
+    "blob { threshold .6 #declare S = seed(1); #for (I, 0, 119) sphere { <rand(S), "
+    "rand(S), "
     "rand(S)>*1.6 - .8, .3, 1 } #end }",
 };
 
@@ -115,6 +118,15 @@ static const char *const same_bits[] = {
     "prism { conic_sweep .2, .9, 5, <-.8, -.7>, <.9, -.5>, <.7, .8>, <-.6, .6>, <-.8, "
     "-.7> open }",
     "text { ttf FONT \"g&8\" .4, <-.3, 0> }",
+    "sphere_sweep { linear_spline 5, <-.8, -.5, 0>, .3, <.2, -.6, .3>, .1, <.7, .4, "
+    "-.2>, .2, "
+    "<-.3, .7, .1>, 0, <-.6, .1, -.6>, .25 }",
+    "sphere_sweep { linear_spline 3, 0, .5, <.1, 0, 0>, .1, <.4, .3, .1>, .4 }",
+    "sphere_sweep { b_spline 6, <-.8, -.5, 0>, .3, <.2, -.6, .3>, .3, <.7, .4, -.2>, .2, "
+    "<-.3, .7, .1>, .4, <-.6, .1, -.6>, .25, <.4, .1, .6>, .3 }",
+    "sphere_sweep { cubic_spline 6, <-.8, -.5, 0>, .3, <.2, -.6, .3>, .3, <.7, .4, -.2>, "
+    ".2, "
+    "<-.3, .7, .1>, .1, <-.6, .1, -.6>, .25, <.4, .1, .6>, .3 }",
     "polygon { 4, <-.9, -.8, .1>, <.8, -.9, .2>, <.1, .9, 0>, <-.9, -.8, .1> }",
     "polygon { 10, <-.8, 0, -.8>, <.8, 0, -.8>, <.8, 0, .8>, <-.8, 0, .8>, <-.8, 0, "
     "-.8>, "

@@ -14,41 +14,16 @@
 #include "math/gamma.h"
 #include "math/polynomial.h"
 #include "scene/args.h"
-#include "scene/shape.h"
 #include "scene/shapes/extrude.h"
-
-enum spline { SPLINE_LINEAR, SPLINE_B, SPLINE_CUBIC };
+#include "scene/shapes/sphere_sweep.h"
 
 static const char *const spline_word[] = {"linear_spline", "b_spline", "cubic_spline"};
 
-struct ball {
-    struct vec3 c;
-    double r;
-};
-
-// Ascending powers of u; the ball `around` holds the segment.
-struct segment {
-    struct vec3 c[4];
-    double r[4];
-    int degree;
-    struct ball around;
-    bool empty; // a curve: all radii are zero
-};
-
-struct sweep {
-    enum spline spline;
-    struct ball *ball; // as written
-    long count;
-    struct segment *segment;
-    uint32_t segments;
-    struct aabb bounds;
-};
-
 // ---- building -------------------------------------------------------------------------
 
-static struct ball mix(const struct ball *p, const double weight[4], int n)
+static struct sweep_ball mix(const struct sweep_ball *p, const double weight[4], int n)
 {
-    struct ball sum = {{0, 0, 0}, 0};
+    struct sweep_ball sum = {{0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
         sum.c = vec3_mad(sum.c, weight[i], p[i].c);
         sum.r += weight[i] * p[i].r;
@@ -67,12 +42,13 @@ static const double b_spline[4][4] = {{1. / 6, 4. / 6, 1. / 6, 0},
 static const double from_powers[4][4] = {
     {1, 0, 0, 0}, {1, 1. / 3, 0, 0}, {1, 2. / 3, 1. / 3, 0}, {1, 1, 1, 1}};
 
-static void make_segment(struct sweep *s, const struct ball *p, struct segment *g)
+static void make_segment(struct sweep *s, const struct sweep_ball *p,
+                         struct sweep_segment *g)
 {
-    struct ball power[4] = {{{0}, 0}}, hull[4];
+    struct sweep_ball power[4] = {{{0}, 0}}, hull[4];
     if (s->spline == SPLINE_LINEAR) {
         power[0] = p[0];
-        power[1] = (struct ball){vec3_sub(p[1].c, p[0].c), p[1].r - p[0].r};
+        power[1] = (struct sweep_ball){vec3_sub(p[1].c, p[0].c), p[1].r - p[0].r};
     }
     g->degree = s->spline == SPLINE_LINEAR ? 1 : 3;
     for (int k = 0; k < 4; k++) {
@@ -88,7 +64,7 @@ static void make_segment(struct sweep *s, const struct ball *p, struct segment *
         box = aabb_add(box, vec3_sub(hull[k].c, vec3(r, r, r)));
         box = aabb_add(box, vec3_add(hull[k].c, vec3(r, r, r)));
     }
-    g->around = (struct ball){vec3_scale(0.5, vec3_add(box.min, box.max)), 0};
+    g->around = (struct sweep_ball){vec3_scale(0.5, vec3_add(box.min, box.max)), 0};
     for (int k = 0; k < 4; k++)
         g->around.r = fmax(g->around.r, vec3_length(vec3_sub(hull[k].c, g->around.c)) +
                                             fabs(hull[k].r));
@@ -109,7 +85,7 @@ static bool read_spline(struct sweep *s, struct args *args)
 {
     for (int i = 0; i < 3; i++)
         if (args_word(args, spline_word[i])) {
-            s->spline = (enum spline)i;
+            s->spline = (enum sweep_spline)i;
             return true;
         }
     args_reject(args, "linear_spline, b_spline or cubic_spline must come first");
@@ -129,7 +105,7 @@ static bool build(void *shape, struct args *args)
         return false;
     }
     struct arena *arena = args_arena(args);
-    s->ball = arena_new_array(arena, struct ball, (size_t)s->count);
+    s->ball = arena_new_array(arena, struct sweep_ball, (size_t)s->count);
     for (long i = 0; i < s->count; i++)
         if (!args_vec3(args, "centre", &s->ball[i].c) ||
             !args_float(args, "radius", &s->ball[i].r))
@@ -137,7 +113,7 @@ static bool build(void *shape, struct args *args)
     if (args_word(args, "tolerance") && !args_float(args, "tolerance", &tolerance))
         return false;
     s->segments = (uint32_t)(s->count - (least == 2 ? 1 : 3));
-    s->segment = arena_new_array(arena, struct segment, s->segments);
+    s->segment = arena_new_array(arena, struct sweep_segment, s->segments);
     make_segments(s);
     return true;
 }
@@ -171,7 +147,7 @@ static void differentiate(const double *a, int n, double *d)
 }
 
 // w = r^2 - |p|^2 for a vector polynomial p.
-static void excess(const struct segment *g, const struct vec3 p[4], double w[7])
+static void excess(const struct sweep_segment *g, const struct vec3 p[4], double w[7])
 {
     multiply(g->r, g->degree, g->r, g->degree, 1, w);
     for (int i = 0; i <= g->degree; i++)
@@ -292,6 +268,12 @@ struct line {
     struct boundary_list *out;
 };
 
+static struct line line_of(const struct ray *ray, struct boundary_list *out)
+{
+    const double length = vec3_length(ray->d);
+    return (struct line){ray, vec3_scale(1 / length, ray->d), length, out};
+}
+
 static void end(const struct line *l, double t, double shift, double dt, double u,
                 uint32_t part, enum crossing kind)
 {
@@ -308,13 +290,15 @@ static double chord_error(const struct chord *c, double u, double noise)
     return w > noise ? fmin(noise / sqrt(w), 2 * sqrt(noise)) : 2 * sqrt(noise);
 }
 
-static void meet_segment(const struct line *l, const struct segment *g, uint32_t part)
+static void meet_segment(const struct line *l, const struct sweep_segment *g,
+                         uint32_t part)
 {
     const struct vec3 to = vec3_sub(g->around.c, l->ray->o);
     const double shift = vec3_dot(to, l->d);
     const struct vec3 off = vec3_mad(to, -shift, l->d); // from the line to the middle
     const double r = g->around.r;
-    if (g->empty || vec3_dot(off, off) > r * r * (1 + 0x1p-30) + GAMMA(16) * vec3_dot(to, to))
+    if (g->empty ||
+        vec3_dot(off, off) > r * r * (1 + 0x1p-30) + GAMMA(16) * vec3_dot(to, to))
         return;
     const struct vec3 o = vec3_mad(l->ray->o, shift, l->d);
     struct chord c = {.r = g->r, .tau_degree = g->degree, .w_degree = 2 * g->degree};
@@ -333,8 +317,8 @@ static void meet_segment(const struct line *l, const struct segment *g, uint32_t
             continue;
         cover(&c, i ? u[i - 1] : 0, i < n ? u[i] : 1);
         const double noise = GAMMA(64) * r * (r + fabs(shift) * 0x1p-20) + error * r;
-        end(l, c.least, shift, error + chord_error(&c, c.at_least, noise), c.at_least, part,
-            CROSS_ENTER);
+        end(l, c.least, shift, error + chord_error(&c, c.at_least, noise), c.at_least,
+            part, CROSS_ENTER);
         end(l, c.most, shift, error + chord_error(&c, c.at_most, noise), c.at_most, part,
             CROSS_EXIT);
     }
@@ -343,8 +327,7 @@ static void meet_segment(const struct line *l, const struct segment *g, uint32_t
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct sweep *s = shape;
-    const double length = vec3_length(ray->d);
-    const struct line l = {ray, vec3_scale(1 / length, ray->d), length, out};
+    const struct line l = line_of(ray, out);
     const uint32_t from = out->count;
     for (uint32_t i = 0; i < s->segments; i++)
         meet_segment(&l, &s->segment[i], i);
@@ -352,6 +335,78 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         return;
     boundary_list_sort(out, from);
     boundary_list_merge(out, from);
+}
+
+// ---- the first crossing -----------------------------------------------------------------
+
+enum { STRETCHES = 32 };
+
+// What the segments met so far cover of a line.
+struct cover {
+    struct boundary at[2 * STRETCHES]; // entries and exits, in turn
+    uint32_t count;
+};
+
+// The first end of their union behind t_min; NULL: none. Of equal ones that which is kept when
+// all are merged.
+static const struct boundary *first_end(const struct cover *c, double t_min)
+{
+    const struct boundary *enter = NULL, *leave = NULL;
+    double covered = t_min;
+    for (bool more = true; more;) {
+        more = false;
+        for (uint32_t i = 0; i < c->count; i += 2) {
+            const struct boundary *b = &c->at[i];
+            if (b[0].t <= covered && b[1].t > covered) {
+                leave = &b[1];
+                covered = b[1].t;
+                more = true;
+            } else if (leave && b[1].t == covered && b[1].part > leave->part) {
+                leave = &b[1];
+            } else if (b[0].t > t_min &&
+                       (!enter || b[0].t < enter->t ||
+                        (b[0].t == enter->t && b[0].part < enter->part))) {
+                enter = &b[0];
+            }
+        }
+    }
+    return leave ? leave : enter;
+}
+
+static void sort_near(struct sweep_near *near, uint32_t n)
+{
+    for (uint32_t i = 1; i < n; i++) {
+        const struct sweep_near x = near[i];
+        uint32_t j = i;
+        for (; j > 0 && near[j - 1].from > x.from; j--)
+            near[j] = near[j - 1];
+        near[j] = x;
+    }
+}
+
+bool sweep_first(const struct sweep *s, const struct ray *ray, struct sweep_near *near,
+                 uint32_t count, struct boundary *out, bool *odd)
+{
+    struct cover c;
+    struct boundary_list list = {.at = c.at, .capacity = 2 * STRETCHES};
+    const struct line l = line_of(ray, &list);
+    const struct boundary *first = NULL;
+    sort_near(near, count);
+    for (uint32_t i = 0; i < count && !(first && near[i].from > first->t); i++) {
+        if (list.count + 8 > list.capacity) { // a segment has four stretches at most
+            *odd = true;
+            return false;
+        }
+        const uint32_t before = list.count;
+        meet_segment(&l, &s->segment[near[i].segment], near[i].segment);
+        c.count = list.count;
+        if (list.count > before)
+            first = first_end(&c, ray->t_min);
+    }
+    if (!first || !(first->t <= ray->t_max))
+        return false;
+    *out = *first;
+    return true;
 }
 
 // ---- the rest -------------------------------------------------------------------------
@@ -363,7 +418,7 @@ static struct aabb bounds(const void *shape)
 }
 
 // Not by w(u) itself: its terms are of the size of the segment, and cancel where that is thin.
-static bool inside_ball(const struct segment *g, double u, struct vec3 p)
+static bool inside_ball(const struct sweep_segment *g, double u, struct vec3 p)
 {
     struct vec3 c = g->c[g->degree];
     for (int k = g->degree - 1; k >= 0; k--)
@@ -374,7 +429,7 @@ static bool inside_ball(const struct segment *g, double u, struct vec3 p)
 }
 
 // Some ball holds p when that of the greatest w does: at an end, or where w' vanishes.
-static bool inside_segment(const struct segment *g, struct vec3 p)
+static bool inside_segment(const struct sweep_segment *g, struct vec3 p)
 {
     if (g->empty)
         return false;
@@ -397,7 +452,7 @@ static bool inside(const void *shape, struct vec3 p)
 {
     const struct sweep *s = shape;
     for (uint32_t i = 0; i < s->segments; i++) {
-        const struct segment *g = &s->segment[i];
+        const struct sweep_segment *g = &s->segment[i];
         const struct vec3 d = vec3_sub(p, g->around.c);
         if (vec3_dot(d, d) <= g->around.r * g->around.r && inside_segment(g, p))
             return true;
@@ -405,11 +460,28 @@ static bool inside(const void *shape, struct vec3 p)
     return false;
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    unsigned odd, met = k->sphere_sweep(shape, rays, lanes, out, &odd);
+    for (; odd; odd &= odd - 1)
+        met |= shape_lane_alone(&sphere_sweep_ops, shape, rays, __builtin_ctz(odd), out);
+    return met;
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
+}
+
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     const struct sweep *s = shape;
-    const struct segment *g = &s->segment[b->part];
+    const struct sweep_segment *g = &s->segment[b->part];
     struct vec3 c = g->c[g->degree], along = vec3_scale(g->degree, c);
     for (int k = g->degree - 1; k >= 0; k--) {
         c = vec3_mad(g->c[k], b->v, c);
@@ -446,6 +518,8 @@ const struct shape_ops sphere_sweep_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };
