@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "math/quadratic.h"
+
 static const double roundoff = 0x1p-53;
 
 enum { BERNSTEIN_MAX = 8 };
@@ -355,4 +357,24 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
         rising = !rising;
     }
     return count;
+}
+
+int polynomial_sign_changes(const double *c, int degree, double lo, double hi,
+                            double rounding, struct polynomial_root *out)
+{
+    double t[2];
+    while (degree > 0 && c[degree] == 0)
+        degree--;
+    if (degree > 2)
+        return polynomial_roots(c, degree, lo, hi, rounding, out);
+    int found = degree, n = 0;
+    if (degree == 2)
+        found = quadratic_roots(c[2], 0.5 * c[1], c[0], t);
+    else if (degree == 1)
+        t[0] = -c[0] / c[1];
+    for (int i = 0; i < found; i++)
+        if (t[i] > lo && t[i] < hi)
+            out[n++] = (struct polynomial_root){
+                .t = t[i], .rising = (c[degree] > 0) == (i + 1 == found)};
+    return n;
 }

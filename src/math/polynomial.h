@@ -9,8 +9,8 @@ enum { POLYNOMIAL_DEGREE_MAX = 35 };
 
 struct polynomial_root {
     double t;
-    double dt;   // bound on the error of t from the rounding of the evaluation
-    int rising;  // the sign goes from - to + with growing t
+    double dt;  // bound on the error of t from the rounding of the evaluation
+    int rising; // the sign goes from - to + with growing t
 };
 
 // coefficient[i] belongs to t^i. Roots in lo < t < hi at which the sign changes,
@@ -20,9 +20,15 @@ struct polynomial_root {
 int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
                      double rounding, struct polynomial_root *root);
 
+// The same with no error bounds (dt), lines and parabolas by formula: for roots that are but
+// a step on the way.
+int polynomial_sign_changes(const double *coefficient, int degree, double lo, double hi,
+                            double rounding, struct polynomial_root *root);
+
 // How far a root at t may be off when the value is off by `error`, more than polynomial_roots
 // knows of: to first order where it is simple, to second at a double root.
-double polynomial_root_error(const double *coefficient, int degree, double t, double error);
+double polynomial_root_error(const double *coefficient, int degree, double t,
+                             double error);
 
 double polynomial_value(const double *coefficient, int degree, double t);
 

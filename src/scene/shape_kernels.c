@@ -9,6 +9,7 @@
 #include "scene/shapes/patch_lanes.h"
 #include "scene/shapes/poly_lanes.h"
 #include "scene/shapes/polygon.h"
+#include "scene/shapes/revolve.h"
 #include "scene/shapes/sphere_sweep.h"
 #include "scene/shapes/superellipsoid.h"
 
@@ -25,5 +26,6 @@ const struct shape_kernels PASTE(shape_kernels_, ISA) = {
     .polygon = PASTE(polygon_closest8_, ISA),
     .poly = PASTE(poly_closest8_, ISA),
     .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
+    .revolve = PASTE(revolve_closest8_, ISA),
     .sphere_sweep = PASTE(sweep_closest8_, ISA),
 };

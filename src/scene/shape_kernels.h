@@ -42,6 +42,7 @@ struct patch;
 struct polygon;
 struct superellipsoid;
 struct poly;
+struct revolve;
 struct sweep;
 struct shape_kernels {
     unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
@@ -56,13 +57,15 @@ struct shape_kernels {
                       unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
-    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays, unsigned lanes,
-                      bool any, struct shape_hits *out);
+    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays,
+                      unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
                      bool any, struct shape_hits *out);
     unsigned (*superellipsoid)(const struct superellipsoid *s,
                                const struct shape_rays *rays, unsigned lanes, bool any,
                                struct shape_hits *out);
+    unsigned (*revolve)(const struct revolve *s, const struct shape_rays *rays,
+                        unsigned lanes, struct shape_hits *out, unsigned *odd);
     unsigned (*sphere_sweep)(const struct sweep *s, const struct shape_rays *rays,
                              unsigned lanes, struct shape_hits *out, unsigned *odd);
 };

@@ -22,6 +22,7 @@ packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noi
 	src/scene/shapes/extrude_lanes.c src/scene/shapes/extrude_lanes.h src/scene/shapes/outline_lanes.h \
 	src/scene/shapes/polygon.h src/scene/shapes/polygon_lanes.c \
 	src/scene/shapes/height_field_lanes.c src/scene/shapes/height_field_lanes.h \
+	src/scene/shapes/revolve_lanes.c \
 	src/scene/shapes/sphere_sweep.h src/scene/shapes/sphere_sweep_lanes.c \
 	src/scene/shapes/isosurface_lanes.c src/scene/shapes/isosurface_lanes.h \
 	src/scene/shapes/patch_lanes.c src/scene/shapes/patch_lanes.h \

@@ -97,8 +97,8 @@ static bool build(void *shape, struct args *args)
     struct lathe *l = shape;
     if (!read_points(l, args))
         return false;
-    const long n = l->spline == SPLINE_BEZIER ? l->count / 4
-                                              : l->count - 1 - (long)l->spline;
+    const long n =
+        l->spline == SPLINE_BEZIER ? l->count / 4 : l->count - 1 - (long)l->spline;
     struct revolve_segment *s =
         arena_new_array(args_arena(args), struct revolve_segment, (size_t)n);
     for (long i = 0; i < n; i++) {
@@ -111,8 +111,8 @@ static bool build(void *shape, struct args *args)
     }
     l->revolve.segment = s;
     l->revolve.count = (uint32_t)n;
-    l->revolve.closed = s[0].h_end[0] == s[n - 1].h_end[1] &&
-                        s[0].r2_end[0] == s[n - 1].r2_end[1];
+    l->revolve.closed =
+        s[0].h_end[0] == s[n - 1].h_end[1] && s[0].r2_end[0] == s[n - 1].r2_end[1];
     revolve_prepare(&l->revolve);
     return true;
 }
@@ -133,6 +133,20 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
 {
     const struct lathe *l = shape;
     revolve_intersect(&l->revolve, ray, out);
+}
+
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    return revolve_closest8(k, &lathe_ops, shape, rays, lanes, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
@@ -163,6 +177,8 @@ const struct shape_ops lathe_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

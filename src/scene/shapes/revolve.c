@@ -14,28 +14,53 @@ static const double FLAT = 0x1p-24; // a few square roots of the roundoff
 
 // Up to this slope, segments whose ends are not near the line's heights within the shape
 // are met as by a horizontal line, and the crossings sharpened.
-static const double NEARLY_FLAT = 0x1p-14;
+static const double NEARLY_FLAT = REVOLVE_NEARLY_FLAT;
 
 // Of a segment: so little can the crossings of a height be apart on it that are sharpened.
 static const double NARROW = 0x1p-11;
 
 static const double pi = 3.14159265358979323846;
 
-// Bernstein coefficients of a polynomial on [0, 1], whose hull holds its values.
+// Bernstein coefficients on [0, 1] of a polynomial taken as one of degree n; its values are
+// between the least and the greatest.
+static void bernstein(const double *c, int degree, int n, double *b)
+{
+    double scale = 1;
+    for (int i = 0; i <= n; i++) { // over the binomials
+        b[i] = i <= degree ? c[i] * scale : 0;
+        scale *= (i + 1.) / fmax(1, n - i);
+    }
+    for (int i = 0; i < n; i++)
+        for (int k = n; k > i; k--)
+            b[k] += b[k - 1];
+}
+
 static void hull(const double *c, int degree, double *low, double *high)
 {
-    double b[POLYNOMIAL_DEGREE_MAX + 1] = {0}, scale = 1;
-    for (int i = 0; i <= degree; i++) { // over the binomials
-        b[i] = c[i] * scale;
-        scale *= (i + 1.) / fmax(1, degree - i);
-    }
-    for (int i = 0; i < degree; i++)
-        for (int k = degree; k > i; k--)
-            b[k] += b[k - 1];
+    double b[POLYNOMIAL_DEGREE_MAX + 1];
+    bernstein(c, degree, degree, b);
     *low = *high = b[0];
     for (int i = 1; i <= degree; i++) {
         *low = fmin(*low, b[i]);
         *high = fmax(*high, b[i]);
+    }
+}
+
+// Of all that is_outside asks for.
+static void bound_together(struct revolve_segment *s)
+{
+    double h2[7] = {0};
+    for (int i = 0; i <= s->h_degree; i++)
+        for (int k = 0; k <= s->h_degree; k++)
+            h2[i + k] += s->h[i] * s->h[k];
+    const double *const c[3] = {s->h, h2, s->r2};
+    const int degree[3] = {s->h_degree, 2 * s->h_degree, s->r2_degree};
+    s->degree = degree[1] > degree[2] ? degree[1] : degree[2];
+    for (int i = 0; i < 3; i++) {
+        bernstein(c[i], degree[i], s->degree, s->hull[i]);
+        s->most[i] = 0;
+        for (int k = 0; k <= degree[i]; k++)
+            s->most[i] += fabs(c[i][k]);
     }
 }
 
@@ -67,6 +92,7 @@ static void bound_segment(struct revolve_segment *s)
     double least2;
     hull(s->h, s->h_degree, &s->low, &s->high);
     hull(s->r2, s->r2_degree, &least2, &s->most2);
+    bound_together(s);
     s->climbs = is_climbing(s);
     s->low = fmin(s->low, fmin(s->h_end[0], s->h_end[1]));
     s->high = fmax(s->high, fmax(s->h_end[0], s->h_end[1]));
@@ -117,7 +143,7 @@ static bool is_below_before(const double *f, int degree, double t)
 static int crossings(const double *f, int degree, bool above[2], double *w)
 {
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
-    int n = polynomial_roots(f, degree, 0, 1, 16, root);
+    int n = polynomial_sign_changes(f, degree, 0, 1, 16, root);
     // The ends decide: drop or add a root at the end where rounding disagrees.
     bool state = above[0];
     int kept = 0;
@@ -164,10 +190,11 @@ struct line {
     // The same at t = `shift`, at the height y there: where the line is nearest to the axis,
     // or a nearly horizontal line's crossings are lost in the rounding of the cross term.
     double shift, y, shifted_m, shifted_p;
-    double dt;      // the part of the error that all crossings share
+    double dt;                // the part of the error that all crossings share
     double nearest, nearest2; // where it is nearest to the axis, and how near, squared
     double reach;             // error of t at a height
     double size;              // of all coordinates
+    bool flat;
     struct boundary_list *out;
 };
 
@@ -205,7 +232,8 @@ static bool sharpen(const struct line *l, const struct revolve_segment *s, doubl
             return false;
         if (fabs(by_t) <= noise) {
             *t = at;
-            *dt = noise > 0x1p-40 * l->size ? 4 * noise : noise; // not of first order alone
+            *dt =
+                noise > 0x1p-40 * l->size ? 4 * noise : noise; // not of first order alone
             *w = u < 0 ? 0 : u > 1 ? 1 : u;
             return true;
         }
@@ -328,32 +356,37 @@ static void cap(const struct line *l, uint32_t part, double h, double r2)
         add(l, t, l->dt / fabs(l->ray->d.y), part, 0);
 }
 
-// Toggles along the sorted crossings; b->u turns the profile's normal outward.
+// What is entered or left; b->u turns the profile's normal outward.
+static void orient(const struct line *l, struct boundary *b, bool in)
+{
+    b->crossing = in ? CROSS_EXIT : CROSS_ENTER;
+    if (b->part < REVOLVE_SEGMENT) {
+        b->drawn = l->r->caps_drawn;
+        b->u = (l->ray->d.y < 0) == !in ? 1 : -1;
+        return;
+    }
+    const struct vec3 p = ray_at(l->ray, b->t);
+    struct surface_point s = {.want_uv = false};
+    b->u = 1;
+    revolve_surface(l->r, b, p, &s);
+    if ((vec3_dot(s.ng, l->ray->d) < 0) == in)
+        b->u = -1;
+}
+
+// Toggles along the sorted crossings.
 static void alternate(const struct line *l, uint32_t from)
 {
     bool in = false;
     for (uint32_t i = from; i < l->out->count; i++) {
-        struct boundary *b = &l->out->at[i];
-        b->crossing = in ? CROSS_EXIT : CROSS_ENTER;
-        if (b->part < REVOLVE_SEGMENT) {
-            b->drawn = l->r->caps_drawn;
-            b->u = (l->ray->d.y < 0) == !in ? 1 : -1;
-        } else {
-            const struct vec3 p = ray_at(l->ray, b->t);
-            struct surface_point s = {.want_uv = false};
-            b->u = 1;
-            revolve_surface(l->r, b, p, &s);
-            if ((vec3_dot(s.ng, l->ray->d) < 0) == in)
-                b->u = -1;
-        }
+        orient(l, &l->out->at[i], in);
         in = !in;
     }
     if (in) // an odd number: a crossing was lost to rounding at the very rim
         l->out->count--;
 }
 
-void revolve_intersect(const struct revolve *r, const struct ray *ray,
-                       struct boundary_list *out)
+static struct line line_of(const struct revolve *r, const struct ray *ray,
+                           struct boundary_list *out)
 {
     struct line l = {.r = r, .ray = ray, .out = out};
     const struct vec3 o = ray->o, d = ray->d;
@@ -364,8 +397,8 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
         fmax(vec3_max_abs(o), fmax(r->r_max, fmax(fabs(r->h_min), fabs(r->h_max))));
     l.size = size;
     l.dt = GAMMA(64) * size / sqrt(l.q + d.y * d.y);
-    const bool flat = fabs(d.y) <= FLAT * sqrt(l.q);
-    if (flat)
+    l.flat = fabs(d.y) <= FLAT * sqrt(l.q);
+    if (l.flat)
         l.dt += fabs(d.y) * r->r_max / l.q;
     l.nearest = l.q > 0 ? -l.m / l.q : 0;
     const double x = o.x + l.nearest * d.x, z = o.z + l.nearest * d.z;
@@ -376,20 +409,71 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     l.shifted_m = near ? 0 : l.m;
     l.shifted_p = near ? l.nearest2 : l.p;
     l.reach = GAMMA(16) * size / fabs(d.y);
+    return l;
+}
+
+static void meet_caps(const struct line *l)
+{
+    const struct revolve *r = l->r;
+    if (l->flat || r->closed || !r->count)
+        return;
+    const struct revolve_segment *last = &r->segment[r->count - 1];
+    cap(l, REVOLVE_FIRST_CAP, r->segment[0].h_end[0], r->segment[0].r2_end[0]);
+    cap(l, REVOLVE_LAST_CAP, last->h_end[1], last->r2_end[1]);
+}
+
+void revolve_intersect(const struct revolve *r, const struct ray *ray,
+                       struct boundary_list *out)
+{
+    const struct line l = line_of(r, ray, out);
     const uint32_t from = out->count;
-    const bool nearly = fabs(d.y) <= NEARLY_FLAT * sqrt(l.q);
+    const bool nearly = fabs(ray->d.y) <= NEARLY_FLAT * sqrt(l.q);
     for (uint32_t i = 0; i < r->count; i++)
-        if (flat || (nearly && is_clear(&l, &r->segment[i])))
-            flat_segment(&l, i, flat);
+        if (l.flat || (nearly && is_clear(&l, &r->segment[i])))
+            flat_segment(&l, i, l.flat);
         else
             sloped_segment(&l, i);
-    if (!flat && !r->closed && r->count) {
-        const struct revolve_segment *last = &r->segment[r->count - 1];
-        cap(&l, REVOLVE_FIRST_CAP, r->segment[0].h_end[0], r->segment[0].r2_end[0]);
-        cap(&l, REVOLVE_LAST_CAP, last->h_end[1], last->r2_end[1]);
-    }
+    meet_caps(&l);
     boundary_list_sort(out, from);
     alternate(&l, from);
+}
+
+bool revolve_first(const struct revolve *r, const struct ray *ray,
+                   const uint32_t *segment, uint32_t count, struct boundary *out)
+{
+    enum { ROOM = 8 * REVOLVE_FIRST_MAX + 2 }; // a segment has at most 8 crossings
+    struct boundary room[ROOM];
+    struct boundary_list list = {.at = room, .capacity = ROOM};
+    const struct line l = line_of(r, ray, &list);
+    for (uint32_t i = 0; i < count; i++)
+        sloped_segment(&l, segment[i]);
+    meet_caps(&l);
+    boundary_list_sort(&list, 0);
+    if (list.count % 2) // as in alternate
+        list.count--;
+    for (uint32_t i = 0; i < list.count; i++) {
+        struct boundary *b = &list.at[i];
+        if (!(b->t > ray->t_min))
+            continue;
+        if (b->t > ray->t_max)
+            return false;
+        orient(&l, b, i % 2);
+        if (!b->drawn)
+            continue;
+        *out = *b;
+        return true;
+    }
+    return false;
+}
+
+unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops *ops,
+                          const void *shape, const struct shape_rays *rays,
+                          unsigned lanes, struct shape_hits *out)
+{
+    unsigned odd, met = k->revolve(shape, rays, lanes, out, &odd);
+    for (; odd; odd &= odd - 1)
+        met |= shape_lane_alone(ops, shape, rays, __builtin_ctz(odd), out);
+    return met;
 }
 
 void revolve_surface(const struct revolve *r, const struct boundary *b, struct vec3 p,

@@ -7,7 +7,7 @@
 
 #include "math/aabb.h"
 #include "scene/boundary.h"
-#include "scene/shape.h"
+#include "scene/shape_kernels.h"
 
 // A profile turned about the y axis: segments h(w), r^2(w) for 0 <= w <= 1. The solid is
 // what lies under the profile by the even-odd rule along the radius; where the profile
@@ -21,15 +21,18 @@ struct revolve_segment {
     double h[4], r2[7]; // ascending powers of w
     int h_degree, r2_degree;
     double h_end[2], r2_end[2]; // at w = 0 and 1, shared with the neighbours
-    double low, high, most2;    // it lies between these heights, within this radius squared
-    bool climbs;                // h rises or falls all the way
+    double low, high, most2; // it lies between these heights, within this radius squared
+    bool climbs;             // h rises or falls all the way
+    // Bernstein coefficients of h, h^2 and r^2 to one degree, the largest of each's sizes.
+    double hull[3][7], most[3];
+    int degree;
 };
 
 // What a lathe and a sor begin with.
 struct revolve {
     struct revolve_segment *segment;
     uint32_t count;
-    bool closed;     // the profile ends where it began: no caps
+    bool closed; // the profile ends where it began: no caps
     bool caps_drawn;
     double h_min, h_max, r_max;
 };
@@ -42,6 +45,29 @@ struct aabb revolve_bounds(const struct revolve *r);
 bool revolve_inside(const struct revolve *r, struct vec3 p);
 void revolve_intersect(const struct revolve *r, const struct ray *ray,
                        struct boundary_list *out);
+// Up to this slope a ray is nearly flat.
+#define REVOLVE_NEARLY_FLAT 0x1p-14
+
+// The first drawn crossing with t_min < t <= t_max of a ray that is not nearly flat, among
+// those with `count` segments, in rising order, and the caps. The line meets no other segment.
+bool revolve_first(const struct revolve *r, const struct ray *ray,
+                   const uint32_t *segment, uint32_t count, struct boundary *out);
+enum { REVOLVE_FIRST_MAX = 12 }; // segments that it takes
+
+// closest8 of a lathe and a sor.
+unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops *ops,
+                          const void *shape, const struct shape_rays *rays,
+                          unsigned lanes, struct shape_hits *out);
+// Lanes that are `odd` are for the one line's crossings.
+#define REVOLVE_CLOSEST8(isa)                                                            \
+    unsigned revolve_closest8_##isa(const struct revolve *s,                             \
+                                    const struct shape_rays *rays, unsigned lanes,       \
+                                    struct shape_hits *out, unsigned *odd);
+REVOLVE_CLOSEST8(base)
+REVOLVE_CLOSEST8(avx2)
+REVOLVE_CLOSEST8(avx512)
+#undef REVOLVE_CLOSEST8
+
 void revolve_surface(const struct revolve *r, const struct boundary *b, struct vec3 p,
                      struct surface_point *out);
 

@@ -40,7 +40,7 @@ static bool check_points(const struct sor *s, struct args *args)
         bool flat = i >= 2 && p[i].v == p[i - 2].v;
         if (p[i].u < 0 || falls || flat) {
             args_reject(args, p[i].u < 0 ? "a radius is negative"
-                                        : "the heights of the points must rise");
+                                         : "the heights of the points must rise");
             return false;
         }
     }
@@ -92,6 +92,20 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     revolve_intersect(&s->revolve, ray, out);
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    return revolve_closest8(k, &sor_ops, shape, rays, lanes, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
+}
+
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -122,6 +136,8 @@ const struct shape_ops sor_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };
