@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
 
 static const double pi = 3.14159265358979323846;
@@ -45,25 +46,51 @@ void photon_map_end(struct photon_map *m)
 {
     free(m->photon);
     free(m->axis);
+    free(m->box);
 }
 
 // ---- the tree ------------------------------------------------------------------------
 
-static int widest(const struct photon_map *m, uint32_t begin, uint32_t end)
-{
+// A range of the tree; its middle is the node.
+struct range {
+    uint32_t begin, end;
+};
+
+// Ranges of this many photons or more have a box. Their middles lie at least half as far
+// apart, so that a quarter of the middle's number is free for it.
+enum { BOXED = 8, BOX_SHARE = BOXED / 2 };
+
+struct photon_box {
     float low[3], high[3];
+};
+
+static uint32_t size_of(struct range r) { return r.end - r.begin; }
+
+static struct photon_box *box_of(const struct photon_map *m, struct range r)
+{
+    return &m->box[(r.begin + size_of(r) / 2) / BOX_SHARE];
+}
+
+static struct photon_box box_around(const struct photon_map *m, struct range r)
+{
+    struct photon_box b;
     for (int a = 0; a < 3; a++)
-        low[a] = high[a] = m->photon[begin].p[a];
-    for (uint32_t i = begin + 1; i < end; i++) {
+        b.low[a] = b.high[a] = m->photon[r.begin].p[a];
+    for (uint32_t i = r.begin + 1; i < r.end; i++) {
         for (int a = 0; a < 3; a++) {
             const float v = m->photon[i].p[a];
-            low[a] = v < low[a] ? v : low[a];
-            high[a] = v > high[a] ? v : high[a];
+            b.low[a] = v < b.low[a] ? v : b.low[a];
+            b.high[a] = v > b.high[a] ? v : b.high[a];
         }
     }
+    return b;
+}
+
+static int widest(const struct photon_box *b)
+{
     int axis = 0;
     for (int a = 1; a < 3; a++)
-        if (high[a] - low[a] > high[axis] - low[axis])
+        if (b->high[a] - b->low[a] > b->high[axis] - b->low[axis])
             axis = a;
     return axis;
 }
@@ -102,24 +129,21 @@ static void select_at(struct photon *p, int axis, uint32_t begin, uint32_t end,
     }
 }
 
-// A range of the tree; its middle is the node.
-struct range {
-    uint32_t begin, end;
-};
-
 void photon_map_build(struct photon_map *m)
 {
     struct range stack[64];
     int top = 0;
-    m->axis = calloc(m->count ? m->count : 1, 1);
-    if (!m->axis)
-        abort();
+    m->axis = must_calloc(m->count, 1);
+    m->box = must_calloc(m->count / BOX_SHARE + 1, sizeof *m->box);
     if (m->count)
         stack[top++] = (struct range){0, m->count};
     while (top) {
         const struct range r = stack[--top];
         const uint32_t middle = r.begin + (r.end - r.begin) / 2;
-        const int axis = widest(m, r.begin, r.end);
+        const struct photon_box box = box_around(m, r);
+        const int axis = widest(&box);
+        if (size_of(r) >= BOXED)
+            *box_of(m, r) = box;
         select_at(m->photon, axis, r.begin, r.end, middle);
         m->axis[middle] = (uint8_t)axis;
         if (middle - r.begin > 0)
@@ -176,15 +200,39 @@ static void take(struct search *s, uint32_t i, double distance2)
         s->limit2 = s->near[0].distance2;
 }
 
+static const double flatness = 16;
+
 // A disc rather than a ball: what lies off the plane is farther, the more the farther
 // (spec/lighting.md 11.5).
 static double measured(const struct search *s, const float *p)
 {
-    static const double flatness = 16;
     const double x = (double)p[0] - s->p[0], y = (double)p[1] - s->p[1],
                  z = (double)p[2] - s->p[2];
     const double off = fabs(x * s->n[0] + y * s->n[1] + z * s->n[2]);
     return (x * x + y * y + z * z) * (1 + flatness * off);
+}
+
+// Whether nothing in a range can be near enough: neither its box's nearest point nor, at
+// that distance, what lies least off the plane.
+static bool is_beyond(const struct search *s, struct range r)
+{
+    static const double rounding = 0x1p-40; // far more than the few operations here lose
+    if (size_of(r) < BOXED)
+        return false;
+    const struct photon_box *b = box_of(s->m, r);
+    double d2 = 0, middle = 0, half = 0, size = 0;
+    for (int a = 0; a < 3; a++) {
+        const double low = (double)b->low[a] - s->p[a],
+                     high = (double)b->high[a] - s->p[a];
+        const double out = low > 0 ? low : high < 0 ? high : 0;
+        d2 += out * out;
+        middle += s->n[a] * (low + high) / 2;
+        half += fabs(s->n[a]) * (high - low) / 2;
+        size += fabs(s->n[a]) * fmax(fabs(low), fabs(high));
+    }
+    const double off = fabs(middle) - half - rounding * size;
+    const double least = off > 0 ? d2 * (1 + flatness * off) : d2;
+    return least * (1 - rounding) > s->limit2;
 }
 
 static void search_tree(struct search *s)
@@ -200,7 +248,7 @@ static void search_tree(struct search *s)
         struct range r = stack[--top].r;
         if (stack[top].gap2 > s->limit2)
             continue;
-        while (r.begin < r.end) {
+        while (r.begin < r.end && !is_beyond(s, r)) {
             const uint32_t middle = r.begin + (r.end - r.begin) / 2;
             const struct photon *p = &s->m->photon[middle];
             const double d = measured(s, p->p);
@@ -242,17 +290,26 @@ uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *
                         struct vec3 p, struct vec3 normal, struct photon_near *near,
                         double *reach)
 {
+    enum { FEW = 64 };
+    struct photon_near kept[FEW];
     const uint32_t count = photons_near(m, p, normal, m->radius, g->max, near, reach);
     if (count >= g->min)
         return count;
     const double before = *reach;
+    if (count <= FEW && count)
+        memcpy(kept, near, count * sizeof *near);
     const uint32_t more =
         photons_near(m, p, normal, m->radius + m->step, g->max, near, reach);
     const double density = count / (before * before);
     const bool even = more / (*reach * *reach) <= (1 + g->expand_increase) * density;
     if (more && (even || more < g->expand_min))
         return more;
-    return photons_near(m, p, normal, m->radius, g->max, near, reach);
+    if (count > FEW)
+        return photons_near(m, p, normal, m->radius, g->max, near, reach);
+    if (count)
+        memcpy(near, kept, count * sizeof *near);
+    *reach = before;
+    return count;
 }
 
 // ---- the radius ----------------------------------------------------------------------

@@ -21,6 +21,7 @@ enum { PHOTONS_MOST = 1 << 26 }; // of a map, 2.4 GB: bounds what a spacing of n
 struct photon_map {
     struct photon *photon;
     uint8_t *axis; // of each, once the tree is made
+    struct photon_box *box; // of larger ranges, likewise
     uint32_t count, capacity;
     bool full;           // there was no room for more
     double radius, step; // to gather in; what it grows by where there are too few

@@ -90,8 +90,8 @@ static void air_between(struct tracer *t, struct shadow_walk *s, const struct ra
                         double end)
 {
     if (inside_hollow(s->inside))
-        s->pass = rgb_mul(s->pass, air_filter(t, vec3_mad(ray->o, s->t, ray->d), ray->d,
-                                              end - s->t));
+        s->pass = rgb_mul(
+            s->pass, air_filter(t, vec3_mad(ray->o, s->t, ray->d), ray->d, end - s->t));
 }
 
 // Crosses the surface that was hit; false: nothing passes.
@@ -160,25 +160,41 @@ static void walk_put(struct ray_batch *to, uint32_t i, const struct ray_batch *f
     to->t_max[i] = from->t_max[s->ray];
 }
 
+// The end of a ray's way, as walk_alone.
+static void walk_end(struct tracer *t, struct shadow_walk *s,
+                     const struct shadow_batch *b, const double *air_end)
+{
+    const struct ray ray = batch_ray(b->rays, s->ray);
+    if (s->air)
+        air_between(t, s, &ray, air_end[s->ray]);
+    b->pass[s->ray] = s->pass;
+}
+
 // The same for the rays of a batch that nothing opaque stops: those that meet surfaces
-// go from one to the next together.
-static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
+// go from one to the next together. air_end[i]: where the lamp is, for rays that the air
+// dims, or 0; NULL: none are.
+static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
+                       const double *air_end)
 {
     const struct job *job = t->job;
     struct shadow_walk *s = t->walk;
     uint32_t n = 0;
     for (uint32_t first = 0; first < count; first += 8) {
-        unsigned lit = 0;
+        unsigned lit = 0, met = 0;
         for (uint32_t i = 0; i < 8 && first + i < count; i++) {
             b->pass[first + i] = all;
             lit |= (unsigned)!b->occluded[first + i] << i;
         }
         if (lit)
-            lit &= job->kernels->meets(job->clear, job->clear_count, b->rays, first);
-        for (; lit; lit &= lit - 1) {
-            const uint32_t k = first + (uint32_t)__builtin_ctz(lit);
-            s[n++] = (struct shadow_walk){wave_inside(t, b->slot[k]), all, 0, k, false,
-                                            b->photons[k]};
+            met = lit & job->kernels->meets(job->clear, job->clear_count, b->rays, first);
+        for (lit = air_end ? lit : met; lit; lit &= lit - 1) {
+            const uint32_t i = (uint32_t)__builtin_ctz(lit), k = first + i;
+            s[n] = (struct shadow_walk){wave_inside(t, b->slot[k]), all,          0, k,
+                                        air_end && air_end[k] > 0,  b->photons[k]};
+            if (met >> i & 1)
+                n++;
+            else
+                walk_end(t, &s[n], b, air_end);
         }
     }
     while (n) {
@@ -190,10 +206,12 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count)
         for (uint32_t i = 0; i < n; i++) {
             const struct ray ray = batch_ray(t->walk_rays, i);
             const struct hit hit = hit_batch_at(t->walk_hit, i);
-            const bool on = hit.b.t < ray.t_max && walk_on(t, &s[i], &ray, &hit);
-            b->pass[s[i].ray] = s[i].pass;
-            if (on)
+            if (!(hit.b.t < ray.t_max))
+                walk_end(t, &s[i], b, air_end);
+            else if (walk_on(t, &s[i], &ray, &hit))
                 s[left++] = s[i];
+            else
+                b->pass[s[i].ray] = none;
         }
         n = left;
     }
@@ -207,11 +225,9 @@ static bool air_counts(const struct job *job, uint32_t lamp)
            (job->scene->fog_count || job->has_air_media);
 }
 
-// What passes of light that nothing opaque stops and that the air dims.
+// What passes of light that nothing stops and that the air dims.
 static struct rgb airy(struct tracer *t, const struct shadow_request *r)
 {
-    if (t->job->world->has_transparent)
-        return walk_alone(t, r, true);
     return inside_hollow(r->inside) ? air_filter(t, r->o, r->d, r->t_max) : all;
 }
 
@@ -219,12 +235,14 @@ struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
 {
     if (!(r->t_max > 0))
         return all;
-    const struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
+    const struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max},
+                                OBJECT_NO_SHADOW};
     if (trace_occluded_1(t->job->world, t->scratch, &q))
         return none;
-    if (air_counts(t->job, r->lamp))
-        return airy(t, r);
-    return t->job->world->has_transparent ? walk_alone(t, r, false) : all;
+    const bool air = air_counts(t->job, r->lamp);
+    if (t->job->world->has_transparent)
+        return walk_alone(t, r, air);
+    return air ? airy(t, r) : all;
 }
 
 // ---- batches -------------------------------------------------------------------------
@@ -273,14 +291,15 @@ void shadow_end(struct tracer *t)
     free(t->lamp_begin);
 }
 
-static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count)
+static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count,
+                        const double *air_end)
 {
     b->rays->count = count;
     for (uint32_t i = 0; i < count; i++)
         b->rays->t_max[i] *= before_lamp;
     trace_occluded(t->job->world, t->scratch, b->rays, b->occluded);
     if (b->pass)
-        walk_batch(t, b, count);
+        walk_batch(t, b, count, air_end);
 }
 
 static void light_add(struct tracer *t, uint32_t slot, struct rgb c)
@@ -293,7 +312,7 @@ static void light_add(struct tracer *t, uint32_t slot, struct rgb c)
 void shadow_flush_simple(struct tracer *t, uint32_t count)
 {
     struct shadow_batch *b = &t->simple;
-    batch_trace(t, b, count);
+    batch_trace(t, b, count, NULL);
     for (uint32_t k = 0; k < count; k++) {
         if (b->occluded[k])
             continue;
@@ -324,21 +343,30 @@ static void shadow_put(struct shadow_batch *b, uint32_t i, const struct shadow_r
     b->photons[i] = r->photons;
 }
 
+static double air_end_of(const struct job *job, const struct shadow_request *r)
+{
+    return air_counts(job, r->lamp) ? r->t_max : 0;
+}
+
 void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
                     struct rgb *out)
 {
     struct shadow_batch *b = &t->near;
+    double air_end[BATCH_SIZE];
     if (!count)
         return;
-    for (uint32_t i = 0; i < count; i++)
-        shadow_put(b, i, &r[i]);
-    batch_trace(t, b, count);
     for (uint32_t i = 0; i < count; i++) {
-        out[i] = b->occluded[i] ? none : b->pass ? b->pass[i] : all;
+        shadow_put(b, i, &r[i]);
+        air_end[i] = air_end_of(t->job, &r[i]);
+    }
+    batch_trace(t, b, count, air_end);
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = b->occluded[i]   ? none
+                 : b->pass        ? b->pass[i]
+                 : air_end[i] > 0 ? airy(t, &r[i])
+                                  : all;
         if (!(r[i].t_max > 0))
             out[i] = all;
-        else if (!b->occluded[i] && air_counts(t->job, r[i].lamp))
-            out[i] = airy(t, &r[i]);
     }
 }
 
@@ -368,12 +396,15 @@ void shadow_flush(struct tracer *t)
 {
     const uint32_t count = t->shadow_count;
     struct shadow_batch *b = &t->rest;
+    double air_end[BATCH_SIZE];
     if (!count)
         return;
     shadow_sort(t);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
         shadow_put(b, t->shadow_order[i], &t->shadow[i]);
-    batch_trace(t, b, count);
+        air_end[t->shadow_order[i]] = air_end_of(t->job, &t->shadow[i]);
+    }
+    batch_trace(t, b, count, air_end);
     t->shadow_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t k = t->shadow_order[i];
@@ -381,10 +412,10 @@ void shadow_flush(struct tracer *t)
             continue;
         const struct shadow_request *r = &t->shadow[i];
         struct rgb c = r->value;
-        if (air_counts(t->job, r->lamp))
-            c = rgb_mul(c, airy(t, r));
-        else if (b->pass)
+        if (b->pass)
             c = rgb_mul(c, b->pass[k]);
+        else if (air_end[k] > 0)
+            c = rgb_mul(c, airy(t, r));
         light_add(t, r->slot, c);
     }
 }
