@@ -6,6 +6,7 @@
 #include "scene/shapes/height_field_lanes.h"
 #include "scene/shapes/isosurface_lanes.h"
 #include "scene/shapes/julia_lanes.h"
+#include "scene/shapes/ovus.h"
 #include "scene/shapes/patch_lanes.h"
 #include "scene/shapes/poly_lanes.h"
 #include "scene/shapes/polygon.h"
@@ -22,10 +23,11 @@ const struct shape_kernels PASTE(shape_kernels_, ISA) = {
     .height_field = PASTE(height_closest8_, ISA),
     .isosurface = PASTE(iso_closest8_, ISA),
     .julia = PASTE(julia_closest8_, ISA),
+    .ovus = PASTE(ovus_closest8_, ISA),
     .patch = PASTE(patch_closest8_, ISA),
-    .polygon = PASTE(polygon_closest8_, ISA),
     .poly = PASTE(poly_closest8_, ISA),
-    .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
+    .polygon = PASTE(polygon_closest8_, ISA),
     .revolve = PASTE(revolve_closest8_, ISA),
     .sphere_sweep = PASTE(sweep_closest8_, ISA),
+    .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
 };

@@ -38,11 +38,12 @@ struct extrude_solid;
 struct height_field;
 struct isosurface;
 struct julia;
+struct ovus;
 struct patch;
-struct polygon;
-struct superellipsoid;
 struct poly;
+struct polygon;
 struct revolve;
+struct superellipsoid;
 struct sweep;
 struct shape_kernels {
     unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
@@ -53,21 +54,23 @@ struct shape_kernels {
                              unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*isosurface)(const struct isosurface *s, const struct shape_rays *rays,
                            unsigned lanes, bool any, struct shape_hits *out);
+    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays, unsigned lanes,
+                      bool any, struct shape_hits *out);
+    unsigned (*ovus)(const struct ovus *s, const struct shape_rays *rays, unsigned lanes,
+                     struct shape_hits *out);
     unsigned (*patch)(const struct patch *p, const struct shape_rays *rays,
-                      unsigned lanes, bool any, struct shape_hits *out);
-    unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
-                        unsigned lanes, struct shape_hits *out);
-    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays,
                       unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
                      bool any, struct shape_hits *out);
-    unsigned (*superellipsoid)(const struct superellipsoid *s,
-                               const struct shape_rays *rays, unsigned lanes, bool any,
-                               struct shape_hits *out);
+    unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
+                        unsigned lanes, struct shape_hits *out);
     unsigned (*revolve)(const struct revolve *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out, unsigned *odd);
     unsigned (*sphere_sweep)(const struct sweep *s, const struct shape_rays *rays,
                              unsigned lanes, struct shape_hits *out, unsigned *odd);
+    unsigned (*superellipsoid)(const struct superellipsoid *s,
+                               const struct shape_rays *rays, unsigned lanes, bool any,
+                               struct shape_hits *out);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -165,6 +165,9 @@ static const char *const same_hits[] = {
     "julia_fractal { <-.5, .2, .3, 0> hypercomplex tanh max_iteration 5 }",
     "julia_fractal { <-1, .2, .3, 0> hypercomplex exp max_iteration 5 }",
     "julia_fractal { <.4, .2, .3, 0> hypercomplex reciprocal max_iteration 5 }",
+    "ovus { .6, .4 }",
+    "ovus { .3, .4 }",
+    "ovus { .2, .5 }",
     "superellipsoid { <.2, .3> }",
     "superellipsoid { <1.4, .6> }",
     "superellipsoid { <1, 1> }",
@@ -405,17 +408,21 @@ static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
 #define WAVES "isosurface { function { y - 0.25*sin(4*x) } }"
 static const char *const carved[] = {
     "difference { object { " BLOB " } plane { y, -.1 } plane { x, -.2 } rotate 40*y }",
-    "difference { object { " BLOB " } box { <-.2, -1, -1>, <.2, 1, 1> } sphere { <.5, .2, "
+    "difference { object { " BLOB
+    " } box { <-.2, -1, -1>, <.2, 1, 1> } sphere { <.5, .2, "
     "-.3>, .3 } cylinder { -2*z, 2*z, .1 } }",
     "intersection { box { -.7, .7 rotate 30 } object { " BLOB " } }",
-    "difference { box { -.7, .7 rotate 30 } object { " BLOB " } }", // the shape is inverted
+    "difference { box { -.7, .7 rotate 30 } object { " BLOB
+    " } }", // the shape is inverted
     "difference { quartic { <1,0,0,0,2,0,0,2,0,-1.3, 0,0,0,0,0,0,0,0,0,0, "
     "1,0,0,2,0,.82,0,0,0,0, 1,0,-1.3,0,.1681> } box { <0, -1, -2>, <2, 1, 2> } "
     "cone { -y, .9, y, .6 } }",
     "object { " WAVES " clipped_by { box { -.6, .6 rotate 20*y } } }",
-    "object { " WAVES " clipped_by { sphere { 0, .6 inverse } plane { <1, 1, 1>, .4 } } }",
+    "object { " WAVES
+    " clipped_by { sphere { 0, .6 inverse } plane { <1, 1, 1>, .4 } } }",
     "object { " BLOB " clipped_by { box { <-.3, -2, -2>, <.3, 2, 2> inverse } } }",
-    "difference { text { ttf FONT \"g&8\" .4, <-.3, 0> } plane { x, .3 } sphere { <.8, .3, 0>, "
+    "difference { text { ttf FONT \"g&8\" .4, <-.3, 0> } plane { x, .3 } sphere { <.8, "
+    ".3, 0>, "
     ".3 } }",
 };
 

@@ -11,19 +11,7 @@
 #include "math/gamma.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-struct part {
-    double h, v, r;
-};
-
-enum { PART_BOTTOM, PART_ARC, PART_TOP, PARTS };
-
-struct ovus {
-    double bottom, top; // as written
-    struct part part[PARTS];
-    double joint[2]; // the heights between the parts
-    struct ball { double y, r; } around; // holds the egg
-};
+#include "scene/shapes/ovus.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -31,10 +19,10 @@ static void make_parts(struct ovus *s)
 {
     const double b = s->bottom, t = s->top;
     double r, v, h;
-    s->part[PART_TOP] = (struct part){0, b, t};
-    s->part[PART_BOTTOM] = (struct part){0, 0, b};
+    s->part[OVUS_TOP] = (struct ovus_part){0, b, t};
+    s->part[OVUS_BOTTOM] = (struct ovus_part){0, 0, b};
     if (t >= 2 * b) { // the upper ball holds the lower one
-        s->part[PART_BOTTOM] = s->part[PART_ARC] = s->part[PART_TOP];
+        s->part[OVUS_BOTTOM] = s->part[OVUS_ARC] = s->part[OVUS_TOP];
         s->joint[0] = s->joint[1] = b;
         return;
     }
@@ -51,17 +39,17 @@ static void make_parts(struct ovus *s)
         s->joint[0] = -v * b / (r - b);
         s->joint[1] = 2 * b - v;
     }
-    s->part[PART_ARC] = (struct part){h, v, r};
+    s->part[OVUS_ARC] = (struct ovus_part){h, v, r};
 }
 
 static struct aabb bounds(const void *shape)
 {
     const struct ovus *s = shape;
-    const struct part *arc = &s->part[PART_ARC];
-    double r = fmax(s->part[PART_BOTTOM].r, s->top);
+    const struct ovus_part *arc = &s->part[OVUS_ARC];
+    double r = fmax(s->part[OVUS_BOTTOM].r, s->top);
     if (arc->v >= s->joint[0] && arc->v <= s->joint[1]) // the widest place is on the arc
         r = fmax(r, arc->r - arc->h);
-    const double low = fmin(-s->part[PART_BOTTOM].r + s->part[PART_BOTTOM].v,
+    const double low = fmin(-s->part[OVUS_BOTTOM].r + s->part[OVUS_BOTTOM].v,
                             s->bottom - s->top);
     return aabb_pad((struct aabb){vec3(-r, low, -r), vec3(r, s->bottom + s->top, r)});
 }
@@ -95,13 +83,13 @@ static bool build(void *shape, struct args *args)
 
 static int part_at(const struct ovus *s, double y)
 {
-    return y < s->joint[0] ? PART_BOTTOM : y > s->joint[1] ? PART_TOP : PART_ARC;
+    return y < s->joint[0] ? OVUS_BOTTOM : y > s->joint[1] ? OVUS_TOP : OVUS_ARC;
 }
 
 static bool inside(const void *shape, struct vec3 p)
 {
     const struct ovus *s = shape;
-    const struct part *k = &s->part[part_at(s, p.y)];
+    const struct ovus_part *k = &s->part[part_at(s, p.y)];
     const double q = sqrt(p.x * p.x + p.z * p.z) + k->h, w = p.y - k->v;
     return q * q + w * w < k->r * k->r;
 }
@@ -112,7 +100,7 @@ struct line {
     double noise; // bound on the error of the distance
 };
 
-static double distance(const struct line *l, const struct part *k, double t, double *slope)
+static double distance(const struct line *l, const struct ovus_part *k, double t, double *slope)
 {
     const struct vec3 p = vec3_mad(l->o, t, l->d);
     const double rho = sqrt(p.x * p.x + p.z * p.z), q = rho + k->h, w = p.y - k->v;
@@ -123,7 +111,7 @@ static double distance(const struct line *l, const struct part *k, double t, dou
 }
 
 // From t, outside, towards `to`: the first root, or false.
-static bool approach(const struct line *l, const struct part *k, double t, double to,
+static bool approach(const struct line *l, const struct ovus_part *k, double t, double to,
                      double *root, double *slope)
 {
     const double way = to > t ? 1 : -1;
@@ -154,7 +142,7 @@ struct stretch {
     bool any;
 };
 
-static void add_part(const struct line *l, const struct part *k, double a, double b,
+static void add_part(const struct line *l, const struct ovus_part *k, double a, double b,
                      struct stretch *s)
 {
     double slope_a, slope_b, lo = a, hi = b;
@@ -198,9 +186,9 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
         const double t0 = (s->joint[0] - l.o.y) / u.y, t1 = (s->joint[1] - l.o.y) / u.y;
         stop[1] = fmax(-reach, fmin(reach, fmin(t0, t1)));
         stop[2] = fmax(-reach, fmin(reach, fmax(t0, t1)));
-        first = u.y > 0 ? PART_BOTTOM : PART_TOP;
+        first = u.y > 0 ? OVUS_BOTTOM : OVUS_TOP;
         step = u.y > 0 ? 1 : -1;
-        n = PARTS;
+        n = OVUS_PARTS;
     }
     struct stretch in = {.any = false};
     for (int i = 0; i < n; i++)
@@ -217,12 +205,26 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     }
 }
 
+static unsigned closest8(const struct shape_kernels *k, const void *shape,
+                         const struct shape_rays *rays, unsigned lanes, bool any,
+                         struct shape_hits *out)
+{
+    (void)any;
+    return k->ovus(shape, rays, lanes, out);
+}
+
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
+}
+
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     (void)b;
     const struct ovus *s = shape;
-    const struct part *k = &s->part[part_at(s, p.y)];
+    const struct ovus_part *k = &s->part[part_at(s, p.y)];
     const double rho = sqrt(p.x * p.x + p.z * p.z), grow = rho > 0 ? (rho + k->h) / rho : 0;
     const struct vec3 n = vec3_normalize(vec3(grow * p.x, p.y - k->v, grow * p.z));
     out->p = p;
@@ -252,6 +254,8 @@ const struct shape_ops ovus_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
+    .closest8 = closest8,
+    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };
