@@ -6,10 +6,10 @@
 // the leaves, moved out of every complement it lies in, or, from within, the first exit.
 //
 // That is what the sweep (trace/sweep.c) finds wherever each batch that decides holds one
-// crossing: no other crossing's error bounds touch those of the one found, and none touch
-// t_min, which could part a batch. Where nothing is found, the sweep might still see a
-// leaf so thin that it begins and ends in one batch; the sum of all bounds excludes that.
-// The lanes where this does not hold are left to the sweep.
+// crossing: no other crossing's error bounds touch those of the one found, nor those of one
+// whose bounds hold t_min, which could part a batch. Where nothing is found, the sweep might
+// still see a leaf so thin that it begins and ends in one batch; the sum of all bounds
+// excludes that. The lanes where this does not hold are left to the sweep.
 #include "trace/accel.h"
 #include "trace/packet_shapes.h"
 
@@ -26,6 +26,7 @@ struct product {
     // 2 i for the entry of leaf i, 2 i + 1 for its exit, -1 for t_min.
     struct real8 in, out, in_e, out_e, in_at, out_at;
     struct real8 bounds; // the sum of all error bounds
+    struct mask8 begins; // a crossing's bounds hold t_min
     struct mask8 unsure; // lanes for the sweep
 };
 
@@ -39,7 +40,7 @@ LANES_INLINE void product_begin(struct product *p, struct real8 t_min, struct re
     p->out = r8_set(INFINITY);
     p->in_e = p->out_e = p->bounds = r8_set(0);
     p->in_at = p->out_at = r8_set(-1);
-    p->unsure = m8_of(0);
+    p->begins = p->unsure = m8_of(0);
 }
 
 // The span of leaf i joins, those of complements last; returns the lanes that can still
@@ -58,9 +59,9 @@ LANES_INLINE unsigned product_add(struct product *p, uint32_t i, bool complement
     l->in_e = r8_select(x->met, x->in_e, none);
     l->out_e = r8_select(x->met, x->out_e, none);
     p->bounds = r8_add(p->bounds, r8_add(l->in_e, l->out_e));
-    p->unsure = m8_or(p->unsure,
-                      m8_or(r8_le(r8_abs(r8_sub(l->in, p->t_min)), l->in_e),
-                            r8_le(r8_abs(r8_sub(l->out, p->t_min)), l->out_e)));
+    p->begins =
+        m8_or(p->begins, m8_or(r8_le(r8_abs(r8_sub(l->in, p->t_min)), l->in_e),
+                               r8_le(r8_abs(r8_sub(l->out, p->t_min)), l->out_e)));
     if (!bounded) // a line that does not meet it may lie inside all the way
         p->unsure = m8_or(p->unsure, m8_without(m8_of(255), x->met));
     if (complement)
@@ -77,7 +78,36 @@ LANES_INLINE unsigned product_add(struct product *p, uint32_t i, bool complement
 
 LANES_INLINE void product_solids_end(struct product *p) { p->solids = p->count; }
 
-// Moves t out of the complements; lanes that begin inside stay at t_min.
+// Lanes where the rays begin within the bounds of the crossing at t, and those of another
+// touch these.
+LANES_INLINE struct mask8 product_parts(const struct product *p, struct real8 t,
+                                        struct real8 e, struct real8 at)
+{
+    struct mask8 near = m8_of(0);
+    for (uint32_t i = 0; i < p->count; i++) {
+        const struct product_leaf *l = &p->leaf[i];
+        const struct mask8 in = r8_le(r8_abs(r8_sub(l->in, t)), r8_add(l->in_e, e));
+        const struct mask8 out = r8_le(r8_abs(r8_sub(l->out, t)), r8_add(l->out_e, e));
+        near = m8_or(near, m8_without(in, r8_eq(at, l->in_at)));
+        near = m8_or(near, m8_without(out, r8_eq(at, l->out_at)));
+    }
+    return m8_and(r8_le(r8_abs(r8_sub(t, p->t_min)), e), near);
+}
+
+// Of the lanes of p->begins.
+static struct mask8 product_begins(const struct product *p)
+{
+    struct mask8 m = m8_of(0);
+    for (uint32_t i = 0; i < p->count; i++) {
+        const struct product_leaf *l = &p->leaf[i];
+        m = m8_or(m, m8_or(product_parts(p, l->in, l->in_e, l->in_at),
+                           product_parts(p, l->out, l->out_e, l->out_at)));
+    }
+    return m;
+}
+
+// Moves t out of the complements; lanes that begin inside stay at t_min. What is entered at
+// t_min itself is entered before, as a ray that goes on from its last hit has it.
 LANES_INLINE void product_advance(const struct product *p, unsigned lanes,
                                   struct real8 *t, struct real8 *e, struct real8 *at)
 {
@@ -85,7 +115,9 @@ LANES_INLINE void product_advance(const struct product *p, unsigned lanes,
         moved = 0;
         for (uint32_t i = p->solids; i < p->count; i++) {
             const struct product_leaf *l = &p->leaf[i];
-            const struct mask8 m = m8_and(r8_lt(l->in, *t), r8_lt(*t, l->out));
+            const struct mask8 first = m8_and(r8_eq(l->in, *t), r8_lt(*at, r8_set(0)));
+            const struct mask8 m =
+                m8_and(m8_or(r8_lt(l->in, *t), first), r8_lt(*t, l->out));
             const unsigned bits = m8_bits(m) & lanes;
             if (!bits)
                 continue;
@@ -105,6 +137,8 @@ LANES_INLINE unsigned product_first(const struct product *p, unsigned lanes,
 {
     lanes &= m8_bits(r8_le(p->in, p->out)); // else empty, whatever the errors
     *unsure = lanes & m8_bits(p->unsure);
+    if (lanes & m8_bits(p->begins))
+        *unsure |= lanes & m8_bits(product_begins(p));
     const struct mask8 ahead = r8_lt(p->t_min, p->in);
     *t = r8_select(ahead, p->in, p->t_min);
     *at = r8_select(ahead, p->in_at, r8_set(-1));

@@ -267,6 +267,14 @@ static void assert_same(const struct boundary *a, const struct boundary *b)
     assert_memory_equal(&a->v, &b->v, sizeof a->v);
 }
 
+// Rays that met something go on from there.
+static void go_on(struct ray_batch *b, const struct hit_batch *hit)
+{
+    for (uint32_t i = 0; i < b->count; i++)
+        if (hit->t[i] < INFINITY)
+            b->t_min[i] = hit->t[i];
+}
+
 static int check_world(struct world *w, struct maker *m)
 {
     struct trace_scratch *s = trace_scratch_new(w);
@@ -274,8 +282,11 @@ static int check_world(struct world *w, struct maker *m)
     struct hit_batch *hit = hit_batch_new(RAYS);
     uint8_t dark[RAYS];
     int hits = 0;
-    for (int kind = 0; kind < 4; kind++) {
-        fill(m, b, kind);
+    for (int kind = 0; kind < 8; kind++) {
+        if (kind % 2 == 0)
+            fill(m, b, kind / 2);
+        else
+            go_on(b, hit);
         trace_closest(w, s, b, hit);
         trace_occluded(w, s, b, dark);
         for (uint32_t i = 0; i < b->count; i++) {
