@@ -243,13 +243,12 @@ static void thread_end(void *state)
     free(t);
 }
 
-bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
-                         uint32_t element, double u, double v, struct element_point *out)
+bool patch_cell_point(const struct patches *p, struct trace_scratch *scratch,
+                      const struct cell *c, int side, bool partial, double u, double v,
+                      struct element_point *out)
 {
-    const struct cell *c = &p->cell[p->element_cell[element] / 2];
-    const int side = p->element_cell[element] & 1;
     const struct chart *chart = &p->chart[c->chart];
-    if (p->element[element].partial) {
+    if (partial) {
         const struct patch_probe probe = {scratch, p};
         struct hit hit;
         struct ray ray;
@@ -266,6 +265,14 @@ bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
                              vec3_max_abs(chart->o) + chart->r1 + chart->length +
                              vec3_max_abs(chart->a) + vec3_max_abs(chart->b));
     return true;
+}
+
+bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
+                         uint32_t element, double u, double v, struct element_point *out)
+{
+    return patch_cell_point(p, scratch, &p->cell[p->element_cell[element] / 2],
+                            p->element_cell[element] & 1, p->element[element].partial, u,
+                            v, out);
 }
 
 static bool point(void *state, uint32_t element, double u, double v,

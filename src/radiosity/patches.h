@@ -93,6 +93,11 @@ uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
 bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
                          uint32_t element, double u, double v, struct element_point *out);
 
+// The same of a cell's side that exists in part or as a whole.
+bool patch_cell_point(const struct patches *p, struct trace_scratch *scratch,
+                      const struct cell *c, int side, bool partial, double u, double v,
+                      struct element_point *out);
+
 // The neighbour of an element in direction k, 0 to 7; ELEMENT_NONE: none that it sees.
 uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k);
 

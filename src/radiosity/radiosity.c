@@ -150,19 +150,6 @@ bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
     return ok && !watch_cancelled(watch);
 }
 
-// Few emitters are lit exactly per pixel, many by the mesh.
-static void find_emitters(struct radiosity *r)
-{
-    const struct patches *p = r->patches;
-    uint32_t count = 0;
-    r->emitter = solver_alloc(p->element_count, sizeof *r->emitter);
-    for (uint32_t i = 0; i < p->element_count; i++)
-        if (rgb_max(p->element[i].emission) > 0)
-            r->emitter[count++] = i;
-    const bool exact = r->settings.emitters != EMITTERS_MESH && count <= EMITTERS_MOST;
-    r->emitter_count = exact ? count : 0;
-}
-
 // Slivers where surfaces cut each other meet few rays: they are shown as the mean of
 // themselves and the neighbours they see, by area.
 static void find_shown(struct radiosity *r)
@@ -247,7 +234,7 @@ struct radiosity *radiosity_new(const struct job *job,
         r->report.levels = 1;
     r->report.elements = r->patches->element_count;
     r->report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
-    find_emitters(r);
+    emitters_find(r);
     find_shown(r);
     return r;
 }

@@ -36,13 +36,21 @@ struct radiosity_report {
     const char *solver, *method;
 };
 
+// A glowing element, or several in one rectangle of a chart.
+struct emitter {
+    struct element e;
+    struct cell at;
+    int side;
+    double radius; // of an element by itself
+};
+
 struct radiosity {
     struct patches *patches;
     struct radiosity_solution solution;
     double (*lamps)[3];
     struct radiosity_options settings;
     struct radiosity_report report;
-    uint32_t *emitter; // elements whose light is found per pixel
+    struct emitter *emitter; // whose light is found per pixel
     uint32_t emitter_count;
     double (*shown)[3]; // irradiance for the picture, without what emitters give it
     uint64_t key;       // of the scene as elements and lamps see it
@@ -75,6 +83,13 @@ struct rgb radiosity_of_hit(const struct radiosity *r, struct trace_scratch *scr
 // Irradiance by lamps and sky at every element.
 void lamps_gather(const struct patches *p, uint32_t points, int threads,
                   double (*out)[3]);
+// What glows and is lit from per pixel; none where it is too many.
+void emitters_find(struct radiosity *r);
+void *emitters_begin(const void *data);
+void emitters_end(void *state);
+// Irradiance of the emitters at a point, of normal n.
+struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer *t,
+                          struct vec3 o, struct vec3 n, uint32_t hash);
 uint64_t radiosity_key(const struct radiosity *r);
 // One solution on the given elements; false: it does not fit, or no memory.
 bool radiosity_level(struct radiosity *r, char *error, size_t error_size);

@@ -1,0 +1,245 @@
+// What glows, lit from per pixel: few elements of much power need no patches to be seen by.
+#include <math.h>
+#include <stdlib.h>
+
+#include "radiosity/polygon.h"
+#include "radiosity/radiosity.h"
+#include "radiosity/ray_put.h"
+#include "radiosity/sequence.h"
+#include "trace/tracer.h"
+
+static const double pi = 3.14159265358979323846;
+enum { EMITTER_RAYS = 16, MERGED_MOST = 2048 };
+
+// Whether Lambert's formula of the corners is exact for an element.
+static bool is_polygon(const struct element *e)
+{
+    return !e->curved && !e->partial && fabsf(e->coverage - 1) < 1e-5f;
+}
+
+// ---- one emitter of many cells -----------------------------------------------------
+// Whether b goes on where a ends, along u or v.
+static bool goes_on(const struct cell *a, const struct cell *b, bool along_v)
+{
+    static const double same = 1e-9; // of the square
+    const double at = along_v ? a->u - b->u : a->v - b->v;
+    const double wide = along_v ? a->du - b->du : a->dv - b->dv;
+    const double end = along_v ? a->v + a->dv - b->v : a->u + a->du - b->u;
+    return fabs(at) < same && fabs(wide) < same && fabs(end) < same;
+}
+
+static bool alike(const struct patches *p, const struct emitter *a,
+                  const struct emitter *b)
+{
+    static const float same = 1e-5f; // of the brighter one
+    const enum chart_kind kind = p->chart[a->at.chart].kind;
+    const struct rgb x = a->e.emission, y = b->e.emission;
+    const float most = same * fmaxf(rgb_max(x), rgb_max(y));
+    return a->at.chart == b->at.chart && a->side == b->side &&
+           (kind == CHART_FLAT || kind == CHART_TRIANGLE) && !a->at.anchor &&
+           !b->at.anchor && is_polygon(&a->e) && is_polygon(&b->e) &&
+           fabsf(x.r - y.r) <= most && fabsf(x.g - y.g) <= most &&
+           fabsf(x.b - y.b) <= most;
+}
+
+static void merge(const struct patches *p, struct emitter *a, const struct emitter *b,
+                  bool along_v)
+{
+    static const double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const struct chart *chart = &p->chart[a->at.chart];
+    const double area = a->e.area + b->e.area;
+    struct element *e = &a->e;
+    struct cell *at = &a->at;
+    e->emission = rgb_add(rgb_scale((float)(e->area / area), e->emission),
+                          rgb_scale((float)(b->e.area / area), b->e.emission));
+    e->area = area;
+    *(along_v ? &at->dv : &at->du) += along_v ? b->at.dv : b->at.du;
+    for (int k = 0; k < 4; k++) {
+        struct vec3 n;
+        chart_point(chart, &p->job->world->leaf[chart->leaf],
+                    at->u + corner[k][0] * at->du, at->v + corner[k][1] * at->dv,
+                    &e->corner[k], &n);
+    }
+    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
+                                        vec3_sub(e->corner[3], e->corner[1]));
+    if (vec3_dot(turn, e->normal) < 0) {
+        const struct vec3 swap = e->corner[1];
+        e->corner[1] = e->corner[3];
+        e->corner[3] = swap;
+    }
+    e->corner_count = 4;
+    e->coverage = (float)(area / polygon_area(e));
+}
+
+// Merges what goes on along u or v. True: something did.
+static bool merge_along(struct radiosity *r, bool along_v)
+{
+    const uint32_t before = r->emitter_count;
+    for (uint32_t i = 0; i < r->emitter_count; i++)
+        for (uint32_t j = 0; j < r->emitter_count; j++) {
+            struct emitter *a = &r->emitter[i], *b = &r->emitter[j];
+            if (i == j || !goes_on(&a->at, &b->at, along_v) || !alike(r->patches, a, b))
+                continue;
+            merge(r->patches, a, b, along_v);
+            *b = r->emitter[--r->emitter_count];
+            i = i == r->emitter_count ? j : i;
+            j = UINT32_MAX; // from the start: it has another end
+        }
+    return r->emitter_count < before;
+}
+
+void emitters_find(struct radiosity *r)
+{
+    const struct patches *p = r->patches;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < p->element_count; i++)
+        count += rgb_max(p->element[i].emission) > 0;
+    if (r->settings.emitters == EMITTERS_MESH || count > MERGED_MOST)
+        return;
+    r->emitter = solver_alloc(count, sizeof *r->emitter);
+    for (uint32_t i = 0; i < p->element_count; i++)
+        if (rgb_max(p->element[i].emission) > 0)
+            r->emitter[r->emitter_count++] = (struct emitter){
+                p->element[i], p->cell[p->element_cell[i] / 2],
+                (int)(p->element_cell[i] & 1), polygon_radius(&p->element[i])};
+    while (merge_along(r, false) | merge_along(r, true))
+        ;
+    if (r->emitter_count > EMITTERS_MOST)
+        r->emitter_count = 0;
+}
+
+// ---- their light -------------------------------------------------------------------
+// What a tracer keeps: looks at emitters, all at once.
+struct looks {
+    struct ray_batch *rays;
+    const struct emitter *of[EMITTER_RAYS];
+    double weight[EMITTER_RAYS];
+};
+
+void *emitters_begin(const void *data)
+{
+    struct looks *l = calloc(1, sizeof *l);
+    (void)data;
+    if (!l)
+        abort();
+    l->rays = ray_batch_new(EMITTER_RAYS);
+    return l;
+}
+
+void emitters_end(void *state)
+{
+    struct looks *l = state;
+    ray_batch_free(l->rays);
+    free(l);
+}
+
+static void look_at(struct looks *l, struct vec3 o, struct vec3 to,
+                    const struct emitter *of, double weight)
+{
+    const uint32_t i = l->rays->count;
+    l->of[i] = of;
+    l->weight[i] = weight;
+    // Ends short of the emitter, which is no obstacle to itself.
+    ray_put_from(l->rays, o, vec3_sub(to, o), 1 - 1e-4);
+    l->rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
+}
+
+// A point of an emitter; where it does not exist another one is drawn.
+static bool emitter_point(const struct radiosity *r, struct tracer *t,
+                          const struct emitter *x, uint32_t k, uint32_t hash,
+                          struct element_point *out)
+{
+    enum { TRIES = 16 };
+    double s[4];
+    sobol_point(k, hash, s);
+    for (uint32_t again = 1;; again++) {
+        if (patch_cell_point(r->patches, t->scratch, &x->at, x->side, x->e.partial, s[0],
+                             s[1], out))
+            return true;
+        if (again == TRIES)
+            return false;
+        random_point(k, sequence_seed(hash, again), s);
+    }
+}
+
+// About what an element gives at a point, for drawing: more than nothing where any of it
+// is above the horizon.
+static double drawn_by(const struct emitter *x, struct vec3 o, struct vec3 n)
+{
+    static const double near = 4; // radii: there Lambert's formula is worth its time
+    const struct element *e = &x->e;
+    const struct vec3 d = vec3_sub(e->centre, o);
+    const double r = x->radius, d2 = vec3_dot(d, d) + r * r;
+    if (d2 < near * near * r * r)
+        return lambert_polygon(o, n, e->corner, e->corner_count) * (double)e->coverage;
+    const double here = vec3_dot(d, n) + r,
+                 there = (e->curved ? r : 0) - vec3_dot(d, e->normal);
+    return here > 0 && there > 0 ? e->area * here * there / (pi * d2 * d2) : 0;
+}
+
+// What the emitting elements give at a point by Lambert's formula, summed up into up_to.
+// Returns the part of polygons.
+static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3 n,
+                           double *up_to)
+{
+    double sum = 0, polygons = 0;
+    for (uint32_t i = 0; i < r->emitter_count; i++) {
+        const struct element *x = &r->emitter[i].e;
+        const bool polygon = is_polygon(x);
+        const double given = polygon ? lambert_polygon(o, n, x->corner, x->corner_count)
+                                     : drawn_by(&r->emitter[i], o, n);
+        const double c = given * (double)rgb_max(x->emission);
+        sum += c;
+        polygons += polygon ? c : 0;
+        up_to[i] = sum;
+    }
+    return polygons;
+}
+
+// Irradiance of the emitting elements at a point: shadow rays to points of their true
+// surfaces, elements drawn by what they give. Of polygons the points say what part of
+// Lambert's sum is open; of other elements they are the integral.
+struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer *t,
+                          struct vec3 o, struct vec3 n, uint32_t hash)
+{
+    // Of a point relative to the mean: nearer than an element's size it has no bound.
+    static const double weight_most = 8;
+    double up_to[EMITTERS_MOST], s[4], all = 0;
+    const double polygons = emitters_sum(r, o, n, up_to);
+    const double sum = r->emitter_count ? up_to[r->emitter_count - 1] : 0;
+    const struct element_point here = {o, n, 0};
+    struct rgb open = {0, 0, 0}, other = {0, 0, 0};
+    uint8_t hidden[EMITTER_RAYS];
+    if (sum <= 0)
+        return open;
+    struct looks *const l = state;
+    random_point(0, hash, s);
+    l->rays->count = 0;
+    for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
+        const double at = (k + s[0]) / EMITTER_RAYS * sum;
+        while (i + 1 < r->emitter_count && up_to[i] <= at)
+            i++;
+        const struct element *e = &r->emitter[i].e;
+        struct element_point to;
+        if (!emitter_point(r, t, &r->emitter[i], k, hash, &to))
+            continue;
+        const double share = up_to[i] - (i ? up_to[i - 1] : 0);
+        const double most = rgb_max(e->emission);
+        const double weight =
+            fmin(point_kernel(&here, &to) * e->area * most / share, weight_most);
+        all += is_polygon(e) ? weight : 0;
+        if (weight > 0)
+            look_at(l, o, to.p, &r->emitter[i], weight);
+    }
+    trace_occluded(t->job->world, t->scratch, l->rays, hidden);
+    for (uint32_t k = 0; k < l->rays->count; k++) {
+        const struct element *e = &l->of[k]->e;
+        if (hidden[k])
+            continue;
+        struct rgb *into = is_polygon(e) ? &open : &other;
+        const double most = rgb_max(e->emission);
+        *into = rgb_add(*into, rgb_scale((float)(l->weight[k] / most), e->emission));
+    }
+    open = rgb_scale(all > 0 ? (float)(polygons / all) : 0, open);
+    return rgb_add(open, rgb_scale((float)(sum / EMITTER_RAYS), other));
+}
