@@ -151,7 +151,21 @@ static void nothing_escapes_f19(void **state)
 struct eye {
     struct tracer *t;
     struct indirect light;
+    void *state; // of the light
 };
+
+static struct eye eye_new(const struct scene_run *s)
+{
+    struct eye eye = {tracer_new(s->job), radiosity_indirect(s->r), NULL};
+    eye.state = eye.light.begin(eye.light.data);
+    return eye;
+}
+
+static void eye_free(const struct eye *eye)
+{
+    eye->light.end(eye->state);
+    tracer_free(eye->t);
+}
 
 // Irradiance where a ray meets the scene, in units of a radiosity.
 static double light_at(const struct eye *eye, struct vec3 o, struct vec3 d, uint32_t hash)
@@ -170,7 +184,7 @@ static double light_at(const struct eye *eye, struct vec3 o, struct vec3 d, uint
                                          .weight = 1,
                                          .hash = hash,
                                          .level = 1};
-    return (double)eye->light.irradiance(eye->light.data, NULL, eye->t, &query).g;
+    return (double)eye->light.irradiance(eye->light.data, eye->state, eye->t, &query).g;
 }
 
 // On the black floor z = 0 at x, over many draws.
@@ -260,7 +274,7 @@ static void direct_light_d1_to_d4(void **state)
         struct radiosity_options o = with(400, "stochastic");
         o.solver.rays = 1000;
         struct scene_run s = scene_solve(text, &o);
-        const struct eye eye = {tracer_new(s.job), radiosity_indirect(s.r)};
+        const struct eye eye = eye_new(&s);
         for (int k = 0; k < c->count; k++) {
             const double h = floor_light(&eye, c->x[k]);
             const bool right = fabs(h - c->h[k]) <= c->off;
@@ -269,7 +283,7 @@ static void direct_light_d1_to_d4(void **state)
                           s.r->emitter_count);
             wrong += !right;
         }
-        tracer_free(eye.t);
+        eye_free(&eye);
         scene_free(&s);
     }
     assert_int_equal(wrong, 0);
@@ -289,7 +303,7 @@ static void no_seams_f13(void **state)
     o.solver.tolerance = 1e-5;
     o.emitters = EMITTERS_MESH;
     struct scene_run s = scene_solve(text, &o);
-    const struct eye eye = {tracer_new(s.job), radiosity_indirect(s.r)};
+    const struct eye eye = eye_new(&s);
     double least = INFINITY, most = -INFINITY;
     for (uint32_t k = 0; k < (in_full() ? 20000u : 2000u); k++) {
         double x[4];
@@ -303,7 +317,7 @@ static void no_seams_f13(void **state)
     print_message("F13: %.6f to %.6f\n", least, most);
     assert_near(least, 1, 2e-3);
     assert_near(most, 1, 2e-3);
-    tracer_free(eye.t);
+    eye_free(&eye);
     scene_free(&s);
 }
 
