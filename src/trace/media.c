@@ -139,6 +139,86 @@ struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3
     return shadow_of(t, media, count, &way);
 }
 
+static bool same_media(const struct inside *a, const struct inside *b)
+{
+    for (; a && b; a = a->outer, b = b->outer)
+        if (a->interior != b->interior)
+            return false;
+    return a == b; // both at the end
+}
+
+enum { TOGETHER = 64 }; // rays at most
+
+// The first rays of `ray`, while they are in the media `mix`, together; returns how many
+// there were.
+static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
+                         struct media_dark *ray, uint32_t count)
+{
+    struct media_scratch *s = &t->media[WAY_SHADOW];
+    const uint32_t most = media_stride(mix);
+    struct media_way way[TOGETHER];
+    uint32_t first[TOGETHER + 1] = {0}, n = 0;
+    struct vec3 pass[TOGETHER];
+    struct media_interval *all = arena_new_array(s->arena, struct media_interval, most);
+    const struct media_way **way_of =
+        arena_new_array(s->arena, const struct media_way *, most);
+    for (; n < count && n < TOGETHER && (!n || same_media(ray[n].inside, ray[0].inside));
+         n++) {
+        uint32_t intervals;
+        way[n] = shadow_way(ray[n].o, ray[n].d, ray[n].s);
+        const struct media_interval *own =
+            media_intervals(s->arena, mix, way[n].s, NULL, 0, &intervals);
+        if (intervals > most - first[n])
+            break;
+        for (uint32_t k = 0; k < intervals; k++) {
+            all[first[n] + k] = own[k];
+            way_of[first[n] + k] = &way[n];
+        }
+        first[n + 1] = first[n] + intervals;
+    }
+    struct media_march m = {.t = t,
+                            .scratch = s,
+                            .mix = mix,
+                            .way_of = way_of,
+                            .interval = all,
+                            .interval_count = first[n],
+                            .depth_only = true};
+    media_walk_together(&m, first, n, pass);
+    for (uint32_t i = 0; i < n; i++)
+        ray[i].pass = rgb((float)pass[i].x, (float)pass[i].y, (float)pass[i].z);
+    return n;
+}
+
+// Walks the first ray, and those after it that go with it; returns how many.
+static uint32_t shadows_from(struct tracer *t, struct media_dark *ray, uint32_t count)
+{
+    struct arena *a = t->media[WAY_SHADOW].arena;
+    arena_reset(a);
+    uint32_t all;
+    const struct media *const *media = media_of(a, ray->inside, &all);
+    const struct media **dark = arena_new_array(a, const struct media *, all + 1);
+    const uint32_t n = media_opaque_only(media, all, dark);
+    const struct media_mix mix = media_mix_of(dark, n);
+    if (count > 1 && n && media_goes_together(&mix) &&
+        same_media(ray[0].inside, ray[1].inside) &&
+        (uint32_t)mix.rules->intervals <= media_stride(&mix))
+        return walk_few(t, &mix, ray, count);
+    ray->pass = media_shadow(t, ray->inside, ray->o, ray->d, ray->s);
+    return 1;
+}
+
+void media_shadows(struct tracer *t, struct media_dark *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count;) {
+        if (media_inside(ray[i].inside)) {
+            i += shadows_from(t, &ray[i], count - i);
+        } else {
+            ray[i].pass = rgb(1, 1, 1);
+            i++;
+        }
+    }
+}
+
 struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s)
 {
     const struct scene *scene = t->job->scene;

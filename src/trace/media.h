@@ -32,6 +32,14 @@ void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t gro
 // What they let through of light on its way to a lamp.
 struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
                         struct vec3 d, double s);
+// The same for several rays, which are walked together where they are in the same media.
+struct media_dark {
+    const struct inside *inside;
+    struct vec3 o, d;
+    double s;
+    struct rgb pass; // filled
+};
+void media_shadows(struct tracer *t, struct media_dark *ray, uint32_t count);
 struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s);
 
 // What a job works out for all rays.

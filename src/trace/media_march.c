@@ -46,14 +46,15 @@ static void samples_eval_few(struct media_march *m, struct media_sample *sample,
                              uint32_t count)
 {
     enum { FEW = 64 };
-    double t[FEW];
+    struct media_at at[FEW];
     struct media_point p[FEW];
     for (uint32_t i = 0; i < count; i++) {
-        t[i] = sample[i].t;
+        const struct media_way *way = m->way_of ? m->way_of[sample[i].interval] : m->way;
+        at[i] = (struct media_at){way->o, way->d, sample[i].t};
         p[i] = m->mix->everywhere;
     }
     if (!m->mix->even)
-        media_points(m->t->job, m->mix, m->way->o, m->way->d, t, count, p);
+        media_points(m->t->job, m->mix, at, count, p);
     for (uint32_t i = 0; i < count; i++) {
         const double l = m->interval[sample[i].interval].length;
         sample[i].depth = vec3_scale(l, p[i].extinction);
@@ -214,9 +215,8 @@ static void interval_end(const struct media_march *m, uint32_t first, uint32_t p
     total_add(all, light, depth, parts);
 }
 
-// Intervals [begin, end) together.
-static void adaptive(struct media_march *m, uint32_t begin, uint32_t end,
-                     struct total *all)
+// The samples of the intervals [begin, end) together.
+static void adaptive_samples(struct media_march *m, uint32_t begin, uint32_t end)
 {
     const uint32_t parts = parts_of(m->mix->rules);
     m->scratch->sample_count = m->scratch->span_count = 0;
@@ -224,6 +224,13 @@ static void adaptive(struct media_march *m, uint32_t begin, uint32_t end,
         interval_begin(m, k, parts);
     samples_eval(m, 0);
     spans_refine(m, 0);
+}
+
+static void adaptive(struct media_march *m, uint32_t begin, uint32_t end,
+                     struct total *all)
+{
+    const uint32_t parts = parts_of(m->mix->rules);
+    adaptive_samples(m, begin, end);
     for (uint32_t k = begin; k < end; k++)
         interval_end(m, (k - begin) * parts, parts, all);
 }
@@ -346,11 +353,29 @@ static void uniform(const struct media_march *m, struct total *all)
 }
 
 // How many intervals are walked at once: enough for full batches of shadow rays.
-static uint32_t stride_of(const struct media_march *m)
+uint32_t media_stride(const struct media_mix *mix)
 {
     enum { SAMPLES = 512 };
-    const uint32_t each = (uint32_t)m->mix->rules->samples_min + 2;
+    const uint32_t each = (uint32_t)mix->rules->samples_min + 2;
     return each >= SAMPLES ? 1 : SAMPLES / each;
+}
+
+bool media_goes_together(const struct media_mix *mix)
+{
+    return !mix->even && mix->rules->method == 3 && mix->rules->jitter == 0;
+}
+
+void media_walk_together(struct media_march *m, const uint32_t *first, uint32_t count,
+                         struct vec3 *pass)
+{
+    const uint32_t parts = parts_of(m->mix->rules);
+    adaptive_samples(m, 0, first[count]);
+    for (uint32_t i = 0; i < count; i++) {
+        struct total all = {{0, 0, 0}, {0, 0, 0}};
+        for (uint32_t k = first[i]; k < first[i + 1]; k++)
+            interval_end(m, k * parts, parts, &all);
+        pass[i] = exp_minus(all.depth);
+    }
 }
 
 struct media_result media_walk(struct media_march *m)
@@ -363,7 +388,7 @@ struct media_result media_walk(struct media_march *m)
         (m->depth_only || !m->mix->emits || method == 3)) {
         uniform(m, &all);
     } else {
-        const uint32_t stride = stride_of(m);
+        const uint32_t stride = media_stride(m->mix);
         for (uint32_t k = 0; k < m->interval_count; k += stride) {
             const uint32_t end =
                 m->interval_count - k < stride ? m->interval_count : k + stride;

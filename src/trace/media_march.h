@@ -41,6 +41,7 @@ struct media_march {
     struct media_scratch *scratch;
     const struct media_mix *mix;
     const struct media_way *way;
+    const struct media_way *const *way_of; // of each interval; NULL: `way` is that of all
     const struct media_interval *interval;
     const struct media_lamp *lamp;
     uint32_t interval_count, lamp_count;
@@ -49,6 +50,16 @@ struct media_march {
 };
 
 struct media_result media_walk(struct media_march *m);
+
+// Whether several ways through the mix may be walked together: nothing about them is random.
+bool media_goes_together(const struct media_mix *mix);
+// The way of each interval is known and only depths are asked for: what the ways let
+// through, way i by the intervals from first[i] to before first[i + 1]. The same as
+// media_walk of each.
+void media_walk_together(struct media_march *m, const uint32_t *first, uint32_t count,
+                         struct vec3 *pass);
+// Intervals that are walked at once, at most.
+uint32_t media_stride(const struct media_mix *mix);
 
 // Light that reaches samples from the lamps: added to their `light` (media_light.c).
 void media_samples_lit(struct media_march *m, struct media_sample *sample,

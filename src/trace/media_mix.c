@@ -70,7 +70,6 @@ uint32_t media_opaque_only(const struct media *const *media, uint32_t count,
 
 // At most eight points at a time.
 struct places {
-    struct vec3 d; // of the ray
     double at[3][8], ray_d[3][8], normal[3][8];
     uint32_t count;
 };
@@ -80,7 +79,8 @@ static void density_alone(const struct pigment *p, const struct places *w,
 {
     for (uint32_t i = 0; i < w->count; i++) {
         const struct vec3 at = {w->at[0][i], w->at[1][i], w->at[2][i]};
-        const struct texture_point point = {.p = at, .p_world = at, .ray_d = w->d};
+        const struct vec3 d = {w->ray_d[0][i], w->ray_d[1][i], w->ray_d[2][i]};
+        const struct texture_point point = {.p = at, .p_world = at, .ray_d = d};
         struct rgbft c;
         if (!pigment_color(p, &point, &c))
             c = (struct rgbft){0};
@@ -107,16 +107,16 @@ static void density_times(const struct job *job, const struct pigment *p,
             out[k][i] *= (double)c[k][i];
 }
 
-static void places_fill(struct places *w, struct vec3 o, const double *t)
+static void places_fill(struct places *w, const struct media_at *at)
 {
     for (uint32_t i = 0; i < 8; i++) {
-        const double at = t[i < w->count ? i : 0];
-        w->at[0][i] = o.x + at * w->d.x;
-        w->at[1][i] = o.y + at * w->d.y;
-        w->at[2][i] = o.z + at * w->d.z;
-        w->ray_d[0][i] = w->d.x;
-        w->ray_d[1][i] = w->d.y;
-        w->ray_d[2][i] = w->d.z;
+        const struct media_at *p = &at[i < w->count ? i : 0];
+        w->at[0][i] = p->o.x + p->t * p->d.x;
+        w->at[1][i] = p->o.y + p->t * p->d.y;
+        w->at[2][i] = p->o.z + p->t * p->d.z;
+        w->ray_d[0][i] = p->d.x;
+        w->ray_d[1][i] = p->d.y;
+        w->ray_d[2][i] = p->d.z;
         w->normal[0][i] = w->normal[1][i] = w->normal[2][i] = 0;
     }
 }
@@ -138,13 +138,13 @@ static void eight(const struct job *job, const struct media_mix *mix,
     }
 }
 
-void media_points(const struct job *job, const struct media_mix *mix, struct vec3 o,
-                  struct vec3 d, const double *t, uint32_t count, struct media_point *out)
+void media_points(const struct job *job, const struct media_mix *mix,
+                  const struct media_at *at, uint32_t count, struct media_point *out)
 {
-    struct places w = {.d = d};
+    struct places w;
     for (uint32_t i = 0; i < count; i += 8) {
         w.count = count - i < 8 ? count - i : 8;
-        places_fill(&w, o, t + i);
+        places_fill(&w, at + i);
         eight(job, mix, &w, out + i);
     }
 }

@@ -19,6 +19,12 @@ struct media_mix {
     struct media_point everywhere;
 };
 
+// The point o + t d, seen along d.
+struct media_at {
+    struct vec3 o, d;
+    double t;
+};
+
 struct media_mix media_mix_of(const struct media *const *media, uint32_t count);
 // Of the interiors of a list, for rays to the eye; lives to the next call.
 struct media_mix media_mix_inside(struct tracer *t, const struct inside *list);
@@ -26,9 +32,8 @@ struct media_mix media_mix_inside(struct tracer *t, const struct inside *list);
 uint32_t media_opaque_only(const struct media *const *media, uint32_t count,
                            const struct media **out);
 // At `count` points o + t[i] d.
-void media_points(const struct job *job, const struct media_mix *mix, struct vec3 o,
-                  struct vec3 d, const double *t, uint32_t count,
-                  struct media_point *out);
+void media_points(const struct job *job, const struct media_mix *mix,
+                  const struct media_at *at, uint32_t count, struct media_point *out);
 // The mean of the phase functions; cosine: between the ray and the way to the light.
 double media_phase(const struct media_mix *mix, double cosine);
 

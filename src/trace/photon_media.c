@@ -48,8 +48,9 @@ static void leave(struct photon_flight *f, const struct leg *leg,
         const double r = hash_unit(hash_mix(leg->path.hash, 1000 + i)) - 0.5;
         const double t = (i + 0.5 + r * set->jitter) * step;
         struct media_point here = mix->everywhere;
+        const struct media_at at = {leg->path.o, leg->path.d, t};
         if (!mix->even)
-            media_points(f->job, mix, leg->path.o, leg->path.d, &t, 1, &here);
+            media_points(f->job, mix, &at, 1, &here);
         const struct vec3 half = vec3_mad(depth, step / 2, here.extinction);
         depth = vec3_mad(depth, step, here.extinction);
         photon_leave(f, &f->to->media, leg, vec3_mad(leg->path.o, t, leg->path.d), t,

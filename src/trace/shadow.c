@@ -94,9 +94,10 @@ static void air_between(struct tracer *t, struct shadow_walk *s, const struct ra
             s->pass, air_filter(t, vec3_mad(ray->o, s->t, ray->d), ray->d, end - s->t));
 }
 
-// Crosses the surface that was hit; false: nothing passes.
+// Crosses the surface that was hit, behind media that let `dim` pass; false: nothing
+// passes.
 static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
-                    const struct hit *hit)
+                    const struct hit *hit, struct rgb dim)
 {
     const struct world *w = t->job->world;
     const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
@@ -107,8 +108,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
         air_between(t, s, ray, hit->b.t);
     const struct interior *x = surface->interior;
     if (t->job->has_media && s->inside)
-        pass = rgb_mul(pass, media_shadow(t, s->inside, vec3_mad(ray->o, s->t, ray->d),
-                                          ray->d, hit->b.t - s->t));
+        pass = rgb_mul(pass, dim);
     if (inside_find(s->inside, x)) {
         if (x->fade_power > 0 && fabs(x->fade_distance) > zero)
             pass = rgb_mul(pass, interior_fade(x, hit->b.t - s->t));
@@ -124,18 +124,35 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
     return false;
 }
 
+// The stretch up to what was hit, for media.
+static struct media_dark stretch_of(const struct shadow_walk *s, const struct ray *ray,
+                                    double end)
+{
+    return (struct media_dark){.inside = s->inside,
+                               .o = vec3_mad(ray->o, s->t, ray->d),
+                               .d = ray->d,
+                               .s = end - s->t};
+}
+
 // The light that passes, with opaque objects known not to be in the way.
 static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r, bool air)
 {
     struct shadow_walk s = {r->inside, all, 0, 0, air, r->photons};
     struct ray_query q = {{r->o, r->d, 0, before_lamp * r->t_max}, OBJECT_NO_SHADOW};
     struct hit hit;
+    struct rgb dim;
     bool on;
     do {
         q.ray.t_min = s.t;
         hit = trace_closest_1(t->job->world->clear, t->scratch, &q);
         on = hit.b.t < r->t_max;
-    } while (on && walk_on(t, &s, &q.ray, &hit));
+        struct media_dark m = {.pass = all};
+        if (on && t->job->has_media && s.inside) {
+            m = stretch_of(&s, &q.ray, hit.b.t);
+            media_shadows(t, &m, 1);
+        }
+        dim = m.pass;
+    } while (on && walk_on(t, &s, &q.ray, &hit, dim));
     if (air && !on)
         air_between(t, &s, &q.ray, r->t_max);
     return s.pass;
@@ -168,6 +185,27 @@ static void walk_end(struct tracer *t, struct shadow_walk *s,
     if (s->air)
         air_between(t, s, &ray, air_end[s->ray]);
     b->pass[s->ray] = s->pass;
+}
+
+enum { DIM = 64 }; // rays that media dim together
+
+// What media let through up to what the walks [begin, end) have hit.
+static void walks_dim(struct tracer *t, const struct shadow_walk *s, uint32_t begin,
+                      uint32_t end, struct rgb *dim)
+{
+    struct media_dark dark[DIM];
+    uint32_t n = 0;
+    for (uint32_t i = begin; i < end; i++)
+        if (s[i].inside && t->walk_hit->t[i] < t->walk_rays->t_max[i]) {
+            const struct ray ray = batch_ray(t->walk_rays, i);
+            dark[n++] = stretch_of(&s[i], &ray, t->walk_hit->t[i]);
+        }
+    media_shadows(t, dark, n);
+    n = 0;
+    for (uint32_t i = begin; i < end; i++)
+        dim[i - begin] = s[i].inside && t->walk_hit->t[i] < t->walk_rays->t_max[i]
+                             ? dark[n++].pass
+                             : all;
 }
 
 // The same for the rays of a batch that nothing opaque stops: those that meet surfaces
@@ -203,15 +241,22 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
         t->walk_rays->count = n;
         trace_closest(t->job->world->clear, t->scratch, t->walk_rays, t->walk_hit);
         uint32_t left = 0;
-        for (uint32_t i = 0; i < n; i++) {
-            const struct ray ray = batch_ray(t->walk_rays, i);
-            const struct hit hit = hit_batch_at(t->walk_hit, i);
-            if (!(hit.b.t < ray.t_max))
-                walk_end(t, &s[i], b, air_end);
-            else if (walk_on(t, &s[i], &ray, &hit))
-                s[left++] = s[i];
-            else
-                b->pass[s[i].ray] = none;
+        for (uint32_t first = 0; first < n; first += DIM) {
+            struct rgb dim[DIM];
+            const uint32_t end = n - first < DIM ? n : first + DIM;
+            if (t->job->has_media)
+                walks_dim(t, s, first, end, dim);
+            for (uint32_t i = first; i < end; i++) {
+                const struct ray ray = batch_ray(t->walk_rays, i);
+                const struct hit hit = hit_batch_at(t->walk_hit, i);
+                if (!(hit.b.t < ray.t_max))
+                    walk_end(t, &s[i], b, air_end);
+                else if (walk_on(t, &s[i], &ray, &hit,
+                                 t->job->has_media ? dim[i - first] : all))
+                    s[left++] = s[i];
+                else
+                    b->pass[s[i].ray] = none;
+            }
         }
         n = left;
     }
