@@ -325,29 +325,38 @@ static int isolated_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degree
     return stops;
 }
 
-int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
-                     double rounding, struct polynomial_root *out)
+typedef double polynomial_chain[POLYNOMIAL_DEGREE_MAX + 1][POLYNOMIAL_DEGREE_MAX + 1];
+
+// The roots without their errors, given c[degree] != 0; fills the derivatives.
+static int find_roots(const double *c, int degree, double lo, double hi,
+                      polynomial_chain chain, double *root, bool *rising)
 {
-    double chain[POLYNOMIAL_DEGREE_MAX + 1][POLYNOMIAL_DEGREE_MAX + 1];
-    while (degree > 0 && coefficient[degree] == 0)
-        degree--;
-    if (degree < 1 || degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
-        return 0;
-    memcpy(chain[0], coefficient, (size_t)(degree + 1) * sizeof *coefficient);
+    memcpy(chain[0], c, (size_t)(degree + 1) * sizeof *c);
     for (int k = 1; k < degree; k++)
         for (int i = 0; i <= degree - k; i++)
             chain[k][i] = (i + 1) * chain[k - 1][i + 1];
     chain[degree][0] = chain[degree - 1][1];
+    int count = -1;
+    if (degree == 3)
+        count = certain_roots(chain, 3, lo, hi, root, rising);
+    else if (degree == 4)
+        count = certain_roots(chain, 4, lo, hi, root, rising);
+    else if (degree > 2 && degree <= BERNSTEIN_MAX)
+        count = certain_roots(chain, degree, lo, hi, root, rising);
+    return count < 0 ? isolated_roots(chain, degree, lo, hi, root, rising) : count;
+}
 
+int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
+                     double rounding, struct polynomial_root *out)
+{
+    polynomial_chain chain;
     double root[POLYNOMIAL_DEGREE_MAX + 1];
     bool rising;
-    int count = -1;
-    if (degree == 4)
-        count = certain_roots(chain, 4, lo, hi, root, &rising);
-    else if (degree > 2 && degree <= BERNSTEIN_MAX)
-        count = certain_roots(chain, degree, lo, hi, root, &rising);
-    if (count < 0)
-        count = isolated_roots(chain, degree, lo, hi, root, &rising);
+    while (degree > 0 && coefficient[degree] == 0)
+        degree--;
+    if (degree < 1 || degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
+        return 0;
+    const int count = find_roots(coefficient, degree, lo, hi, chain, root, &rising);
     for (int i = 0; i < count; i++) {
         const double t = root[i];
         const double error =
@@ -360,21 +369,26 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
 }
 
 int polynomial_sign_changes(const double *c, int degree, double lo, double hi,
-                            double rounding, struct polynomial_root *out)
+                            struct polynomial_root *out)
 {
-    double t[2];
+    polynomial_chain chain;
+    double root[POLYNOMIAL_DEGREE_MAX + 1];
+    bool rising;
     while (degree > 0 && c[degree] == 0)
         degree--;
-    if (degree > 2)
-        return polynomial_roots(c, degree, lo, hi, rounding, out);
+    if (degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
+        return 0;
     int found = degree, n = 0;
-    if (degree == 2)
-        found = quadratic_roots(c[2], 0.5 * c[1], c[0], t);
+    if (degree > 2)
+        found = find_roots(c, degree, lo, hi, chain, root, &rising);
+    else if (degree == 2)
+        found = quadratic_roots(c[2], 0.5 * c[1], c[0], root);
     else if (degree == 1)
-        t[0] = -c[0] / c[1];
-    for (int i = 0; i < found; i++)
-        if (t[i] > lo && t[i] < hi)
-            out[n++] = (struct polynomial_root){
-                .t = t[i], .rising = (c[degree] > 0) == (i + 1 == found)};
+        root[0] = -c[0] / c[1];
+    if (degree <= 2)
+        rising = (c[degree] > 0) == (found == 1);
+    for (int i = 0; i < found; i++, rising = !rising)
+        if (degree > 2 || (root[i] > lo && root[i] < hi))
+            out[n++] = (struct polynomial_root){.t = root[i], .rising = rising};
     return n;
 }

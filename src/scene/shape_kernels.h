@@ -65,7 +65,7 @@ struct shape_kernels {
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
     unsigned (*revolve)(const struct revolve *s, const struct shape_rays *rays,
-                        unsigned lanes, struct shape_hits *out, unsigned *odd);
+                        unsigned lanes, bool any, struct shape_hits *out, unsigned *odd);
     unsigned (*sphere_sweep)(const struct sweep *s, const struct shape_rays *rays,
                              unsigned lanes, struct shape_hits *out, unsigned *odd);
     unsigned (*superellipsoid)(const struct superellipsoid *s,

@@ -262,17 +262,18 @@ static bool is_right(const struct boundary_list *all, const struct ray *r, bool 
     return false;
 }
 
-// The first crossing that is wanted, bit by bit.
+// The first crossing that is wanted, bit by bit; with `any`, the t of one that is.
 static void assert_same_bits(const struct boundary_list *all, const struct ray *r,
-                             bool met, const struct shape_hits *h, int l,
+                             bool met, bool any, const struct shape_hits *h, int l,
                              const char *text)
 {
     const struct boundary *b = NULL;
-    for (uint32_t i = 0; i < all->count && !b; i++)
-        if (all->at[i].drawn && all->at[i].t > r->t_min && all->at[i].t <= r->t_max)
+    for (uint32_t i = 0; i < all->count; i++)
+        if (all->at[i].drawn && all->at[i].t > r->t_min && all->at[i].t <= r->t_max &&
+            (!b || (any && met && all->at[i].t == h->t[l])))
             b = &all->at[i];
-    if (met != (b != NULL) ||
-        (b &&
+    if (met != (b != NULL) || (b && h->t[l] != b->t) ||
+        (b && !any &&
          (h->t[l] != b->t || h->dt[l] != b->dt || h->u[l] != b->u || h->v[l] != b->v ||
           h->part[l] != b->part || h->crossing[l] != b->crossing)))
         fail_msg("%s: %d at %.17g +- %g part %u, not %d at %.17g +- %g part %u; from "
@@ -316,7 +317,7 @@ static void look(const struct loaded *l, const char *text, bool any, int packets
             all.count = 0;
             leaf->ops->intersect(leaf->shape, &r, &all);
             if (bits)
-                assert_same_bits(&all, &r, in, &first, i, text);
+                assert_same_bits(&all, &r, in, any, &first, i, text);
             else if (!is_right(&all, &r, in, first.t[i], first.dt[i], first.crossing[i],
                                first.part[i], any, slack))
                 fail_msg(

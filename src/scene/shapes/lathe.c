@@ -139,8 +139,7 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          const struct shape_rays *rays, unsigned lanes, bool any,
                          struct shape_hits *out)
 {
-    (void)any;
-    return revolve_closest8(k, &lathe_ops, shape, rays, lanes, out);
+    return revolve_closest8(k, &lathe_ops, shape, rays, lanes, any, out);
 }
 
 static bool has_lanes(const void *shape)

@@ -50,19 +50,21 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
 
 // The first drawn crossing with t_min < t <= t_max of a ray that is not nearly flat, among
 // those with `count` segments, in rising order, and the caps. The line meets no other segment.
+// any: the t of any such crossing will do.
 bool revolve_first(const struct revolve *r, const struct ray *ray,
-                   const uint32_t *segment, uint32_t count, struct boundary *out);
+                   const uint32_t *segment, uint32_t count, bool any,
+                   struct boundary *out);
 enum { REVOLVE_FIRST_MAX = 12 }; // segments that it takes
 
 // closest8 of a lathe and a sor.
 unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops *ops,
                           const void *shape, const struct shape_rays *rays,
-                          unsigned lanes, struct shape_hits *out);
+                          unsigned lanes, bool any, struct shape_hits *out);
 // Lanes that are `odd` are for the one line's crossings.
 #define REVOLVE_CLOSEST8(isa)                                                            \
     unsigned revolve_closest8_##isa(const struct revolve *s,                             \
                                     const struct shape_rays *rays, unsigned lanes,       \
-                                    struct shape_hits *out, unsigned *odd);
+                                    bool any, struct shape_hits *out, unsigned *odd);
 REVOLVE_CLOSEST8(base)
 REVOLVE_CLOSEST8(avx2)
 REVOLVE_CLOSEST8(avx512)

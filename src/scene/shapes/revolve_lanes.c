@@ -44,7 +44,7 @@ static void sides8(const struct turn8 *l, const struct revolve_segment *s,
 
 unsigned LANES_PASTE(revolve_closest8_,
                      ISA)(const struct revolve *s, const struct shape_rays *rays,
-                          unsigned lanes, struct shape_hits *out, unsigned *odd)
+                          unsigned lanes, bool any, struct shape_hits *out, unsigned *odd)
 {
     const struct vec8 o = v8_load(rays->o), d = v8_load(rays->d);
     struct turn8 l = {.dy = d.y};
@@ -82,7 +82,7 @@ unsigned LANES_PASTE(revolve_closest8_,
         const int k = __builtin_ctz(left);
         const struct ray ray = shape_rays_lane(rays, k);
         struct boundary b;
-        if (!revolve_first(s, &ray, near[k], count[k], &b))
+        if (!revolve_first(s, &ray, near[k], count[k], any, &b))
             continue;
         shape_hits_put(out, k, &b);
         met |= 1u << k;

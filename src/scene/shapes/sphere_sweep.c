@@ -182,7 +182,7 @@ static void try_u(struct chord *c, double u)
 static void try_roots(struct chord *c, const double *f, int degree, double lo, double hi)
 {
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
-    for (int n = polynomial_sign_changes(f, degree, lo, hi, 16, root); n > 0; n--)
+    for (int n = polynomial_sign_changes(f, degree, lo, hi, root); n > 0; n--)
         try_u(c, root[n - 1].t);
 }
 
@@ -207,7 +207,7 @@ static void cover(struct chord *c, double lo, double hi)
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
     double dw2[6] = {0};
     differentiate(dw, m, dw2);
-    for (int i = polynomial_sign_changes(dw, m, lo, hi, 16, root); i > 0; i--) {
+    for (int i = polynomial_sign_changes(dw, m, lo, hi, root); i > 0; i--) {
         const double u = root[i - 1].t, slope = polynomial_value(dt, n, u);
         const double bend = -polynomial_value(dw2, m - 1, u) / 2;
         try_u(c, u);
@@ -240,14 +240,14 @@ static int changes(const struct chord *c, double size, double u[7], bool *in)
         r += fabs(c->r[k]);
     int n = 0;
     if (r > THIN * size) {
-        n = polynomial_sign_changes(c->w, c->w_degree, 0, 1, 16, root);
+        n = polynomial_sign_changes(c->w, c->w_degree, 0, 1, root);
         *in = n > 0 ? !root[0].rising : polynomial_value(c->w, c->w_degree, 0.5) >= 0;
         for (int i = 0; i < n; i++)
             u[i] = root[i].t;
         return n;
     }
     differentiate(c->w, c->w_degree, dw);
-    const int stops = polynomial_sign_changes(dw, c->w_degree - 1, 0, 1, 16, root);
+    const int stops = polynomial_sign_changes(dw, c->w_degree - 1, 0, 1, root);
     double from = 0;
     bool state = *in = excess_at(c, 0) >= 0;
     for (int i = 0; i <= stops; i++) {
@@ -442,8 +442,7 @@ static bool inside_segment(const struct sweep_segment *g, struct vec3 p)
     excess(g, v, w);
     differentiate(w, 2 * g->degree, dw);
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
-    for (int n = polynomial_sign_changes(dw, 2 * g->degree - 1, 0, 1, 16, root); n > 0;
-         n--)
+    for (int n = polynomial_sign_changes(dw, 2 * g->degree - 1, 0, 1, root); n > 0; n--)
         if (inside_ball(g, root[n - 1].t, p))
             return true;
     return false;
