@@ -192,8 +192,8 @@ static double unit(uint64_t *s)
 
 static double coordinate(uint64_t *s, bool grid)
 {
-    const double v = 2 * unit(s) - 1, kind = unit(s);
-    return grid && kind < .2 ? round(4 * v) / 4 : v;
+    const double v = 2 * unit(s) - 1;
+    return grid && unit(s) < .2 ? round(4 * v) / 4 : v;
 }
 
 // Side by side or in all directions, from outside or inside, some along an axis, some
