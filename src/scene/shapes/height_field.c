@@ -418,57 +418,52 @@ static bool inside(const void *shape, struct vec3 p)
     return p.y < fmax(y / HEIGHT_UNIT, f->water);
 }
 
-// Slopes from a sample along the two sides of one axis, in value and cell units; 0 with
-// weight 0 at the field's edge.
-struct slopes {
-    double at[2], weight[2];
-};
-
-static struct slopes slopes_of(double before, double here, double behind, int i,
-                               int count)
-{
-    const bool low = i > 0, high = i < count - 1;
-    return (struct slopes){{high ? here - behind : 0, low ? before - here : 0},
-                           {high, low}};
-}
-
 // The means of the normals of the triangles at the samples of a cell's corners: at
-// n[axis][corner], in the shape's space. Loops over all are what compilers take in lanes.
+// n[axis][corner], in the shape's space. Beyond the field's edge there is no triangle: its
+// weight is 0. Loops over all are what compilers take in lanes.
 static void corner_normals(const struct height_field *f, int i, int j, double n[3][4])
 {
-    double a[16], b[16], weight[16], length[4];
-    const int w = f->h.width, h = f->h.height;
-    for (int k = 0; k < 4; k++) {
-        const int x = i + (k & 1), z = j + (k >> 1);
-        const double y = value(f, x, z);
-        const struct slopes sx = slopes_of(x > 0 ? value(f, x - 1, z) : 0, y,
-                                           x < w - 1 ? value(f, x + 1, z) : 0, x, w);
-        const struct slopes sz = slopes_of(z > 0 ? value(f, x, z - 1) : 0, y,
-                                           z < h - 1 ? value(f, x, z + 1) : 0, z, h);
-        for (int q = 0; q < 4; q++) {
-            a[4 * q + k] = sx.at[q & 1];
-            b[4 * q + k] = sz.at[q >> 1];
-            weight[4 * q + k] = sx.weight[q & 1] * sz.weight[q >> 1];
-        }
+    double h[4][4], a[16], b[16], weight[16];
+    const int w = f->h.width, d = f->h.height;
+    const bool left = i > 0, right = i + 2 < w, front = j > 0, back = j + 2 < d;
+    for (int r = 0; r < 4; r++) {
+        const int z = r == 0 && !front ? j : r == 3 && !back ? j + 1 : j + r - 1;
+        const float *row = f->h.at + (size_t)z * (size_t)w + i;
+        h[r][0] = (double)row[left ? -1 : 0];
+        h[r][1] = (double)row[0];
+        h[r][2] = (double)row[1];
+        h[r][3] = (double)row[right ? 2 : 1];
     }
+    // Of the corner k the triangles q: beyond it or before it along x, along z.
+    const double at_x[2][2] = {{1, left}, {right, 1}},
+                 at_z[2][2] = {{1, front}, {back, 1}};
+    for (int q = 0; q < 4; q++)
+        for (int k = 0; k < 4; k++) {
+            const int kx = k & 1, kz = k >> 1, x = kx + 1 - (q & 1),
+                      z = kz + 1 - (q >> 1);
+            a[4 * q + k] = h[kz + 1][x] - h[kz + 1][x + 1];
+            b[4 * q + k] = h[z][kx + 1] - h[z + 1][kx + 1];
+            weight[4 * q + k] = at_x[kx][q & 1] * at_z[kz][q >> 1];
+        }
     for (int k = 0; k < 16; k++)
         weight[k] /= sqrt(a[k] * a[k] + 1 + b[k] * b[k]);
     for (int k = 0; k < 4; k++) {
-        n[0][k] = n[1][k] = n[2][k] = 0;
+        double x = 0, y = 0, z = 0;
         for (int q = k; q < 16; q += 4) {
-            n[0][k] += weight[q] * a[q];
-            n[1][k] += weight[q];
-            n[2][k] += weight[q] * b[q];
+            x += weight[q] * a[q];
+            y += weight[q];
+            z += weight[q] * b[q];
         }
-        n[0][k] *= w - 1;
-        n[1][k] *= HEIGHT_UNIT;
-        n[2][k] *= h - 1;
-        length[k] = n[0][k] * n[0][k] + n[1][k] * n[1][k] + n[2][k] * n[2][k];
+        n[0][k] = x * (w - 1);
+        n[1][k] = y * HEIGHT_UNIT;
+        n[2][k] = z * (d - 1);
     }
     for (int k = 0; k < 4; k++) {
-        const double by = 1 / sqrt(length[k]);
-        for (int axis = 0; axis < 3; axis++)
-            n[axis][k] *= by;
+        const double by =
+            1 / sqrt(n[0][k] * n[0][k] + n[1][k] * n[1][k] + n[2][k] * n[2][k]);
+        n[0][k] *= by;
+        n[1][k] *= by;
+        n[2][k] *= by;
     }
 }
 

@@ -16,7 +16,7 @@
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
 
-enum { FIRST_LEVEL = 3, TOGETHER = 4 }; // lanes that wait in cells for one another
+enum { FIRST_LEVEL = 3, TOGETHER = 2 }; // lanes that wait in cells for one another
 
 struct over8 {
     const struct height_field *f;
