@@ -459,9 +459,11 @@ LANES_INLINE struct cross8 cross8_corners(const struct vec3 p[3], const struct s
     }
     const struct real8 size = r8_add(r8_set(corner), o_max);
     const struct real8 slant = r8_div(r8_mul(depth, spread), r8_abs(det));
-    c.dt[0] = c.dt[1] =
-        r8_mul(r8_mul(r8_mul(r8_set(GAMMA(12)), size), r8_abs(r->sz)),
-               r8_add(r8_set(2), slant));
+    const struct real8 dt = r8_mul(r8_mul(r8_mul(r8_set(GAMMA(12)), size), r8_abs(r->sz)),
+                                   r8_add(r8_set(2), slant));
+    const struct real8 most =
+        r8_mul(r8_abs(r->sz), r8_add(r8_mul(r8_set(2 * GAMMA(12)), size), depth));
+    c.dt[0] = c.dt[1] = r8_min(most, dt);
     c.drawn[1] = m8_of(0);
     c.sheet = true;
     return c;

@@ -53,6 +53,9 @@ bool triangle_meet(const struct triangle_ray *r, const struct vec3 p[3],
     size += vec3_max_abs(r->o);
     const double slant = depth * spread / fabs(det);
     hit->dt = GAMMA(12) * size * fabs(r->sz) * (2 + slant);
+    // Nowhere but in the triangle: a ray along an edge meets slivers that it is seen as.
+    const double most = fabs(r->sz) * (2 * GAMMA(12) * size + depth);
+    hit->dt = most < hit->dt ? most : hit->dt;
     return true;
 }
 

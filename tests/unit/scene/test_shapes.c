@@ -326,6 +326,68 @@ static void mesh_is_watertight(void **state)
     arena_free(a);
 }
 
+static const struct shape_ops *make_slanted_cube(struct arena *a, uint64_t *seed,
+                                                 struct vec3 corner[8], void **shape)
+{
+    const struct vec3 axis[3] = {in_cube(seed), in_cube(seed), in_cube(seed)};
+    struct sample s = {"mesh2", "vertex_vectors { 8"};
+    for (int i = 0; i < 8; i++) {
+        corner[i] = vec3(.1, .2, .3);
+        for (int k = 0; k < 3; k++)
+            corner[i] = vec3_mad(corner[i], i >> k & 1 ? 1 : -1, axis[k]);
+        s.text = arena_printf(a, "%s, <%.17g, %.17g, %.17g>", s.text, corner[i].x,
+                              corner[i].y, corner[i].z);
+    }
+    s.text = arena_printf(a, "%s } %s inside_vector <0,1,0>", s.text, CUBE_FACES);
+    return make(a, &s, shape);
+}
+
+// How far apart corners are along the largest component of d, in lengths of d.
+static double depth_along(const struct vec3 corner[8], struct vec3 d)
+{
+    const int axis = fabs(d.x) > fabs(d.y) ? (fabs(d.x) > fabs(d.z) ? 0 : 2)
+                                           : (fabs(d.y) > fabs(d.z) ? 1 : 2);
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int i = 0; i < 8; i++) {
+        const double t = vec3_axis(corner[i], axis) / vec3_axis(d, axis);
+        lo = fmin(lo, t);
+        hi = fmax(hi, t);
+    }
+    return hi - lo;
+}
+
+// The faces beside such an edge are slivers to the ray. Where it meets them is not known,
+// but it is in them: nothing far behind the mesh is swallowed.
+static void rays_along_edges_of_a_mesh_cross_at_them(void **state)
+{
+    (void)state;
+    struct boundary_list l = {0};
+    uint64_t seed = 15;
+    for (int k = 0; k < 200; k++) {
+        struct arena *a = arena_new(1 << 14);
+        struct vec3 corner[8];
+        void *shape;
+        const struct shape_ops *ops = make_slanted_cube(a, &seed, corner, &shape);
+        for (int i = 0; i < 8; i++)
+            for (int axis = 0; axis < 3; axis++) {
+                const struct vec3 d = vec3_sub(corner[i ^ (1 << axis)], corner[i]);
+                const struct ray r = {vec3_sub(corner[i], d), d, -INFINITY, INFINITY};
+                const double depth = depth_along(corner, d);
+                l.count = 0;
+                ops->intersect(shape, &r, &l);
+                assert_int_equal(l.count % 2, 0);
+                for (uint32_t n = 0; n < l.count; n++) {
+                    const struct boundary *b = &l.at[n];
+                    assert_int_equal(b->crossing, n % 2 ? CROSS_EXIT : CROSS_ENTER);
+                    assert_true(b->t > 1 - 1e-6 && b->t < 2 + 1e-6);
+                    assert_true(b->dt < depth + 1e-6);
+                }
+            }
+        arena_free(a);
+    }
+    boundary_list_free(&l);
+}
+
 // The second loop is a hole; a ray through the height of a corner counts it once.
 static void polygon_has_a_hole(void **state)
 {
@@ -361,6 +423,7 @@ int main(void)
         cmocka_unit_test(crossings_hold_their_promises),
         cmocka_unit_test(absorbed_transforms_change_nothing),
         cmocka_unit_test(mesh_is_watertight),
+        cmocka_unit_test(rays_along_edges_of_a_mesh_cross_at_them),
         cmocka_unit_test(polygon_has_a_hole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
