@@ -171,6 +171,7 @@ bool eval_scene(struct arena *arena, struct source_map *sources, uint32_t file,
     e.builder = builder_new(&e);
     struct arena *tokens = arena_new(1 << 18);
     struct stream *in = stream_new(tokens, sources, file, diags, eval_host(&e));
+    stream_set_version(in, e.version / 100.0);
     e.nodes = stream_arena(in);
     const struct ast *item;
     while ((item = parse_item(in))) {

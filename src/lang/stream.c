@@ -36,6 +36,8 @@ struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t 
     return s;
 }
 
+void stream_set_version(struct stream *s, double version) { s->version = version; }
+
 void stream_free(struct stream *s)
 {
     if (!s)

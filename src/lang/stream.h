@@ -160,6 +160,8 @@ struct stream;
 
 struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t file,
                           struct diag_sink *diags, struct stream_host host);
+// Of the language, until a #version says another (3.7).
+void stream_set_version(struct stream *s, double version);
 void stream_free(struct stream *s); // arena memory stays
 // Where the nodes are made: for finish, and for scratch that need not outlive the
 // host call.

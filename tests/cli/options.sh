@@ -42,6 +42,11 @@ clockless() { exits 0 "$lambert" first.pov +W8 +H6 -q -o 1.png && exits 0 "$lamb
   exits 0 "$lambert" cameras.pov +W8 +H6 -q -o last.png && cmp 2.png last.png; }
 check "a clockless animation takes the cameras in turn" clockless
 
+printf 'global_settings { assumed_gamma 1 }\n#macro M() #end\nM()\nsphere { 0, 1 }\n' >macro.pov
+old_macros() { exits 0 "$lambert" macro.pov +W8 +H6 -q +MV3.1 -o 1.png &&
+  exits 1 "$lambert" macro.pov +W8 +H6 -q +MV3.0 -o 1.png && grep -q 'macro.pov:2:1: error: .*E0115' err; }
+check "a version from outside is the scene's first" old_macros
+
 printf '; a comment\nWidth=20\nHeight = 10 ; more\n+Q3 -D\n[big]\nWidth=200\n[tiny]\nWidth=2\n' >t.ini
 want='20 10' check "an INI file" size t.ini
 want='200 10' check "a section of it" size 't.ini[BIG]'
