@@ -93,7 +93,7 @@ bool image_map_place(const struct image_map *m, struct vec3 p, double *column,
 }
 
 // ---- one texel ---------------------------------------------------------------
-static int inside(int i, int size, bool once)
+static inline int inside(int i, int size, bool once)
 {
     if (i >= 0 && i < size)
         return i;
@@ -103,7 +103,7 @@ static int inside(int i, int size, bool once)
     return i < 0 ? i + size : i;
 }
 
-static float sample(const struct image_map *m, const struct texels *t, int x, int y,
+static inline float sample(const struct image_map *m, const struct texels *t, int x, int y,
                     int k)
 {
     const double raw = texels_raw(t, x, y, k);
@@ -112,7 +112,7 @@ static float sample(const struct image_map *m, const struct texels *t, int x, in
     return (float)transfer_encode(m->working, transfer_decode(m->decode, raw));
 }
 
-static struct rgbft fetch(const struct image_map *m, int x, int y, int *index)
+static inline struct rgbft fetch(const struct image_map *m, int x, int y, int *index)
 {
     const struct texels *t = m->texels;
     x = inside(x, t->width, m->once);
@@ -137,7 +137,7 @@ struct sum {
     bool indexed;
 };
 
-static void add(struct sum *s, const struct image_map *m, int x, int y, double weight)
+static inline void add(struct sum *s, const struct image_map *m, int x, int y, double weight)
 {
     int index;
     const struct rgbft c = fetch(m, x, y, &index);
