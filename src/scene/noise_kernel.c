@@ -332,7 +332,7 @@ LANES_INLINE struct real8 value_corners8(const struct place8 *p, const struct la
     return sum;
 }
 
-static struct real8 value_sum8(const struct place8 *p)
+LANES_INLINE struct real8 value_sum8(const struct place8 *p)
 {
     struct lattice8 l;
     lattice_of(p, &l);
@@ -467,7 +467,7 @@ LANES_INLINE struct vec8 vector_corners8(const struct place8 *p, const struct la
     return sum;
 }
 
-static struct vec8 vector8(const struct place8 *p)
+LANES_INLINE struct vec8 vector8(const struct place8 *p)
 {
     struct lattice8 l;
     lattice_of(p, &l);
