@@ -44,6 +44,7 @@ for scene in "${scenes[@]}"; do
     cpu "$work/pov" povray "+I$scene" "+O$work/pov.png" "+W$width" "+H$height" +WT1 -D -A -P
     cpu "$work/lam" "$lambert" "$scene" -o "$work/lam.png" "+W$width" "+H$height" --threads=1 -q
   done
+  [ -s "$work/pov.png" ] || { echo "$name: POV-Ray makes no picture" >&2; continue; }
   off=$("$lambert" compare "$work/lam.png" "$work/pov.png" 2>/dev/null |
     sed -n 's/.*8\/255: \([0-9.]*\) %.*/\1/p' | head -1)
   echo "$name $(sort -g "$work/pov" | head -1) $(sort -g "$work/lam" | head -1) ${off:--}"

@@ -10,7 +10,7 @@
 #include "scene/shapes/poly.h"
 
 // Terms looked at in all, and how often a face and the cube are halved.
-enum { WORK_MAX = 150000, FACE_DEPTH = 5, CELL_DEPTH = 6 };
+enum { WORK_MAX = 100000, FACE_DEPTH = 5, CELL_DEPTH = 5 };
 
 struct search {
     const struct poly *s;
@@ -23,10 +23,14 @@ struct range {
     double lo, hi;
 };
 
+static double smaller(double a, double b) { return a < b ? a : b; }
+static double larger(double a, double b) { return a > b ? a : b; }
+
 static struct range times(struct range a, struct range b)
 {
     const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
-    return (struct range){fmin(fmin(p, q), fmin(r, s)), fmax(fmax(p, q), fmax(r, s))};
+    return (struct range){smaller(smaller(p, q), smaller(r, s)),
+                          larger(larger(p, q), larger(r, s))};
 }
 
 static void powers_of(double lo, double hi, int n, struct range *out)
@@ -36,7 +40,7 @@ static void powers_of(double lo, double hi, int n, struct range *out)
     for (int i = 1; i <= n; i++) {
         a *= lo;
         b *= hi;
-        out[i] = (struct range){fmin(a, b), fmax(a, b)};
+        out[i] = (struct range){smaller(a, b), larger(a, b)};
         if (i % 2 == 0 && lo < 0 && hi > 0)
             out[i].lo = 0;
     }
@@ -61,7 +65,7 @@ static double least_in(struct search *v, const struct aabb *box)
                 continue;
             const struct range p = times(xy, z[k]);
             sum += c > 0 ? c * p.lo : c * p.hi;
-            size += fabs(c) * fmax(-p.lo, p.hi);
+            size += fabs(c) * larger(-p.lo, p.hi);
             v->work--;
         }
     }
