@@ -316,6 +316,28 @@ static bool passes_by(const struct line *l, const struct revolve_segment *s)
     return rho2 > s->most2 + GAMMA(64) * (l->p + rho2 + s->most2);
 }
 
+// The polynomial whose sign says on which side of the segment the line passes, and the heights
+// above the line's. Inlined with constant degrees (lathes and sors have these), so that the
+// loops unroll.
+static inline __attribute__((always_inline)) void meeting(const struct line *l,
+                                                          const struct revolve_segment *s,
+                                                          int h_degree, int r2_degree,
+                                                          double h[4], double f[7])
+{
+    const double dy = l->ray->d.y;
+    for (int k = 0; k <= h_degree; k++)
+        h[k] = s->h[k];
+    h[0] -= l->y;
+    for (int j = 0; j <= h_degree; j++) {
+        for (int k = 0; k <= h_degree; k++)
+            f[j + k] += l->q * h[j] * h[k];
+        f[j] += 2 * dy * l->shifted_m * h[j];
+    }
+    f[0] += dy * dy * l->shifted_p;
+    for (int k = 0; k <= r2_degree; k++)
+        f[k] -= dy * dy * s->r2[k];
+}
+
 static void sloped_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
@@ -323,18 +345,15 @@ static void sloped_segment(const struct line *l, uint32_t i)
     if (s->most2 == 0 || passes_by(l, s))
         return;
     double f[7] = {0}, h[4] = {0}, w[8];
-    for (int k = 0; k <= s->h_degree; k++)
-        h[k] = s->h[k];
-    h[0] -= l->y;
-    int degree = 2 * s->h_degree > s->r2_degree ? 2 * s->h_degree : s->r2_degree;
-    for (int j = 0; j <= s->h_degree; j++) {
-        for (int k = 0; k <= s->h_degree; k++)
-            f[j + k] += l->q * h[j] * h[k];
-        f[j] += 2 * dy * l->shifted_m * h[j];
-    }
-    f[0] += dy * dy * l->shifted_p;
-    for (int k = 0; k <= s->r2_degree; k++)
-        f[k] -= dy * dy * s->r2[k];
+    const int degree = 2 * s->h_degree > s->r2_degree ? 2 * s->h_degree : s->r2_degree;
+    if (s->h_degree == 1 && s->r2_degree == 2)
+        meeting(l, s, 1, 2, h, f);
+    else if (s->h_degree == 1)
+        meeting(l, s, 1, 3, h, f);
+    else if (s->h_degree == 2)
+        meeting(l, s, 2, 4, h, f);
+    else
+        meeting(l, s, 3, 6, h, f);
     bool above[2] = {is_outside(l, s->h_end[0], s->r2_end[0]),
                      is_outside(l, s->h_end[1], s->r2_end[1])};
     for (int n = crossings(f, degree, above, w); n > 0; n--) {
