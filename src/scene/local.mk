@@ -6,7 +6,7 @@ liblambert_a_SOURCES += \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
 	%D%/shapes/parametric.c %D%/shapes/parametric.h %D%/shapes/parametric_cells.c \
 	%D%/shapes/container.c %D%/shapes/container.h %D%/shapes/isosurface.c \
-	%D%/shapes/isosurface.h %D%/shapes/isosurface_tree.c %D%/shapes/isosurface_walk.c \
+	%D%/shapes/isosurface.h %D%/shapes/isosurface_open.h %D%/shapes/isosurface_tree.c %D%/shapes/isosurface_walk.c \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
 	%D%/shapes/height_field.c %D%/shapes/height_field.h %D%/shapes/julia.h %D%/shapes/julia_fractal.c %D%/shapes/julia_iterate.c \
 	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \

@@ -8,6 +8,7 @@
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
+#include "scene/shapes/isosurface_open.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
 #include "trace/carve.h"
@@ -181,8 +182,11 @@ static bool is_product(const struct accel *accel, const struct world_object *o)
 
 // Whether every boundary of these shapes is drawn; others may be open, so that what they
 // show first does not tell where they are inside.
-static bool is_closed(const struct shape_ops *ops)
+static bool is_closed(const struct leaf *l)
 {
+    const struct shape_ops *ops = l->ops;
+    if (ops == &isosurface_ops)
+        return !isosurface_is_open(l->shape);
     return ops == &blob_ops || ops == &text_ops || ops == &poly_ops ||
            ops == &cubic_ops || ops == &quartic_ops || ops == &polynomial_ops;
 }
@@ -203,7 +207,7 @@ static bool is_carved(const struct world *w, const struct accel *accel,
             return false;
         solids += solid;
         shown |= !solid && l->drawn;
-        closed |= solid && is_closed(l->ops);
+        closed |= solid && is_closed(l);
     }
     return solids == 1 && (closed || !shown);
 }

@@ -418,6 +418,9 @@ static const char *const carved[] = {
     "difference { quartic { <1,0,0,0,2,0,0,2,0,-1.3, 0,0,0,0,0,0,0,0,0,0, "
     "1,0,0,2,0,.82,0,0,0,0, 1,0,-1.3,0,.1681> } box { <0, -1, -2>, <2, 1, 2> } "
     "cone { -y, .9, y, .6 } }",
+    "difference { isosurface { function { x*x*x*x + y*y*y*y + z*z*z*z - .07 } } sphere { 0, 1 "
+    "scale <.45, .45, .05> translate -.5*z } sphere { 0, 1 scale <.45, .45, .05> translate "
+    ".5*z rotate 90*x } cylinder { -y, y, .2 } }",
     "object { " WAVES " clipped_by { box { -.6, .6 rotate 20*y } } }",
     "object { " WAVES
     " clipped_by { sphere { 0, .6 inverse } plane { <1, 1, 1>, .4 } } }",
@@ -426,6 +429,8 @@ static const char *const carved[] = {
     ".3, 0>, "
     ".3 } }",
 };
+
+static const double GRAZING = 1e-6; // an error of t that only touching crossings have
 
 // What the carving finds, the sweep finds; batches have the bits of one ray.
 static void carved_shapes_are_as_the_sweep_has_them(void **state)
@@ -437,7 +442,7 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
     for (size_t i = 0; i < sizeof carved / sizeof *carved; i++) {
         struct loaded l;
         const char *font = font_file();
-        unsigned met = 0;
+        unsigned met = 0, grazing = 0;
         if (!font && strstr(carved[i], "FONT"))
             continue;
         load(&l, "#declare FONT = \"%s\"; %s", font ? font : "", carved[i]);
@@ -464,6 +469,11 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
                 struct boundary b = {.t = INFINITY};
                 sweep_object(l.world, l.scratch, 0, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
                 assert_true(hits->t[k] == one.b.t);
+                // Grazing rays, of which neither form knows whether they meet the shape.
+                if (fmax(one.b.dt, b.dt) > GRAZING) {
+                    grazing++;
+                    continue;
+                }
                 assert_int_equal(one.b.t < INFINITY, b.t < INFINITY);
                 assert_int_equal(dark[k], b.t < INFINITY);
                 if (!(b.t < INFINITY))
@@ -476,6 +486,7 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
             }
         }
         assert_true(met > MORE_PACKETS / 4);
+        assert_true(grazing < met / 50);
         unload(&l);
     }
     ray_batch_free(batch);

@@ -4,6 +4,7 @@
 // max_gradient, accuracy, evaluate and max_trace are not needed; they matter for functions
 // without bounds alone (patterns, pigments). All crossings are found, as CSG wants them.
 #include "scene/shapes/isosurface.h"
+#include "scene/shapes/isosurface_open.h"
 
 #include "base/arena.h"
 #include "scene/args.h"
@@ -12,6 +13,11 @@
 
 enum { MAX_TRACE = 10 };
 static const double ACCURACY = 0.001, MAX_GRADIENT = 1.1;
+
+bool isosurface_is_open(const void *shape)
+{
+    return ((const struct isosurface *)shape)->open;
+}
 
 static bool read_max_trace(struct args *args, struct isosurface *s)
 {
