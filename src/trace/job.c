@@ -181,6 +181,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
                       (settings->purpose == RENDER_PICTURE ||
                        (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface));
     sky_init(job);
+    sky_compile(job, a);
     pass_init(job, a);
     simple_compile(job, a);
     paint_compile(job, a);

@@ -69,6 +69,8 @@ struct job {
     const struct media_threshold *media_threshold;
     uint32_t media_threshold_count;
     const struct surface_kernels *surface_kernels;
+    // Of the sky's pigments (trace/sky.h); NULL: its colours are found one by one.
+    const struct pigment_tape *const *sky_tape;
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
     double reach; // of rays with PATH_SHORT; 0: none has a limit

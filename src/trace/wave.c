@@ -202,6 +202,49 @@ static void emitted_sort(struct path_queue *q, uint32_t first)
         q->order[first + begin[q->at[i].parent]++] = i;
 }
 
+static void miss_add(struct tracer *t, uint32_t slot, struct rgb c, float clear)
+{
+    struct wavefront *w = &t->wave;
+    const float through_t = w->path ? w->path[w->order[slot]].through_t : 1;
+    t->slot = slot;
+    tracer_add(
+        t,
+        rgb_mul(rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]), c));
+    w->t[slot] += through_t * clear;
+}
+
+// Rays that see the sky, until there are eight.
+struct misses {
+    double d[3][8];
+    bool opaque[8];
+    uint16_t slot[8];
+    uint32_t count;
+};
+
+static void misses_shade(struct tracer *t, struct misses *m)
+{
+    struct rgb c[8];
+    float clear[8];
+    for (uint32_t i = m->count; i < 8; i++)
+        for (int a = 0; a < 3; a++)
+            m->d[a][i] = m->d[a][0];
+    sky_colors(t->job, (const double(*)[8])m->d, m->count, m->opaque, c, clear);
+    for (uint32_t i = 0; i < m->count; i++)
+        miss_add(t, m->slot[i], c[i], clear[i]);
+    m->count = 0;
+}
+
+static void misses_add(struct tracer *t, struct misses *m, uint32_t k)
+{
+    const struct ray_batch *b = t->rays;
+    for (int a = 0; a < 3; a++)
+        m->d[a][m->count] = b->d[a][k];
+    m->opaque[m->count] = b->hidden_by[k] & OBJECT_NO_REFLECTION;
+    m->slot[m->count++] = t->wave.slot[k];
+    if (m->count == 8)
+        misses_shade(t, m);
+}
+
 static void missed(struct tracer *t, uint32_t k)
 {
     const struct job *job = t->job;
@@ -218,11 +261,7 @@ static void missed(struct tracer *t, uint32_t k)
     if (!job->even_sky)
         c = sky_color(job, vec3(t->rays->d[0][k], t->rays->d[1][k], t->rays->d[2][k]),
                       opaque, &clear);
-    const float through_t = w->path ? w->path[w->order[t->slot]].through_t : 1;
-    tracer_add(t, rgb_mul(rgb(w->through[0][t->slot], w->through[1][t->slot],
-                              w->through[2][t->slot]),
-                          c));
-    w->t[t->slot] += through_t * clear;
+    miss_add(t, t->slot, c, clear);
 }
 
 static void sums_add(struct tracer *t)
@@ -277,13 +316,17 @@ static void wave_trace(struct tracer *t)
     }
     memset(w->t, 0, w->count * sizeof w->t[0]);
     const uint32_t first = w->next->count;
+    struct misses sky = {.count = 0};
     trace_closest(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
     for (uint32_t k = 0, end; k < w->count; k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
-            missed(t, k);
+            if (t->job->sky_tape)
+                misses_add(t, &sky, k);
+            else
+                missed(t, k);
             continue;
         }
         while (end < w->count && t->hit->leaf[end] == t->hit->leaf[k] &&
@@ -292,6 +335,8 @@ static void wave_trace(struct tracer *t)
         if (!simple_take(t, k, end - k))
             shade_alone(t, k, end);
     }
+    if (sky.count)
+        misses_shade(t, &sky);
     paint_shade(t);
     simple_shade(t);
     shadow_flush(t);
