@@ -145,30 +145,28 @@ static void find_rooms(struct patches *p)
 }
 
 // ---- what has nothing before it ----------------------------------------------------
-// Where rays of the camera may start and what all objects lie in; false: not known.
-static bool scene_points(const struct job *job, struct vec3 out[12], uint32_t *count)
+// Where rays of the camera may start and what all objects lie in.
+static void find_around(struct patches *p)
 {
-    const struct world *w = job->world;
-    const struct camera *c = job->camera;
+    const struct world *w = p->job->world;
+    const struct camera *c = p->job->camera;
     const struct aabb *b = &w->bounds;
     const bool wide = c->kind == CAMERA_ORTHOGRAPHIC;
-    uint32_t n = 0;
     if (c->aperture > 0 || c->kind == CAMERA_MESH || c->normal ||
         (c->kind >= CAMERA_CYLINDER_1 && c->kind <= CAMERA_CYLINDER_4))
-        return false;
+        return;
     for (uint32_t o = 0; o < w->object_count; o++)
         if (!aabb_is_finite(w->object[o].bounds))
-            return false;
+            return;
     for (int k = 0; k < 8; k++)
-        out[n++] = vec3(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y,
-                        k & 4 ? b->max.z : b->min.z);
+        p->around[p->around_count++] =
+            vec3(k & 1 ? b->max.x : b->min.x, k & 2 ? b->max.y : b->min.y,
+                 k & 4 ? b->max.z : b->min.z);
     for (int k = 0; k < (wide ? 4 : 1); k++) {
         const struct vec3 across = vec3_scale(wide ? (k & 1) - .5 : 0, c->right);
         const struct vec3 up = vec3_scale(wide ? (k >> 1) - .5 : 0, c->up);
-        out[n++] = vec3_add(c->location, vec3_add(across, up));
+        p->around[p->around_count++] = vec3_add(c->location, vec3_add(across, up));
     }
-    *count = n;
-    return true;
 }
 
 // Sides of flat charts that face away from all objects and the camera: no light goes
@@ -178,15 +176,14 @@ static uint8_t sides_alone(const struct patches *p, const struct chart *c)
     // What stands out of a plane by less sees nothing of it.
     static const double flush = 1e-9; // of the scene's extent
     const struct leaf *l = &p->job->world->leaf[c->leaf];
-    struct vec3 point[12], at, normal;
-    uint32_t count;
+    struct vec3 at, normal;
     double before = 0, behind = 0, extent = 0;
     if ((c->kind != CHART_FLAT && c->kind != CHART_TRIANGLE && c->kind != CHART_RING) ||
-        !scene_points(p->job, point, &count) || !chart_point(c, l, .5, .5, &at, &normal))
+        !p->around_count || !chart_point(c, l, .5, .5, &at, &normal))
         return 0;
     const struct vec3 out = l->inverted ? vec3_neg(normal) : normal;
-    for (uint32_t k = 0; k < count; k++) {
-        const struct vec3 r = vec3_sub(point[k], at);
+    for (uint32_t k = 0; k < p->around_count; k++) {
+        const struct vec3 r = vec3_sub(p->around[k], at);
         const double height = vec3_dot(r, out);
         before = fmax(before, height);
         behind = fmax(behind, -height);
@@ -370,6 +367,7 @@ static struct patches *build(const struct job *job, const struct patch_settings 
         return NULL;
     }
     find_rooms(p);
+    find_around(p);
     for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
         chart_cells(p, i);
     elements_find(p);

@@ -65,8 +65,10 @@ struct patches {
     uint32_t element_count, element_capacity;
     uint32_t *room; // objects in which light can be
     uint32_t room_count;
-    struct shaft *shaft; // NULL: too many objects
-    double size;         // of cells
+    struct shaft *shaft;    // NULL: too many objects
+    double size;            // of cells
+    struct vec3 around[12]; // corners of all objects, and where rays of the camera start
+    uint32_t around_count;  // 0: not known
     struct enclosure enclosure;
 };
 
