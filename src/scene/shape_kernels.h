@@ -31,6 +31,10 @@ struct ray shape_rays_lane(const struct shape_rays *rays, int lane);
 unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
                           const struct shape_rays *rays, int lane,
                           struct shape_hits *out);
+// The same of several; returns those that meet it.
+unsigned shape_lanes_alone(const struct shape_ops *ops, const void *shape,
+                           const struct shape_rays *rays, unsigned lanes,
+                           struct shape_hits *out);
 
 // What shapes have compiled once per instruction set, with the same results.
 struct blob;
@@ -54,8 +58,8 @@ struct shape_kernels {
                              unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*isosurface)(const struct isosurface *s, const struct shape_rays *rays,
                            unsigned lanes, bool any, struct shape_hits *out);
-    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays, unsigned lanes,
-                      bool any, struct shape_hits *out);
+    unsigned (*julia)(const struct julia *j, const struct shape_rays *rays,
+                      unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*ovus)(const struct ovus *s, const struct shape_rays *rays, unsigned lanes,
                      struct shape_hits *out);
     unsigned (*patch)(const struct patch *p, const struct shape_rays *rays,

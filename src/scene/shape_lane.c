@@ -37,3 +37,13 @@ unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
     boundary_list_free(&list);
     return found;
 }
+
+unsigned shape_lanes_alone(const struct shape_ops *ops, const void *shape,
+                           const struct shape_rays *rays, unsigned lanes,
+                           struct shape_hits *out)
+{
+    unsigned met = 0;
+    for (; lanes; lanes &= lanes - 1)
+        met |= shape_lane_alone(ops, shape, rays, __builtin_ctz(lanes), out);
+    return met;
+}

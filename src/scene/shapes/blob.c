@@ -126,13 +126,12 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          struct shape_hits *out)
 {
     (void)any;
-    unsigned odd, met = k->blob(shape, rays, lanes, out, &odd);
-    for (; odd; odd &= odd - 1)
-        met |= shape_lane_alone(&blob_ops, shape, rays, __builtin_ctz(odd), out);
-    return met;
+    unsigned odd;
+    const unsigned met = k->blob(shape, rays, lanes, out, &odd);
+    return met | shape_lanes_alone(&blob_ops, shape, rays, odd, out);
 }
 
-// Where nothing is solid, lines without a component are not all alike.
+// Else space is solid where no component reaches, and lines that meet none count as well.
 static bool has_lanes(const void *shape)
 {
     const struct blob *b = shape;

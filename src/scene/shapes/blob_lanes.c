@@ -3,12 +3,8 @@
 // its range.
 #include <math.h>
 
-#include "math/gamma.h"
-#include "math/lanes_vec.h"
 #include "scene/shapes/blob.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
+#include "scene/shapes/lanes.h"
 
 // Components met by some of eight rays that are kept; where there are more, each ray goes
 // alone.
@@ -126,8 +122,9 @@ static uint32_t column(const struct rows *x, int lane, struct blob_stretch *out)
     return n;
 }
 
-unsigned PASTE(blob_closest8_, ISA)(const struct blob *s, const struct shape_rays *rays,
-                                    unsigned lanes, struct shape_hits *out, unsigned *odd)
+unsigned LANES_PASTE(blob_closest8_, ISA)(const struct blob *s,
+                                          const struct shape_rays *rays, unsigned lanes,
+                                          struct shape_hits *out, unsigned *odd)
 {
     struct rows x;
     struct blob_stretch at[ROWS];

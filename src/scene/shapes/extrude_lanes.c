@@ -4,12 +4,9 @@
 // the slab tell the first crossing.
 #include "scene/shapes/extrude_lanes.h"
 
-#include "math/lanes_vec.h"
 #include "scene/shapes/extrude.h"
+#include "scene/shapes/lanes.h"
 #include "scene/shapes/outline_lanes.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 // Boxes are widened by this share of all coordinates, far more than rounding moves a crossing.
 #define BOX_PAD 0x1p-30
@@ -311,9 +308,9 @@ static unsigned merge(const struct sweep8 *e, unsigned lanes, struct shape_hits 
     return met & ~*odd;
 }
 
-unsigned PASTE(extrude_closest8_, ISA)(const struct extrude_solid *s,
-                                       const struct shape_rays *rays, unsigned lanes,
-                                       struct shape_hits *out, unsigned *odd)
+unsigned LANES_PASTE(extrude_closest8_,
+                     ISA)(const struct extrude_solid *s, const struct shape_rays *rays,
+                          unsigned lanes, struct shape_hits *out, unsigned *odd)
 {
     struct sweep8 e;
     set_up(&e, s, rays);

@@ -76,15 +76,4 @@ LANES_INLINE unsigned lines8_hits(const struct lines8 *l, const struct shape_ray
                                   r8_le(t, r8_load(rays->t_max))));
 }
 
-// The rays of `lanes` one by one, by the shape's own crossings; returns those that meet it.
-static inline unsigned lanes_one_by_one(const struct shape_ops *ops, const void *shape,
-                                        const struct shape_rays *rays, unsigned lanes,
-                                        struct shape_hits *out)
-{
-    unsigned met = 0;
-    for (; lanes; lanes &= lanes - 1)
-        met |= shape_lane_alone(ops, shape, rays, __builtin_ctz(lanes), out);
-    return met;
-}
-
 #endif

@@ -214,7 +214,7 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
     found &= ~unsure;
     const unsigned met = lines8_hits(&l, rays, found, f.t, dt, f.below, out);
     // What rounding has put out of the range is for the one-ray form to tell as well.
-    return met | lanes_one_by_one(&poly_ops, s, rays, unsure | (found & ~met), out);
+    return met | shape_lanes_alone(&poly_ops, s, rays, unsure | (found & ~met), out);
 }
 
 unsigned LANES_PASTE(poly_closest8_, ISA)(const struct poly *s,

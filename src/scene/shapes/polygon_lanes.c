@@ -1,11 +1,7 @@
 // Eight rays and a polygon, compiled once per instruction set: the operations of polygon.c,
 // with the same bits.
-#include "math/gamma.h"
-#include "math/lanes_vec.h"
+#include "scene/shapes/lanes.h"
 #include "scene/shapes/polygon.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 LANES_INLINE struct real8 axis8(struct vec8 p, int axis)
 {
@@ -35,9 +31,9 @@ static unsigned covers8(const struct polygon *s, struct vec8 p, unsigned lanes)
     return in;
 }
 
-unsigned PASTE(polygon_closest8_, ISA)(const struct polygon *s,
-                                       const struct shape_rays *rays, unsigned lanes,
-                                       struct shape_hits *out)
+unsigned LANES_PASTE(polygon_closest8_, ISA)(const struct polygon *s,
+                                             const struct shape_rays *rays,
+                                             unsigned lanes, struct shape_hits *out)
 {
     if (!s->drawn)
         return 0;

@@ -211,10 +211,9 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     const struct prism *s = shape;
     const struct extrude_solid e = {&s->outline, 1,        s->low,    s->high,
                                     s->open,     s->conic, {0, 2, 1}, NULL};
-    unsigned odd, met = k->extrude(&e, rays, lanes, out, &odd);
-    for (; odd; odd &= odd - 1)
-        met |= shape_lane_alone(&prism_ops, s, rays, __builtin_ctz(odd), out);
-    return met;
+    unsigned odd;
+    const unsigned met = k->extrude(&e, rays, lanes, out, &odd);
+    return met | shape_lanes_alone(&prism_ops, s, rays, odd, out);
 }
 
 static bool has_lanes(const void *shape)

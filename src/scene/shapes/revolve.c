@@ -501,10 +501,9 @@ unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops 
                           const void *shape, const struct shape_rays *rays,
                           unsigned lanes, bool any, struct shape_hits *out)
 {
-    unsigned odd, met = k->revolve(shape, rays, lanes, any, out, &odd);
-    for (; odd; odd &= odd - 1)
-        met |= shape_lane_alone(ops, shape, rays, __builtin_ctz(odd), out);
-    return met;
+    unsigned odd;
+    const unsigned met = k->revolve(shape, rays, lanes, any, out, &odd);
+    return met | shape_lanes_alone(ops, shape, rays, odd, out);
 }
 
 void revolve_surface(const struct revolve *r, const struct boundary *b, struct vec3 p,

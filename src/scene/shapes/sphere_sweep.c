@@ -465,10 +465,9 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          struct shape_hits *out)
 {
     (void)any;
-    unsigned odd, met = k->sphere_sweep(shape, rays, lanes, out, &odd);
-    for (; odd; odd &= odd - 1)
-        met |= shape_lane_alone(&sphere_sweep_ops, shape, rays, __builtin_ctz(odd), out);
-    return met;
+    unsigned odd;
+    const unsigned met = k->sphere_sweep(shape, rays, lanes, out, &odd);
+    return met | shape_lanes_alone(&sphere_sweep_ops, shape, rays, odd, out);
 }
 
 static bool has_lanes(const void *shape)

@@ -270,10 +270,9 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     const struct text *t = shape;
     const struct extrude_solid e = {t->glyph, t->count, 0,         t->depth,
                                     false,    false,    {0, 1, 2}, &t->tilt};
-    unsigned odd, met = k->extrude(&e, rays, lanes, out, &odd);
-    for (; odd; odd &= odd - 1)
-        met |= shape_lane_alone(&text_ops, t, rays, __builtin_ctz(odd), out);
-    return met;
+    unsigned odd;
+    const unsigned met = k->extrude(&e, rays, lanes, out, &odd);
+    return met | shape_lanes_alone(&text_ops, t, rays, odd, out);
 }
 
 static bool has_lanes(const void *shape)
