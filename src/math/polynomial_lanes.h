@@ -6,9 +6,9 @@
 // A lane looks at stretches from left to right, each a half, a quarter ... of its whole: the
 // Bernstein polygon has at least as many sign changes as there are roots, and more by an even
 // number only (Farouki & Rajan 1987). None: on to the next stretch, twice as long where that
-// fits; one: there is the root; more: the first half of it. Coefficients within their rounding
-// have no sign; the sign at a stretch's begin is the one before it left. So a touch is no
-// root, and no root is lost where two stretches meet.
+// fits; one: there is the root; more: the first half of it. Where coefficients are within their
+// rounding, halves may tell more; where they would not, as at double roots, a lane is left
+// unsure. The first coefficient has the sign that the stretch before ended with.
 #include "math/gamma.h"
 #include "math/lanes.h"
 #include "math/polynomial.h"
@@ -19,7 +19,7 @@ struct brackets8 {
     struct real8 a, b, guess; // of the lanes found: one root between, the first
     struct real8 sign;        // before it, -1 or 1
     unsigned found;
-    unsigned unsure; // what they do is below the rounding
+    unsigned unsure; // what they do is below the rounding, or beyond all numbers
 };
 
 LANES_INLINE struct real8 poly8_value(const struct real8 *c, int n, struct real8 t)
@@ -40,13 +40,18 @@ LANES_INLINE struct real8 poly8_size(const struct real8 *c, int n, struct real8 
     return v;
 }
 
+// Where a bound on the rounding of a polygon is much larger than that of values: within the
+// stretch, near its end closest to zero, or at its far end. Halves have more to say there.
+struct rough8 {
+    struct mask8 within, end;
+};
+
 // The Bernstein coefficients on [a, a + w], from the end that is nearer to zero; returns a
 // bound on their rounding: up to 6 n roundings of sums no larger than the polynomial's terms
-// at |end| + w. rough: it is much larger than that of values on the stretch, so that halves
-// have more to say.
+// at |end| + w.
 LANES_INLINE struct real8 poly8_polygon(const struct real8 *c, int n, struct real8 a,
                                         struct real8 w, struct real8 *b,
-                                        struct mask8 *rough)
+                                        struct rough8 *rough)
 {
     const struct real8 end = r8_add(a, w), zero = r8_set(0);
     const struct mask8 turned = r8_lt(r8_add(a, end), zero);
@@ -71,22 +76,28 @@ LANES_INLINE struct real8 poly8_polygon(const struct real8 *c, int n, struct rea
             b[i] = r8_select(turned, y, x);
             b[n - i] = r8_select(turned, x, y);
         }
-    const struct real8 far = r8_max(r8_abs(a), r8_abs(end));
+    const struct real8 near = r8_max(r8_max(a, r8_neg(end)), zero);
     const struct real8 size = poly8_size(c, n, r8_add(r8_abs(from), r8_abs(w)));
-    *rough = r8_lt(r8_mul(r8_set(4), poly8_size(c, n, far)), size);
+    const struct real8 least = r8_mul(r8_set(0.25), size);
+    rough->within = r8_lt(poly8_size(c, n, near), least);
+    rough->end = r8_lt(poly8_size(c, n, end), least);
     return r8_mul(r8_set((6 * n + 8) * ROUNDOFF), size);
 }
 
 // How often the polygon's sign changes from the first on, the place of the first change as a
 // share of the stretch. A first sign of zero becomes that of the first coefficient with one.
+// clear: the lanes where all coefficients but the first, which has its sign from before, have
+// a sign; murky: those where some have none, and halves would not help.
 LANES_INLINE struct real8 poly8_changes(const struct real8 *b, int n, struct real8 noise,
                                         struct real8 *first_sign, struct real8 *at,
-                                        struct mask8 *clear_all)
+                                        const struct rough8 *rough,
+                                        struct mask8 *all_clear, struct mask8 *murky)
 {
     struct real8 sign = *first_sign;
     const struct real8 zero = r8_set(0), one = r8_set(1);
     struct real8 changes = zero, before = sign, from = one, to = one, index = zero;
-    *clear_all = m8_of(255);
+    struct mask8 coarse = m8_of(0);
+    *all_clear = m8_of(255);
     for (int i = 0; i <= n; i++) {
         const struct mask8 clear = r8_lt(noise, r8_abs(b[i]));
         const struct mask8 turns = m8_and(clear, r8_lt(r8_mul(sign, b[i]), zero));
@@ -95,11 +106,15 @@ LANES_INLINE struct real8 poly8_changes(const struct real8 *b, int n, struct rea
         to = r8_select(first, b[i], to);
         index = r8_select(first, r8_set(i - 1), index);
         changes = r8_select(turns, r8_add(changes, one), changes);
-        *clear_all = m8_and(*clear_all, clear);
+        if (i > 0) {
+            *all_clear = m8_and(*all_clear, clear);
+            coarse = m8_or(coarse, m8_without(i < n ? rough->within : rough->end, clear));
+        }
         sign = r8_select(clear, r8_copysign(one, b[i]), sign);
         *first_sign = r8_select(r8_eq(*first_sign, zero), sign, *first_sign);
         before = b[i];
     }
+    *murky = m8_without(m8_without(m8_of(255), *all_clear), coarse);
     *at = r8_mul(r8_add(index, r8_div(from, r8_sub(from, to))), r8_set(1. / n));
     return changes;
 }
@@ -119,17 +134,21 @@ LANES_INLINE struct brackets8 poly8_isolate(const struct real8 *c, int n, struct
     for (int i = 0; i < LOOKS_MAX && lanes && !(cancel && *cancel); i++) {
         const struct real8 a = r8_add(lo, r8_mul(width, from)), w = r8_mul(width, share);
         struct real8 at, before = r.sign;
-        struct mask8 rough, clear;
+        struct rough8 rough;
+        struct mask8 clear, murky;
         const struct real8 noise = poly8_polygon(c, n, a, w, b, &rough);
-        const struct real8 changes = poly8_changes(b, n, noise, &before, &at, &clear);
+        const struct real8 changes =
+            poly8_changes(b, n, noise, &before, &at, &rough, &clear, &murky);
         const struct real8 halves = r8_floor(r8_mul(changes, half));
         const unsigned is_odd = m8_bits(r8_lt(r8_add(halves, halves), changes));
-        const unsigned told = lanes & ~m8_bits(m8_without(rough, clear));
-        const unsigned none = told & m8_bits(r8_eq(changes, zero));
-        // A polygon that ends within its rounding may still turn back.
+        const unsigned none = lanes & m8_bits(m8_and(clear, r8_eq(changes, zero)));
+        // The number is odd whatever those between are.
         const unsigned ends = lanes & m8_bits(r8_lt(noise, r8_abs(b[n])));
         const unsigned one_root =
-            ends & (odd ? is_odd : told & m8_bits(r8_eq(changes, one)));
+            odd ? ends & is_odd : lanes & m8_bits(m8_and(clear, r8_eq(changes, one)));
+        const unsigned unsure =
+            lanes & ~one_root &
+            (m8_bits(murky) | ~m8_bits(r8_lt(noise, r8_set(INFINITY))));
         r.sign = r8_select(m8_of(none | one_root), before, r.sign);
         if (one_root) {
             const struct mask8 m = m8_of(one_root);
@@ -139,6 +158,8 @@ LANES_INLINE struct brackets8 poly8_isolate(const struct real8 *c, int n, struct
             r.found |= one_root;
             lanes &= ~one_root;
         }
+        r.unsure |= unsure;
+        lanes &= ~unsure;
         const struct mask8 on = m8_of(none);
         from = r8_select(on, r8_add(from, share), from);
         lanes &= ~(none & m8_bits(r8_le(one, from)));

@@ -56,6 +56,7 @@ static const char *const shapes[] = {
     "polynomial { 6, xyz(2,0,0): 1, xyz(0,1,0): -.7, xyz(0,0,0): .01 }", // degree 2
     "polynomial { 4, xyz(4,0,0): 1, xyz(0,4,0): 1, xyz(0,0,4): 1, xyz(2,0,0): -1, "
     "xyz(0,2,0): -1, xyz(0,0,2): -1, xyz(0,0,0): .4 }",
+    "polynomial { 35, xyz(35,0,0): 1, xyz(0,2,0): -1, xyz(0,0,1): .3, xyz(0,0,0): .1 }",
     // Barth's sextic, with double points
     "#declare Q = (1 + sqrt(5))/2; #declare P = Q*Q; polynomial { 6, xyz(4,2,0): 4*P*P, "
     "xyz(0,4,2): 4*P*P, xyz(2,0,4): 4*P*P, xyz(2,4,0): -4*P, xyz(0,2,4): -4*P, "
