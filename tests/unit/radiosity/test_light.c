@@ -375,7 +375,7 @@ static void cornell_box(void **state)
     char path[1024];
     benchmark_path(path, "cornell.pov");
     struct scene_run s = scene_load_file(path);
-    struct radiosity_options o = with(in_full() ? 60000 : 2000, "stochastic");
+    struct radiosity_options o = with(in_full() ? 150000 : 2000, "stochastic");
     o.solver.rays = in_full() ? 20000000 : 300000;
     scene_solve_loaded(&s, &o);
     double h[CORNELL + 1][3] = {{0}}, off = 0, all = 0;
