@@ -69,6 +69,7 @@ struct irradiance_cache *irradiance_cache_new(const struct world *w,
     const double begin = clock_seconds(CLOCK_MONOTONIC);
     *report = (struct irradiance_report){0};
     c->arena = a;
+    c->cancel = watch ? watch->cancel : NULL;
     c->settings = &w->scene->settings.radiosity_settings;
     c->depths = (uint32_t)c->settings->recursion_limit;
     c->eye = w->scene->has_camera ? w->scene->camera.location : camera_default.location;

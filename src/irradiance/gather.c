@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "trace/scratch.h"
 
 uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth)
 {
@@ -70,6 +71,7 @@ static void level_prepare(struct gather_level *l)
     l->tracer = tracer_new(last ? &c->gather_last : &c->gather);
     if (!last)
         l->tracer->indirect = &l->owner->level[l->depth + 1];
+    l->tracer->scratch->crossings.cancel = c->cancel;
     l->path = must_calloc(n, sizeof *l->path);
     l->to = must_calloc(n, sizeof *l->to);
     l->first = must_calloc(n, sizeof *l->first);
@@ -328,7 +330,8 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
         store_mean(&c->store, &at, &mean);
     if (g->fresh && g->fresh->count)
         store_mean(g->fresh, &at, &mean);
-    if (!is_enough(g, l->depth, mean.weight)) {
+    // After a cancel nobody looks at the light; a sample may take many seconds.
+    if (!is_enough(g, l->depth, mean.weight) && !(c->cancel && *c->cancel)) {
         struct cache_sample fresh;
         if (!g->fresh)
             l->next = q->hash % c->direction_count;

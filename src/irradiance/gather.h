@@ -13,6 +13,7 @@ struct irradiance_cache {
     struct vec3 eye;
     struct job scout;               // the camera's rays, before the picture
     struct job gather, gather_last; // of every depth but the last, and of that
+    const volatile bool *cancel; // when set, no further sample is taken; NULL: never
     uint32_t depths;
     struct store store;
     struct vec3 *direction; // about y, cosine-weighted
