@@ -210,6 +210,7 @@ lang_scenes = \
 	%D%/333-error-t-member.scn \
 	%D%/334-error-t-argument.scn \
 	%D%/335-error-t-element.scn \
-	%D%/336-error-t-colour.scn
+	%D%/336-error-t-colour.scn \
+	%D%/337-isosurface-jump.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

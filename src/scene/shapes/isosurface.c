@@ -106,12 +106,15 @@ static bool has_lanes(const void *shape)
     return !tape_is_opaque(s->f) && tape_has_lanes(s->f);
 }
 
+// Across the point, so that a jump of the function is seen whichever side of it the point
+// is on.
 static struct vec3 differences(const struct isosurface *s, struct vec3 p)
 {
-    const double a = s->accuracy, f = iso_value(s, p);
-    return vec3(iso_value(s, vec3(p.x + a, p.y, p.z)) - f,
-                iso_value(s, vec3(p.x, p.y + a, p.z)) - f,
-                iso_value(s, vec3(p.x, p.y, p.z + a)) - f);
+    const double a = s->accuracy;
+    return vec3(
+        iso_value(s, vec3(p.x + a, p.y, p.z)) - iso_value(s, vec3(p.x - a, p.y, p.z)),
+        iso_value(s, vec3(p.x, p.y + a, p.z)) - iso_value(s, vec3(p.x, p.y - a, p.z)),
+        iso_value(s, vec3(p.x, p.y, p.z + a)) - iso_value(s, vec3(p.x, p.y, p.z - a)));
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
