@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "api/state.h"
+#include "trace/photon_map.h"
 #include "trace/render.h"
 
 // A first and a last row or column (spec/language 7.5) as a half-open range.
@@ -147,11 +148,11 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
         render_state_close(&state, whole);
     ctx->cancel = false;
     keep_stats(ctx, &stats);
-    if (stats.photons_left_out) // PHOTONS_MOST
+    if (stats.photons_left_out)
         diag_at(&ctx->diags, DIAG_BLOCK_WARNING, (struct span){0}, "photons",
-                "a map holds 67,108,864; the others are left out (a larger spacing or a "
-                "smaller "
-                "count leaves fewer)");
+                "a map holds %d; the others are left out (a larger spacing or a smaller "
+                "count leaves fewer)",
+                PHOTONS_MOST);
     *out = image;
     return whole ? LAMBERT_OK
                  : context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");

@@ -1,30 +1,11 @@
 // JPEG files through libjpeg-turbo, with its integer transform, so that equal pictures give
 // equal bytes. There is no alpha.
-#include <setjmp.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <jpeglib.h>
-
-#include "image/codec.h"
+#include "image/jpeg_job.h"
 
 static const int usual_quality = 95;
-
-struct job {
-    struct jpeg_error_mgr manager; // first: libjpeg hands this back
-    jmp_buf back;
-    struct codec_error error;
-};
-
-static void on_error(j_common_ptr c)
-{
-    struct job *job = (struct job *)c->err;
-    char text[JMSG_LENGTH_MAX];
-    job->manager.format_message(c, text);
-    codec_fail(job->error, "%s", text);
-    longjmp(job->back, 1);
-}
 
 static void write_all(struct jpeg_compress_struct *c, struct sample_rows *rows)
 {
@@ -55,14 +36,14 @@ bool jpeg_encode(const struct image *im, const struct image_write_options *optio
 {
     struct image_write_options o = *options;
     struct sample_rows rows;
-    struct job job = {.error = e};
+    struct jpeg_job job = {.error = e};
     struct jpeg_compress_struct c = {.err = jpeg_std_error(&job.manager)};
     unsigned char *bytes = NULL;
     unsigned long size = 0;
     volatile bool ok = false;
     o.bits = 8;
     o.alpha = false;
-    job.manager.error_exit = on_error;
+    job.manager.error_exit = jpeg_job_fail;
     if (!sample_rows_begin(&rows, im, &o)) {
         codec_fail(e, "out of memory");
     } else if (!setjmp(job.back)) {

@@ -1,34 +1,15 @@
 // JPEG files through libjpeg-turbo. A file that ends too early is an error, as for the
 // other types; libjpeg itself would fill in grey.
-#include <setjmp.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <jpeglib.h>
-
-#include "image/codec.h"
-
-struct job {
-    struct jpeg_error_mgr manager; // first: libjpeg hands this back
-    jmp_buf back;
-    struct codec_error error;
-};
-
-static void on_error(j_common_ptr c)
-{
-    struct job *job = (struct job *)c->err;
-    char text[JMSG_LENGTH_MAX];
-    job->manager.format_message(c, text);
-    codec_fail(job->error, "%s", text);
-    longjmp(job->back, 1);
-}
+#include "image/jpeg_job.h"
 
 // Level -1: the data is damaged.
 static void on_message(j_common_ptr c, int level)
 {
     if (level < 0)
-        on_error(c);
+        jpeg_job_fail(c);
 }
 
 // Cyan, magenta, yellow and black as light, without a colour profile. Adobe's files have
@@ -76,10 +57,10 @@ static bool read_all(struct jpeg_decompress_struct *c, struct texels *t,
 bool jpeg_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
 {
     struct jpeg_decompress_struct c;
-    struct job job = {.error = e};
+    struct jpeg_job job = {.error = e};
     memset(&c, 0, sizeof c);
     c.err = jpeg_std_error(&job.manager);
-    job.manager.error_exit = on_error;
+    job.manager.error_exit = jpeg_job_fail;
     job.manager.emit_message = on_message;
     volatile bool ok = false;
     if (!setjmp(job.back)) {

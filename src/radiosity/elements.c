@@ -246,7 +246,7 @@ static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)
     }
 }
 
-static void element_corners(const struct patches *p, const struct cell *c, int side,
+static void element_corners(const struct patches *p, const struct cell *c,
                             struct element *e)
 {
     const struct chart *chart = &p->chart[c->chart];
@@ -270,15 +270,7 @@ static void element_corners(const struct patches *p, const struct cell *c, int s
             e->corner[k] = vec3_mad(o, t, axis);
         }
     }
-    (void)side;
-    // Counter-clockwise about the normal of this side.
-    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
-                                        vec3_sub(e->corner[3], e->corner[1]));
-    if (vec3_dot(turn, e->normal) < 0) {
-        const struct vec3 swap = e->corner[1];
-        e->corner[1] = e->corner[3];
-        e->corner[3] = swap;
-    }
+    polygon_turn(e);
 }
 
 static void element_add(struct patches *p, uint32_t index, int side,
@@ -303,7 +295,7 @@ static void element_add(struct patches *p, uint32_t index, int side,
                           .surface = 2 * c->chart + (uint32_t)side,
                           .curved = p->chart[c->chart].curved,
                           .partial = f->members < f->tried};
-    element_corners(p, c, side, e);
+    element_corners(p, c, e);
     const double outline = polygon_area(e);
     e->coverage = outline > 0 ? (float)(e->area / outline) : 1;
     c->element[side] = i;

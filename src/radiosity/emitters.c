@@ -60,13 +60,7 @@ static void merge(const struct patches *p, struct emitter *a, const struct emitt
                     at->u + corner[k][0] * at->du, at->v + corner[k][1] * at->dv,
                     &e->corner[k], &n);
     }
-    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
-                                        vec3_sub(e->corner[3], e->corner[1]));
-    if (vec3_dot(turn, e->normal) < 0) {
-        const struct vec3 swap = e->corner[1];
-        e->corner[1] = e->corner[3];
-        e->corner[3] = swap;
-    }
+    polygon_turn(e);
     e->corner_count = 4;
     e->coverage = (float)(area / polygon_area(e));
 }

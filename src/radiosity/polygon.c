@@ -111,6 +111,17 @@ struct vec3 polygon_uniform(const struct element *e, double u, double v)
                     vec3_sub(e->corner[2], a));
 }
 
+void polygon_turn(struct element *e)
+{
+    const struct vec3 turn = vec3_cross(vec3_sub(e->corner[2], e->corner[0]),
+                                        vec3_sub(e->corner[3], e->corner[1]));
+    if (vec3_dot(turn, e->normal) < 0) {
+        const struct vec3 swap = e->corner[1];
+        e->corner[1] = e->corner[3];
+        e->corner[3] = swap;
+    }
+}
+
 static struct vec3 polygon_area_vector(const struct element *e)
 {
     const struct vec3 a = e->corner[0], c = e->corner[2];

@@ -25,6 +25,8 @@ struct vec3 polygon_point(const struct element *e, double u, double v, double *j
 // parallelograms.
 struct vec3 polygon_uniform(const struct element *e, double u, double v);
 double polygon_area(const struct element *e);
+// Puts the corners of a quadrangle counter-clockwise about its normal.
+void polygon_turn(struct element *e);
 // Greatest distance of a corner from the centre.
 double polygon_radius(const struct element *e);
 

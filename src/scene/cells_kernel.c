@@ -3,12 +3,10 @@
 #include <float.h>
 #include <stdint.h>
 
+#include "math/isa.h"
 #include "math/lanes_vec.h"
 #include "scene/noise_kernel.h"
 #include "scene/noise_tables.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 // Past this a coordinate is near the end of the integers.
 #define NOISE_FAR 4611686018427387904.0
@@ -168,9 +166,8 @@ static void search_sums(struct cells8 *s, struct found8 *f, int metric, int coun
         search8(s, f, 1, count, false);
 }
 
-void PASTE(noise_nearest_, ISA)(const double p[3][8], const double cell[3],
-                                unsigned lanes, int metric, int count, double sum[3][8],
-                                double place[3][8])
+void OF_ISA(noise_nearest_)(const double p[3][8], const double cell[3], unsigned lanes,
+                            int metric, int count, double sum[3][8], double place[3][8])
 {
     struct cells8 s = {.at = v8_load(p), .cell = cell, .lanes = lanes};
     const struct real8 far = r8_set(DBL_MAX);

@@ -3,13 +3,11 @@
 #include <stdint.h>
 
 #include "math/interval.h"
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "scene/noise.h"
 #include "scene/noise_kernel.h"
 #include "scene/noise_tables.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 struct range8 {
     struct real8 lo, hi;
@@ -231,8 +229,8 @@ static void one_box(const double lo[3][8], const double hi[3][8], int generator,
     }
 }
 
-void PASTE(noise_bounds_, ISA)(const double lo[3][8], const double hi[3][8],
-                               int generator, struct noise_bounds8 *out)
+void OF_ISA(noise_bounds_)(const double lo[3][8], const double hi[3][8], int generator,
+                           struct noise_bounds8 *out)
 {
     unsigned rest = 255;
     if (generator != NOISE_PERLIN) {

@@ -4,17 +4,13 @@
 
 #include <stdint.h>
 
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "math/quick_lanes.h"
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 #include "scene/pattern_lanes.h"
 #include "scene/tape_kernel.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-#define TEXT_(a)     #a
-#define TEXT(a)      TEXT_(a)
 
 #define NOISE_EDGE 1e-10
 #define NOISE_FAR  4611686018427387904.0
@@ -601,17 +597,17 @@ static void angles(const double y[8], const double x[8], double out[8])
 
 static void powers(const double x[8], double y, double out[8]) { quick_pow8(x, y, out); }
 
-const struct noise_kernels PASTE(noise_kernels_, ISA) = {TEXT(ISA),
-                                                         value,
-                                                         vector,
-                                                         values,
-                                                         vectors,
-                                                         PASTE(noise_nearest_, ISA),
-                                                         PASTE(noise_bounds_, ISA),
-                                                         cycloidals,
-                                                         sines,
-                                                         angles,
-                                                         powers,
-                                                         PASTE(noise_rings_, ISA),
-                                                         PASTE(noise_ring_slopes_, ISA),
-                                                         &PASTE(tape_kernels_, ISA)};
+const struct noise_kernels OF_ISA(noise_kernels_) = {ISA_TEXT,
+                                                     value,
+                                                     vector,
+                                                     values,
+                                                     vectors,
+                                                     OF_ISA(noise_nearest_),
+                                                     OF_ISA(noise_bounds_),
+                                                     cycloidals,
+                                                     sines,
+                                                     angles,
+                                                     powers,
+                                                     OF_ISA(noise_rings_),
+                                                     OF_ISA(noise_ring_slopes_),
+                                                     &OF_ISA(tape_kernels_)};

@@ -1,12 +1,10 @@
 // Rings at eight points, for scene/patterns/rings.h: each expression is the one there.
 // Compiled once per instruction set: ISA names it.
+#include "math/isa.h"
 #include "math/lanes_vec.h"
 #include "scene/noise.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern_lanes.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 struct ring8 {
     struct vec8 from;
@@ -27,8 +25,8 @@ LANES_INLINE struct ring8 ring8_at(const struct noise_rings *r, int i, struct ve
     return x;
 }
 
-void PASTE(noise_rings_, ISA)(const double p[3][8], const struct noise_rings *r,
-                              double out[8])
+void OF_ISA(noise_rings_)(const double p[3][8], const struct noise_rings *r,
+                          double out[8])
 {
     const struct vec8 at = v8_load(p);
     struct real8 sum = r8_set(0);
@@ -39,8 +37,8 @@ void PASTE(noise_rings_, ISA)(const double p[3][8], const struct noise_rings *r,
     r8_store(out, r8_div(sum, r8_set(r->count)));
 }
 
-void PASTE(noise_ring_slopes_, ISA)(const double p[3][8], const struct noise_rings *r,
-                                    float amount, double n[3][8])
+void OF_ISA(noise_ring_slopes_)(const double p[3][8], const struct noise_rings *r,
+                                float amount, double n[3][8])
 {
     const struct vec8 at = v8_load(p);
     struct vec8 sum = v8_load((const double(*)[8])n);

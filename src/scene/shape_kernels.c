@@ -1,6 +1,7 @@
 // The kernels of one instruction set (shape_kernels.h): ISA names it.
 #include "scene/shape_kernels.h"
 
+#include "math/isa.h"
 #include "scene/shapes/blob.h"
 #include "scene/shapes/extrude_lanes.h"
 #include "scene/shapes/height_field_lanes.h"
@@ -14,20 +15,17 @@
 #include "scene/shapes/sphere_sweep.h"
 #include "scene/shapes/superellipsoid.h"
 
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-
-const struct shape_kernels PASTE(shape_kernels_, ISA) = {
-    .blob = PASTE(blob_closest8_, ISA),
-    .extrude = PASTE(extrude_closest8_, ISA),
-    .height_field = PASTE(height_closest8_, ISA),
-    .isosurface = PASTE(iso_closest8_, ISA),
-    .julia = PASTE(julia_closest8_, ISA),
-    .ovus = PASTE(ovus_closest8_, ISA),
-    .patch = PASTE(patch_closest8_, ISA),
-    .poly = PASTE(poly_closest8_, ISA),
-    .polygon = PASTE(polygon_closest8_, ISA),
-    .revolve = PASTE(revolve_closest8_, ISA),
-    .sphere_sweep = PASTE(sweep_closest8_, ISA),
-    .superellipsoid = PASTE(superellipsoid_closest8_, ISA),
+const struct shape_kernels OF_ISA(shape_kernels_) = {
+    .blob = OF_ISA(blob_closest8_),
+    .extrude = OF_ISA(extrude_closest8_),
+    .height_field = OF_ISA(height_closest8_),
+    .isosurface = OF_ISA(iso_closest8_),
+    .julia = OF_ISA(julia_closest8_),
+    .ovus = OF_ISA(ovus_closest8_),
+    .patch = OF_ISA(patch_closest8_),
+    .poly = OF_ISA(poly_closest8_),
+    .polygon = OF_ISA(polygon_closest8_),
+    .revolve = OF_ISA(revolve_closest8_),
+    .sphere_sweep = OF_ISA(sweep_closest8_),
+    .superellipsoid = OF_ISA(superellipsoid_closest8_),
 };

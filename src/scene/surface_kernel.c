@@ -3,6 +3,7 @@
 // the bits are the same.
 #include <string.h>
 
+#include "math/isa.h"
 #include "math/lanes_vec.h"
 #include "scene/image_map.h"
 #include "scene/noise_kernel.h"
@@ -11,12 +12,7 @@
 #include "scene/surface_eval.h"
 #include "scene/warp.h"
 
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-#define TEXT_(a)     #a
-#define TEXT(a)      TEXT_(a)
-
-#define NOISE (&PASTE(noise_kernels_, ISA))
+#define NOISE (&OF_ISA(noise_kernels_))
 
 typedef const double (*points8)[8];
 
@@ -576,5 +572,5 @@ static void normal_in(const struct pattern *p, double v[3][8])
     normal_in8(p, false, v);
 }
 
-const struct surface_kernels PASTE(surface_kernels_, ISA) = {
-    TEXT(ISA), NOISE, warp, values, colors, perturb, normal_in, normal_out8};
+const struct surface_kernels OF_ISA(surface_kernels_) = {
+    ISA_TEXT, NOISE, warp, values, colors, perturb, normal_in, normal_out8};

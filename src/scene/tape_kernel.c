@@ -4,14 +4,12 @@
 
 #include <string.h>
 
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "math/trig_lanes.h"
 #include "scene/noise_kernel.h"
 #include "scene/range_lanes.h"
 #include "scene/tape_steps.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 struct reg {
     struct range v, d[3];
@@ -246,7 +244,7 @@ static bool call_in_lanes(const struct tape *t, const struct tape_step *s, struc
         r8_store(in[i].lo, a->v.lo);
         r8_store(in[i].hi, a->v.hi);
     }
-    if (!f->bounds8(&PASTE(noise_kernels_, ISA), s->data, in, out, partial))
+    if (!f->bounds8(&OF_ISA(noise_kernels_), s->data, in, out, partial))
         return false;
     struct reg v[TAPE_WIDTH_MAX];
     for (int i = 0; i < f->width; i++) {
@@ -484,7 +482,7 @@ static void values_call(const struct tape *t, const struct tape_step *s, struct 
     double in[TAPE_LIST_MAX][8], out[TAPE_WIDTH_MAX][8];
     for (uint32_t i = 0; i < s->count; i++)
         r8_store(in[i], r[t->list[s->list + i]]);
-    tape_call_packet(&PASTE(noise_kernels_, ISA), s, (const double(*)[8])in, out);
+    tape_call_packet(&OF_ISA(noise_kernels_), s, (const double(*)[8])in, out);
     for (int i = 0; i < width_of(s); i++)
         r[s->to + i] = r8_load(out[i]);
 }
@@ -589,4 +587,4 @@ static void exact(const struct tape *t, const double at[3][8], double out[8])
     run_values(t, true, at, out);
 }
 
-const struct tape_kernels PASTE(tape_kernels_, ISA) = {values, exact, bounds, along};
+const struct tape_kernels OF_ISA(tape_kernels_) = {values, exact, bounds, along};

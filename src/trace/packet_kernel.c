@@ -1,14 +1,10 @@
 // The tracer's inner loops, compiled once per instruction set: ISA names it, the compiler's
 // flags choose the width in math/lanes.h. All give the same bits.
+#include "math/isa.h"
 #include "trace/packet.h"
 #include "trace/packet_lanes.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_sponge.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-#define TEXT_(a)     #a
-#define TEXT(a)      TEXT_(a)
 
 enum {
     FEW = 2,        // lanes that go on one by one
@@ -349,7 +345,7 @@ static void hits_from(struct packet *p, const struct ray_batch *r, uint32_t firs
 }
 
 static void trace_closest8(const struct world *w, struct trace_scratch *s,
-                        const struct ray_batch *rays, const struct hit_batch *out)
+                           const struct ray_batch *rays, const struct hit_batch *out)
 {
     struct packet p;
     p.w = w;
@@ -398,6 +394,5 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
     }
 }
 
-const struct packet_kernels PASTE(packet_kernels_, ISA) = {TEXT(ISA), trace_closest8,
-                                                           trace_occluded8, walk,
-                                                           &PASTE(shape_kernels_, ISA)};
+const struct packet_kernels OF_ISA(packet_kernels_) = {
+    ISA_TEXT, trace_closest8, trace_occluded8, walk, &OF_ISA(shape_kernels_)};

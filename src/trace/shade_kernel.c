@@ -3,11 +3,7 @@
 // the same order: the bits are the same.
 #include "trace/shade_kernel.h"
 
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-#define TEXT_(a)     #a
-#define TEXT(a)      TEXT_(a)
-
+#include "math/isa.h"
 #include "trace/shade_bounce.h"
 #include "trace/shade_camera.h"
 #include "trace/shade_color.h"
@@ -281,6 +277,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
     return met;
 }
 
-const struct shade_kernels PASTE(shade_kernels_, ISA) = {
-    TEXT(ISA), &PASTE(surface_kernels_, ISA), camera, place, own, light, bounce, sums,
-    meets};
+const struct shade_kernels OF_ISA(shade_kernels_) = {
+    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, meets};

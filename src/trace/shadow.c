@@ -336,6 +336,7 @@ void shadow_end(struct tracer *t)
     free(t->lamp_begin);
 }
 
+// air_end[i]: see walk_batch.
 static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count,
                         const double *air_end)
 {
@@ -404,7 +405,7 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
         shadow_put(b, i, &r[i]);
         air_end[i] = air_end_of(t->job, &r[i]);
     }
-    batch_trace(t, b, count, air_end);
+    batch_trace(t, b, count, t->job->has_air ? air_end : NULL);
     for (uint32_t i = 0; i < count; i++) {
         out[i] = b->occluded[i]   ? none
                  : b->pass        ? b->pass[i]
@@ -449,7 +450,7 @@ void shadow_flush(struct tracer *t)
         shadow_put(b, t->shadow_order[i], &t->shadow[i]);
         air_end[t->shadow_order[i]] = air_end_of(t->job, &t->shadow[i]);
     }
-    batch_trace(t, b, count, air_end);
+    batch_trace(t, b, count, t->job->has_air ? air_end : NULL);
     t->shadow_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t k = t->shadow_order[i];

@@ -586,8 +586,14 @@ static void *keep(struct arena *a, struct vector *v)
     return p;
 }
 
+// The world of what is not opaque: where nothing is opaque, the world itself.
 static const struct world *clear_of(struct arena *a, const struct world *w)
 {
+    uint32_t i = 0;
+    while (i < w->object_count && !w->object[i].opaque)
+        i++;
+    if (i == w->object_count)
+        return w;
     struct world *clear = arena_new_struct(a, struct world);
     *clear = *w;
     clear->accel = accel_build_clear(a, w);

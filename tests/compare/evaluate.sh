@@ -31,7 +31,7 @@ xargs -P "${JOBS:-2}" -d '\n' -n 1 sh -c '
   error=$(grep -m 1 "error: " "$log" | sed "s/^[^ ]*error: //; s/^.* error: //")
   key=$2/reference/$(echo "$name" | tr / _)
   if [ ! -e "$key.code" ]; then
-    timeout 300 povray "+I$scene" "+L$folder" -D -F +Q0 +W4 +H3 -P >"$key.log" 2>&1
+    timeout 300 povray "+I$scene" "+L$folder" -D -F +Q0 +W4 +H3 -P </dev/null >"$key.log" 2>&1
     echo $? >"$key.code"
   fi
   reference=$(cat "$key.code")

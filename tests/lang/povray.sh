@@ -20,7 +20,7 @@ for scene; do
   grep -q '^// povray: no' "$scene" && continue # says why
   rm -f "$work"/*
   (cd "$work" && timeout 120 povray -D -F +W4 +H4 "+L$folder" "+I$scene" +GDdebug +GA- +GS- +GR- \
-    >all 2>&1)
+    >all 2>&1 </dev/null)
   code=$?
   expected=0
   grep -q '// expect error:' "$scene" && expected=1

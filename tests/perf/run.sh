@@ -32,7 +32,7 @@ for scene in "$@"; do
   : >"$work/pov.trace" >"$work/lam.trace"
   for _ in $(seq "$runs"); do
     t0=$(now)
-    povray "+I$scene" "+O$work/pov.png" "+W$width" "+H$height" +WT1 -D -A -P >/dev/null 2>"$work/pov.log"
+    povray "+I$scene" "+O$work/pov.png" "+W$width" "+H$height" +WT1 -D -A -P </dev/null >/dev/null 2>"$work/pov.log"
     t1=$(now)
     "$lambert" "$scene" -o "$work/lam.png" --width="$width" --height="$height" --threads=1 \
       -q --stats=json >"$work/lam.json" || echo "$name: lambert failed" >&2

@@ -32,7 +32,7 @@ fi
 cpu() {
   local file=$1
   shift
-  { time "$@" >"$work/out" 2>"$work/err"; } 2>>"$file"
+  { time "$@" </dev/null >"$work/out" 2>"$work/err"; } 2>>"$file"
 }
 
 echo "| shape | POV-Ray s | lambert s | ratio | pixels off |"

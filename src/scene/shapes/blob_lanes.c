@@ -122,9 +122,8 @@ static uint32_t column(const struct rows *x, int lane, struct blob_stretch *out)
     return n;
 }
 
-unsigned LANES_PASTE(blob_closest8_, ISA)(const struct blob *s,
-                                          const struct shape_rays *rays, unsigned lanes,
-                                          struct shape_hits *out, unsigned *odd)
+unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *rays,
+                                unsigned lanes, struct shape_hits *out, unsigned *odd)
 {
     struct rows x;
     struct blob_stretch at[ROWS];

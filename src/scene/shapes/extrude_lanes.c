@@ -308,9 +308,9 @@ static unsigned merge(const struct sweep8 *e, unsigned lanes, struct shape_hits 
     return met & ~*odd;
 }
 
-unsigned LANES_PASTE(extrude_closest8_,
-                     ISA)(const struct extrude_solid *s, const struct shape_rays *rays,
-                          unsigned lanes, struct shape_hits *out, unsigned *odd)
+unsigned OF_ISA(extrude_closest8_)(const struct extrude_solid *s,
+                                   const struct shape_rays *rays, unsigned lanes,
+                                   struct shape_hits *out, unsigned *odd)
 {
     struct sweep8 e;
     set_up(&e, s, rays);

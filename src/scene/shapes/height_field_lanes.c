@@ -9,12 +9,10 @@
 #include <math.h>
 
 #include "math/gamma.h"
+#include "math/isa.h"
 #include "math/lanes_gather.h"
 #include "scene/shapes/height_field.h"
 #include "scene/shapes/height_field_lanes.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 enum { FIRST_LEVEL = 3, TOGETHER = 2 }; // lanes that wait in cells for one another
 
@@ -371,9 +369,9 @@ static void begin(struct over8 *w, unsigned lanes)
                   r8_set(f->level[level].height - 1));
 }
 
-unsigned PASTE(height_closest8_, ISA)(const struct height_field *f,
-                                      const struct shape_rays *rays, unsigned lanes,
-                                      bool any, struct shape_hits *out)
+unsigned OF_ISA(height_closest8_)(const struct height_field *f,
+                                  const struct shape_rays *rays, unsigned lanes, bool any,
+                                  struct shape_hits *out)
 {
     struct over8 w;
     (void)any;

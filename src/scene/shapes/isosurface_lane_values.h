@@ -3,18 +3,14 @@
 
 // Eight rays in an isosurface: what is kept of them, f at points and its bounds over stretches.
 #include "math/gamma.h"
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "scene/shape_kernels.h"
 #include "scene/shapes/isosurface.h"
 #include "scene/shapes/isosurface_lanes.h"
 #include "scene/tape_kernel.h"
 
-#ifndef ISA // the build names it; anything that reads this header alone gets the portable one
-#define ISA base
-#endif
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
-#define TAPE         PASTE(tape_kernels_, ISA)
+#define TAPE OF_ISA(tape_kernels_)
 
 // A plane's distance along a ray that hardly moves across it; never infinite, so that a ray
 // in the plane has no NaN.

@@ -477,9 +477,8 @@ static unsigned closest(const struct isosurface *s, const struct shape_rays *ray
     return hit | told;
 }
 
-unsigned PASTE(iso_closest8_, ISA)(const struct isosurface *s,
-                                   const struct shape_rays *rays, unsigned lanes,
-                                   bool any, struct shape_hits *out)
+unsigned OF_ISA(iso_closest8_)(const struct isosurface *s, const struct shape_rays *rays,
+                               unsigned lanes, bool any, struct shape_hits *out)
 {
     return closest(s, rays, lanes, any, out);
 }

@@ -445,9 +445,8 @@ static unsigned closest(const struct julia *j, const struct shape_rays *rays,
     return met;
 }
 
-unsigned LANES_PASTE(julia_closest8_, ISA)(const struct julia *j,
-                                           const struct shape_rays *rays, unsigned lanes,
-                                           bool any, struct shape_hits *out)
+unsigned OF_ISA(julia_closest8_)(const struct julia *j, const struct shape_rays *rays,
+                                 unsigned lanes, bool any, struct shape_hits *out)
 {
     return closest(j, rays, lanes, any, out);
 }

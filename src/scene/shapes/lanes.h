@@ -3,12 +3,10 @@
 
 // What shapes that take eight rays at once have in common.
 #include "math/gamma.h"
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "math/lanes_vec.h"
 #include "scene/shape_kernels.h"
-
-#define LANES_PASTE_(a, b) a##b
-#define LANES_PASTE(a, b)  LANES_PASTE_(a, b)
 
 // Eight lines of unit directions, from their points nearest to the middle: t of a ray is
 // (t of its line + shift) / length.

@@ -188,9 +188,8 @@ static unsigned closest(const struct ovus *s, const struct shape_rays *rays,
     return met | put(s, &w, rays, through, last, slope, true, out);
 }
 
-unsigned LANES_PASTE(ovus_closest8_, ISA)(const struct ovus *s,
-                                          const struct shape_rays *rays, unsigned lanes,
-                                          struct shape_hits *out)
+unsigned OF_ISA(ovus_closest8_)(const struct ovus *s, const struct shape_rays *rays,
+                                unsigned lanes, struct shape_hits *out)
 {
     return closest(s, rays, lanes, out);
 }

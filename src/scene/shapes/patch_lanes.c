@@ -11,12 +11,10 @@
 #include <math.h>
 
 #include "math/gamma.h"
+#include "math/isa.h"
 #include "math/lanes.h"
 #include "scene/shapes/patch.h"
 #include "scene/shapes/patch_lanes.h"
-
-#define PASTE_(a, b) a##b
-#define PASTE(a, b)  PASTE_(a, b)
 
 static const double OFF_MAX = 0.4;
 // Newton's step, as a share of the piece, after which the next would be lost in rounding:
@@ -403,8 +401,8 @@ static void set_up(struct lines8 *w)
     w->best = w->limit = r8_load(r->t_max);
 }
 
-unsigned PASTE(patch_closest8_, ISA)(const struct patch *p, const struct shape_rays *rays,
-                                     unsigned lanes, bool any, struct shape_hits *out)
+unsigned OF_ISA(patch_closest8_)(const struct patch *p, const struct shape_rays *rays,
+                                 unsigned lanes, bool any, struct shape_hits *out)
 {
     struct lines8 w;
     struct real8 enter;

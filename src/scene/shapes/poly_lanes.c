@@ -217,9 +217,8 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
     return met | shape_lanes_alone(&poly_ops, s, rays, unsure | (found & ~met), out);
 }
 
-unsigned LANES_PASTE(poly_closest8_, ISA)(const struct poly *s,
-                                          const struct shape_rays *rays, unsigned lanes,
-                                          bool any, struct shape_hits *out)
+unsigned OF_ISA(poly_closest8_)(const struct poly *s, const struct shape_rays *rays,
+                                unsigned lanes, bool any, struct shape_hits *out)
 {
     return closest(s, rays, lanes, any, out);
 }

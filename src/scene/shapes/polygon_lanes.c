@@ -31,9 +31,8 @@ static unsigned covers8(const struct polygon *s, struct vec8 p, unsigned lanes)
     return in;
 }
 
-unsigned LANES_PASTE(polygon_closest8_, ISA)(const struct polygon *s,
-                                             const struct shape_rays *rays,
-                                             unsigned lanes, struct shape_hits *out)
+unsigned OF_ISA(polygon_closest8_)(const struct polygon *s, const struct shape_rays *rays,
+                                   unsigned lanes, struct shape_hits *out)
 {
     if (!s->drawn)
         return 0;

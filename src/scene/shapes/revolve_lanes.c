@@ -42,9 +42,9 @@ static void sides8(const struct turn8 *l, const struct revolve_segment *s,
     *inside = m8_bits(r8_lt(most, r8_neg(noise)));
 }
 
-unsigned LANES_PASTE(revolve_closest8_,
-                     ISA)(const struct revolve *s, const struct shape_rays *rays,
-                          unsigned lanes, bool any, struct shape_hits *out, unsigned *odd)
+unsigned OF_ISA(revolve_closest8_)(const struct revolve *s, const struct shape_rays *rays,
+                                   unsigned lanes, bool any, struct shape_hits *out,
+                                   unsigned *odd)
 {
     const struct vec8 o = v8_load(rays->o), d = v8_load(rays->d);
     struct turn8 l = {.dy = d.y};

@@ -71,9 +71,8 @@ static void look(const struct sweep *s, const struct lines8 *l, struct vec8 o,
     }
 }
 
-unsigned LANES_PASTE(sweep_closest8_, ISA)(const struct sweep *s,
-                                           const struct shape_rays *rays, unsigned lanes,
-                                           struct shape_hits *out, unsigned *odd)
+unsigned OF_ISA(sweep_closest8_)(const struct sweep *s, const struct shape_rays *rays,
+                                 unsigned lanes, struct shape_hits *out, unsigned *odd)
 {
     const struct vec8 o = v8_load(rays->o), d = v8_load(rays->d);
     struct lines8 l = {.length = r8_sqrt(v8_dot(d, d)),

@@ -124,9 +124,9 @@ static unsigned closest(const struct superellipsoid *s, const struct shape_rays 
     return met | put(&l, rays, within, last, slope, true, out);
 }
 
-unsigned LANES_PASTE(superellipsoid_closest8_,
-                     ISA)(const struct superellipsoid *s, const struct shape_rays *rays,
-                          unsigned lanes, bool any, struct shape_hits *out)
+unsigned OF_ISA(superellipsoid_closest8_)(const struct superellipsoid *s,
+                                          const struct shape_rays *rays, unsigned lanes,
+                                          bool any, struct shape_hits *out)
 {
     (void)any;
     return closest(s, rays, lanes, out);

@@ -15,7 +15,7 @@ once()
 {
   local name=$1 seconds kib
   shift
-  timeout 600 /usr/bin/time -o time -f '%U %S %M' "$@" >/dev/null 2>&1 || { echo "- -" >"$name"; return; }
+  timeout 600 /usr/bin/time -o time -f '%U %S %M' "$@" </dev/null >/dev/null 2>&1 || { echo "- -" >"$name"; return; }
   read -r user system kib <time
   seconds=$(echo "$user + $system" | bc)
   if [ ! -e "$name" ] || [ "$(echo "$seconds < $(cut -d ' ' -f 1 "$name")" | bc)" = 1 ]; then
