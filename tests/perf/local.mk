@@ -53,7 +53,7 @@ perf_shapes = \
 	%D%/shapes/torus.scn \
 	%D%/shapes/triangle.scn
 perf_core = %D%/core/csg.scn %D%/core/flake.scn %D%/core/one.scn %D%/core/sponge.scn
-EXTRA_DIST += $(perf_scenes) $(perf_shapes) $(perf_core) %D%/core.sh %D%/run.sh %D%/shapes.sh \
+EXTRA_DIST += $(perf_scenes) $(perf_shapes) $(perf_core) %D%/core.sh %D%/examples.sh %D%/run.sh %D%/shapes.sh \
 	%D%/parse/generate.sh %D%/parse/run.sh
 perf: lambert
 	LAMBERT=./lambert bash $(top_srcdir)/tests/perf/run.sh
