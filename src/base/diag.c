@@ -1,5 +1,6 @@
 #include "base/diag.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -221,43 +222,52 @@ void diag_print(FILE *out, const struct source_map *m, const struct diag *d,
     print_stack(out, m, d->where);
 }
 
-// Levenshtein distance, two rows; words longer than WORD_MAX are not compared.
+// Optimal string alignment: letters put in, left out, replaced, or two beside each other
+// swapped; upper and lower case are one. Words longer than WORD_MAX are not compared.
 enum { WORD_MAX = 40 };
+
+static bool same_letter(char a, char b)
+{
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+static unsigned least_of(unsigned a, unsigned b) { return a < b ? a : b; }
 
 static unsigned edit_distance(const char *a, size_t na, const char *b, size_t nb)
 {
-    unsigned row[WORD_MAX + 1];
+    unsigned table[3][WORD_MAX + 1]; // the last three rows
     for (size_t j = 0; j <= nb; j++)
-        row[j] = (unsigned)j;
+        table[0][j] = (unsigned)j;
     for (size_t i = 1; i <= na; i++) {
-        unsigned diagonal = row[0];
+        unsigned *row = table[i % 3];
+        const unsigned *above = table[(i - 1) % 3], *second = table[(i + 1) % 3];
         row[0] = (unsigned)i;
         for (size_t j = 1; j <= nb; j++) {
-            unsigned substituted = diagonal + (a[i - 1] != b[j - 1]);
-            unsigned removed = row[j] + 1, inserted = row[j - 1] + 1;
-            diagonal = row[j];
-            row[j] = substituted < removed ? substituted : removed;
-            if (inserted < row[j])
-                row[j] = inserted;
+            row[j] = above[j - 1] + !same_letter(a[i - 1], b[j - 1]);
+            row[j] = least_of(row[j], least_of(above[j], row[j - 1]) + 1);
+            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) &&
+                same_letter(a[i - 2], b[j - 1]))
+                row[j] = least_of(row[j], second[j - 2] + 1);
         }
     }
-    return row[nb];
+    return table[na % 3][nb];
 }
 
 const char *diag_closest(const char *word, size_t len, const char *const *list,
                          size_t count)
 {
     const char *best = NULL;
-    unsigned least = len < 4 ? 2 : len < 8 ? 3 : 4; // must be below this
+    unsigned below = len < 6 ? 2 : len < 9 ? 3 : 4; // slips: one, two, three
     if (len < 2 || len > WORD_MAX)
         return NULL;
     for (size_t i = 0; i < count; i++) {
         size_t n = strlen(list[i]);
-        if (n > WORD_MAX || (n > len ? n - len : len - n) >= least)
+        if (n > WORD_MAX || (n > len ? n - len : len - n) >= below ||
+            (n == len && memcmp(word, list[i], n) == 0))
             continue;
         unsigned d = edit_distance(word, len, list[i], n);
-        if (d && d < least) {
-            least = d;
+        if (d < below) {
+            below = d;
             best = list[i];
         }
     }

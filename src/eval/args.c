@@ -4,14 +4,19 @@
 
 #include "eval/expr.h"
 #include "eval/function.h"
+#include "eval/include_hint.h"
 #include "lang/bulk.h"
 
 // The readers that shapes use (scene/args.h). Numbers and vectors written out are
 // taken straight from the AST: a mesh has millions of them.
 
-static bool expected(struct args *a, const char *role, const char *type)
+bool args_expected(struct args *a, const char *role, const char *type)
 {
-    diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, role, type);
+    const struct ast *n = a->at;
+    const char *hint = n && n->kind == AST_UNDECLARED
+                           ? undeclared_hint(a->b->e, n->text, n->len, false)
+                           : NULL;
+    diag_hint(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), hint, a->name, role, type);
     args_fail(a);
     return false;
 }
@@ -26,7 +31,7 @@ static const struct ast *number_item(struct args *a, const char *role, const cha
         args_fail(a);
         return NULL;
     }
-    expected(a, role, type);
+    args_expected(a, role, type);
     return NULL;
 }
 
@@ -124,7 +129,7 @@ bool args_string(struct args *a, const char *role, const char **out)
         n && (n->kind == AST_STRING || n->kind == AST_CALL ||
               (n->kind == AST_VALUE && n->value && n->value->kind == VALUE_STRING));
     if (!text)
-        return expected(a, role, "string");
+        return args_expected(a, role, "string");
     args_next(a);
     if (!checked(a, eval_string(a->b->e, n, out)))
         return false;
@@ -138,7 +143,7 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
     size_t count = 0;
     bool three = v && v->kind == AST_VECTOR3;
     if (!v || (v->kind != AST_VECTOR && !three))
-        return expected(a, role, "list of numbers in < >");
+        return args_expected(a, role, "list of numbers in < >");
     if (three)
         count = 3;
     for (const struct ast *c = v->list; c; c = c->next)
@@ -146,7 +151,7 @@ bool args_floats(struct args *a, const char *role, double *out, size_t n)
     if (count != n) {
         char want[48];
         snprintf(want, sizeof want, "%zu numbers in < >, not %zu", n, count);
-        return expected(a, role, want);
+        return args_expected(a, role, want);
     }
     args_next(a);
     if (three)
@@ -225,7 +230,7 @@ bool args_at_texture(struct args *a)
 const struct tape *args_function(struct args *a, const char *role)
 {
     if (args_at_block(a) != WORD_function) {
-        expected(a, role, "function { } block");
+        args_expected(a, role, "function { } block");
         return NULL;
     }
     const struct tape *t = function_expression(a->b->e, args_next(a));

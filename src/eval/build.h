@@ -72,6 +72,8 @@ const struct value *args_at_value(const struct args *a, enum value_kind kind);
 const struct value *args_take_value(struct args *a, enum value_kind kind);
 // Reports and passes over an item that has no place here, and what belongs to it.
 void args_unknown(struct args *a, const enum word *known, size_t count);
+// Says that something else was expected, with a hint for a name that is not declared; false.
+bool args_expected(struct args *a, const char *role, const char *type);
 void args_skip(struct args *a);      // to the next word or block
 void args_not_built(struct args *a); // the next item: one error, passed over
 void args_not_rendered(struct args *a, enum word w, struct span where);

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "eval/include_hint.h"
+
 // The cursor over a block's items and the tables of simple items.
 
 struct args args_list(struct builder *b, const struct ast *items, const struct ast *owner,
@@ -128,6 +130,10 @@ void args_unknown(struct args *a, const enum word *known, size_t count)
     const char *name = item_name(a, n), *hint = NULL;
     if (n->kind == AST_UNDECLARED) {
         const char *close = closest_word(name, strlen(name), known, count);
+        if (!close)
+            hint = undeclared_hint(a->b->e, n->text, n->len, false);
+        if (!close && !hint)
+            close = diag_closest(name, strlen(name), word_list(), WORD_COUNT - 1);
         if (close)
             hint = arena_printf(a->b->e->parse, "did you mean '%s'?", close);
         diag_hint(args_diags(a), DIAG_UNKNOWN_NAME, n->where, hint, name, a->name);
@@ -162,10 +168,7 @@ bool args_at_color(struct args *a) { return a->at && ast_is_color_start(a->at); 
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out)
 {
     if (!a->at || !(ast_is_color_start(a->at) || ast_is_number(a->at))) {
-        diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, "colour",
-                "such as rgb <1, 0.5, 0>");
-        args_fail(a);
-        return false;
+        return args_expected(a, "colour", "such as rgb <1, 0.5, 0>");
     }
     const struct ast *before = a->at;
     bool ok = eval_color(a->b->e, &a->at, rgb_only, out);

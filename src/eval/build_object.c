@@ -25,9 +25,7 @@ static struct object *object_block(struct args *a)
     bool was;
     const struct object *inner = args_object(a, &was);
     if (!was) {
-        diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, "object",
-                "a declared object or a block");
-        args_fail(a);
+        args_expected(a, "object", "a declared object or a block");
         return NULL;
     }
     if (!inner)

@@ -46,9 +46,7 @@ static void named(struct args *a, struct transform *out)
     if (v) {
         *out = *(const struct transform *)v->data;
     } else {
-        diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, "transform",
-                "a declared transform or { }");
-        args_fail(a);
+        args_expected(a, "transform", "a declared transform or { }");
         args_skip(a);
     }
 }

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "eval/array.h"
+#include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
 
@@ -37,9 +38,7 @@ static bool not_numeric(struct eval *e, const struct ast *n)
     if (n->op == OP_FAILED)
         return false;
     if (n->kind == AST_UNDECLARED) {
-        const char *close = symbols_closest(e->symbols, n->text, n->len, false);
-        const char *hint =
-            close ? arena_printf(e->parse, "did you mean '%s'?", close) : NULL;
+        const char *hint = undeclared_hint(e, n->text, n->len, false);
         diag_hint(e->diags, DIAG_UNDECLARED, n->where, hint, (int)n->len, n->text);
     } else {
         diag_at(e->diags, DIAG_EXPECTED_NUMBER, n->where,

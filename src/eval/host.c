@@ -10,6 +10,7 @@
 #include "eval/builder.h"
 #include "eval/calc.h"
 #include "eval/expr.h"
+#include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
 
@@ -21,7 +22,8 @@ static enum name_class class_of(const struct value *v)
     case VALUE_NONE: return NAME_UNDECLARED;
     case VALUE_NUMBER: return NAME_VALUE;
     case VALUE_STRING: return NAME_STRING;
-    case VALUE_FUNCTION: case VALUE_SPLINE: return NAME_FUNCTION;
+    case VALUE_FUNCTION:
+    case VALUE_SPLINE: return NAME_FUNCTION;
     case VALUE_ARRAY: return NAME_ARRAY;
     case VALUE_MACRO: return NAME_MACRO;
     case VALUE_OBJECT: return NAME_OBJECT;
@@ -48,9 +50,9 @@ static const struct value *hold(void *user, const struct value *v)
     return value_hold(((struct eval *)user)->nodes, v);
 }
 
-static const char *closest(void *user, const char *name, size_t len, bool macros_only)
+static const char *undeclared(void *user, const char *name, size_t len, bool macro)
 {
-    return symbols_closest(((struct eval *)user)->symbols, name, len, macros_only);
+    return undeclared_hint(user, name, len, macro);
 }
 
 static bool number(void *user, const struct ast *expr, double *out)
@@ -538,7 +540,8 @@ static bool may_go_on(void *user, struct span where, uint64_t steps)
 bool eval_has_memory(struct eval *e, struct span where, size_t more)
 {
     const size_t most = e->options->memory_max;
-    if (!most || (more <= most && arena_size(e->arena) + arena_size(e->parse) <= most - more))
+    if (!most ||
+        (more <= most && arena_size(e->arena) + arena_size(e->parse) <= most - more))
         return true;
     diag_at(e->diags, DIAG_TOO_MUCH_MEMORY, where, most / 1048576.0);
     return false;
@@ -557,7 +560,9 @@ static bool open_include(void *user, const char *name, struct span where,
     *found = file_find(e, name, extensions);
     if (*found && file_read(e->sources->arena, *found, text, len))
         return true;
-    diag_hint(e->diags, DIAG_INCLUDE_NOT_FOUND, where, file_hint(e), name);
+    const char *hint = file_hint(e);
+    diag_hint(e->diags, DIAG_INCLUDE_NOT_FOUND, where,
+              hint ? hint : include_hint(e, name), name);
     return false;
 }
 
@@ -567,7 +572,7 @@ struct stream_host eval_host(struct eval *e)
         .user = e,
         .lookup = lookup,
         .hold = hold,
-        .closest = closest,
+        .undeclared = undeclared,
         .deprecated = deprecated,
         .number = number,
         .string = string,

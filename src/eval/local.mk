@@ -12,7 +12,7 @@ liblambert_a_SOURCES += \
 	%D%/expr.c %D%/expr.h %D%/file_data.c %D%/file_data.h %D%/file_io.c %D%/file_io.h \
 	%D%/files.c %D%/formula.c %D%/formula.h %D%/function.c %D%/function.h \
 	%D%/functions.c %D%/functions.def \
-	%D%/functions.h %D%/host.c %D%/internal.c %D%/internal.def \
+	%D%/functions.h %D%/host.c %D%/include_hint.c %D%/include_hint.h %D%/internal.c %D%/internal.def \
 	%D%/internal.h %D%/internal_noise.c %D%/random.c %D%/spline.c %D%/spline.h \
 	%D%/strings.c %D%/symbol.c %D%/symbol.h %D%/text.c %D%/text.h %D%/value.c \
 	%D%/value.h

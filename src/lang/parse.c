@@ -389,16 +389,15 @@ static bool reported_before(struct stream *s, const struct token *t)
 // Before '(' it was to be a macro, before '{' a word of the language.
 static void report_unknown_word(struct stream *s, const struct token *t, bool call)
 {
-    const char *near = NULL;
     if (call && reported_before(s, t))
         return;
-    if (call && s->host.closest)
-        near = s->host.closest(s->host.user, t->text, t->len, true);
-    if (!near)
+    const char *hint = NULL, *near = NULL;
+    if (!call)
         near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
-    if (!near && s->host.closest)
-        near = s->host.closest(s->host.user, t->text, t->len, false);
-    const char *hint = near ? arena_printf(s->nodes, "did you mean '%s'?", near) : NULL;
+    if (near)
+        hint = arena_printf(s->nodes, "did you mean '%s'?", near);
+    if (!near && s->host.undeclared)
+        hint = s->host.undeclared(s->host.user, t->text, t->len, call);
     diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
 }
 

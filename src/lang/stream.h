@@ -92,8 +92,8 @@ struct stream_host {
     struct name_info (*lookup)(void *user, const char *name, size_t len);
     // The value of a lookup to keep for as long as nodes are; may be NULL: they are kept.
     const struct value *(*hold)(void *user, const struct value *value);
-    // The declared name, or macro, closest to one that is not; NULL: none, as without it.
-    const char *(*closest)(void *user, const char *name, size_t len, bool macros_only);
+    // What to say of a name, or macro, that is not declared; NULL: nothing, as without it.
+    const char *(*undeclared)(void *user, const char *name, size_t len, bool macro);
     void (*deprecated)(void *user, const char *name, size_t len, struct span where);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
