@@ -17,6 +17,10 @@ struct bvh8_node {
 
 enum { BVH8_EMPTY = -1, BVH8_LEAF_MAX = 8, BVH8_STACK = 320 };
 
+// Items that a leaf need not be split for: where a test of one costs little more than that
+// of its box, and where it costs much more.
+enum { BVH8_CHEAP_ITEMS = 4, BVH8_DEAR_ITEMS = 1 };
+
 // The error of a test of boxes as a relative error of a t.
 #define BVH8_SLACK (1 + 0x1p-20f)
 
@@ -31,13 +35,14 @@ struct bvh8 {
 
 // index[i] is what stands for box[i]. The same input gives the same tree.
 struct bvh8 bvh8_build(struct arena *a, const struct aabb *box, const uint32_t *index,
-                       uint32_t count);
+                       uint32_t count, uint32_t leaf_items);
 
 // The same of boxes that are worked out when asked for: box(user, i) of index[i]; `bounds`
 // holds them all.
 typedef struct aabb bvh8_box(const void *user, uint32_t i);
 struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
-                          struct aabb bounds, const uint32_t *index, uint32_t count);
+                          struct aabb bounds, const uint32_t *index, uint32_t count,
+                          uint32_t leaf_items);
 
 static inline int32_t bvh8_leaf(uint32_t first, uint32_t count)
 {

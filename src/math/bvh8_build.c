@@ -17,7 +17,6 @@ enum {
     BINS = 16,
     BINS_OF_FEW = 8,  // of ranges of up to
     FEW = 32,         // items
-    LEAF_ITEMS = 4,   // a leaf may be split below this only if that pays
     DEPTH_BINNED = 24 // below, halve by count: the depth stays within BVH8_STACK
 };
 
@@ -45,6 +44,7 @@ struct builder {
     uint32_t *order;  // which item it is
     struct bvh8_node *node;
     uint32_t node_count, node_capacity;
+    uint32_t leaf_items; // a leaf of no more is split only if that pays
     struct vec3 origin;
     double pad;
 };
@@ -255,11 +255,11 @@ static bool split(struct builder *b, struct range *r, uint32_t depth, struct ran
     const bool cut = depth < DEPTH_BINNED && find_cut(b, r, &c);
     if (cut) {
         // A test of a box costs about as much as half a test of an object.
-        if (r->count <= LEAF_ITEMS &&
+        if (r->count <= b->leaf_items &&
             c.cost + 0.5f * r->area >= r->area * (float)r->count)
             return false;
         left = partition(b, r, &c);
-    } else if (r->count <= LEAF_ITEMS) {
+    } else if (r->count <= b->leaf_items) {
         return false;
     }
     *rest = (struct range){.first = r->first + left, .count = r->count - left};
@@ -317,8 +317,9 @@ static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
             b->node[id].box[axis][i] = r[i].box.lo[axis];
             b->node[id].box[3 + axis][i] = -r[i].box.hi[axis];
         }
-        int32_t child = r[i].count <= LEAF_ITEMS ? bvh8_leaf(r[i].first, r[i].count)
-                                                 : (int32_t)make_node(b, r[i], depth + 1);
+        int32_t child = r[i].count <= b->leaf_items
+                            ? bvh8_leaf(r[i].first, r[i].count)
+                            : (int32_t)make_node(b, r[i], depth + 1);
         b->node[id].child[i] = child;
     }
     return id;
@@ -348,12 +349,13 @@ static struct vec3 middle(struct aabb b)
 }
 
 struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
-                          struct aabb bounds, const uint32_t *index, uint32_t count)
+                          struct aabb bounds, const uint32_t *index, uint32_t count,
+                          uint32_t leaf_items)
 {
     struct bvh8 t = {.bounds = aabb_empty(), .item_count = count};
     if (!count)
         return t;
-    struct builder b = {.origin = middle(bounds)};
+    struct builder b = {.origin = middle(bounds), .leaf_items = leaf_items};
     b.item = aligned_alloc(16, count * sizeof *b.item);
     b.order = malloc(count * sizeof *b.order);
     if (!b.item || !b.order)
@@ -388,10 +390,10 @@ static struct aabb box_at(const void *user, uint32_t i)
 }
 
 struct bvh8 bvh8_build(struct arena *a, const struct aabb *box, const uint32_t *index,
-                       uint32_t count)
+                       uint32_t count, uint32_t leaf_items)
 {
     struct aabb bounds = aabb_empty();
     for (uint32_t i = 0; i < count; i++)
         bounds = aabb_join(bounds, box[i]);
-    return bvh8_build_of(a, box_at, box, bounds, index, count);
+    return bvh8_build_of(a, box_at, box, bounds, index, count, leaf_items);
 }

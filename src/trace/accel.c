@@ -36,7 +36,7 @@ static void build_leaf_tree(struct arena *a, const struct world *w,
             large->unbounded[large->unbounded_count++] = i;
         }
     }
-    large->leaves = bvh8_build(a, box, leaf, n);
+    large->leaves = bvh8_build(a, box, leaf, n, BVH8_CHEAP_ITEMS);
     free(box);
     free(leaf);
 }
@@ -308,7 +308,7 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
     uint32_t *object = malloc((w->object_count + 1) * sizeof *object);
     if (!box || !object)
         abort();
-    uint32_t n = 0, infinite = 0;
+    uint32_t n = 0, infinite = 0, balls = 0;
     for (uint32_t i = 0; i < w->object_count; i++)
         infinite += !aabb_is_finite(w->object[i].bounds);
     accel->infinite = arena_new_array(a, uint32_t, infinite + 1);
@@ -319,11 +319,13 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
         if (aabb_is_finite(o->bounds)) {
             box[n] = aabb_pad(o->bounds);
             object[n++] = i;
+            balls += lone_sphere(w, i) != NULL;
         } else {
             accel->infinite[accel->infinite_count++] = i;
         }
     }
-    accel->top = bvh8_build(a, box, object, n);
+    accel->top =
+        bvh8_build(a, box, object, n, 2 * balls > n ? BVH8_CHEAP_ITEMS : BVH8_DEAR_ITEMS);
     free(box);
     free(object);
 }

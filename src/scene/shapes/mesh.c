@@ -46,7 +46,8 @@ void mesh_finish(struct mesh *m, struct arena *a)
         m->bounds = aabb_join(m->bounds, face_box(p));
         face[count++] = f;
     }
-    m->tree = bvh8_build_of(a, box_of, &(struct faces){m, face}, m->bounds, face, count);
+    m->tree = bvh8_build_of(a, box_of, &(struct faces){m, face}, m->bounds, face, count,
+                            BVH8_CHEAP_ITEMS);
     free(face);
 }
 

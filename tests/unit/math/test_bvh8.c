@@ -81,17 +81,18 @@ static void check_ray(const struct bvh8 *t, const struct aabb *box, uint32_t cou
     assert_true(met[aim - box]);
 }
 
-static void one_tree(struct arena *a, enum kind kind, uint32_t count, uint64_t *random)
+static void one_tree(struct arena *a, enum kind kind, uint32_t count, uint32_t leaf,
+                     uint64_t *random)
 {
-    struct aabb *box = malloc(count * sizeof *box);
-    uint32_t *index = malloc(count * sizeof *index);
+    struct aabb *box = calloc(count, sizeof *box);
+    uint32_t *index = calloc(count, sizeof *index);
     unsigned char *met = calloc(count, 1);
     for (uint32_t i = 0; i < count; i++) {
         box[i] = random_box(kind, i, random);
         index[i] = i + 7;
     }
-    const struct bvh8 t = bvh8_build(a, box, index, count),
-                      again = bvh8_build(a, box, index, count);
+    const struct bvh8 t = bvh8_build(a, box, index, count, leaf),
+                      again = bvh8_build(a, box, index, count, leaf);
     assert_int_equal(t.item_count, count);
     for (uint32_t i = 0; i < count; i++) {
         assert_in_range(t.item[i], 7, count + 6);
@@ -117,9 +118,11 @@ static void trees(void **state)
     uint64_t random = 3;
     struct arena *a = arena_new(1 << 16);
     for (int kind = 0; kind < KINDS; kind++)
-        for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
-            one_tree(a, (enum kind)kind, counts[i], &random);
-    assert_null(bvh8_build(a, NULL, NULL, 0).node);
+        for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+            one_tree(a, (enum kind)kind, counts[i], BVH8_CHEAP_ITEMS, &random);
+            one_tree(a, (enum kind)kind, counts[i], BVH8_DEAR_ITEMS, &random);
+        }
+    assert_null(bvh8_build(a, NULL, NULL, 0, BVH8_CHEAP_ITEMS).node);
     arena_free(a);
 }
 
