@@ -87,8 +87,7 @@ static bool double_entry(struct args *a)
     double v[5];
     int width = 1;
     const struct ast *n = a->at;
-    if (!n || !ast_is_number(n) || n->kind == AST_VECTOR ||
-        n->kind == AST_VECTOR3)
+    if (!n || !ast_is_number(n) || n->kind == AST_VECTOR || n->kind == AST_VECTOR3)
         return false;
     if (n->kind == AST_NUMBER)
         return true;
@@ -167,72 +166,65 @@ static bool read_entries(struct args *in, enum body_kind kind, bool average,
     return count_ok(in, e->count);
 }
 
-static struct pigment_map *finish_map(struct args *a, const struct entries *e)
+// The entries of a map of any of the three kinds. False: *id is what there is instead, a
+// declared map or NULL.
+static bool read_map(struct args *a, const struct ast *block, enum value_kind declared,
+                     enum body_kind kind, bool average, struct entries *e,
+                     const void **id)
 {
-    struct arena *arena = a->b->arena;
-    struct pigment_map *m = arena_new_struct(arena, struct pigment_map);
-    const struct pigment **item =
-        arena_new_array(arena, const struct pigment *, e->count);
-    for (uint32_t i = 0; i < e->count; i++)
-        item[i] = e->item[i];
-    m->count = e->count;
-    m->key = copy(arena, e->key, e->count * sizeof *e->key);
-    m->entry = item;
-    return m;
+    struct args in = args_of(a->b, block, a);
+    *id = map_identifier(&in, declared);
+    bool ok = !*id && read_entries(&in, kind, average, e);
+    if (in.failed)
+        *id = NULL;
+    return ok;
+}
+
+static const float *keys_of(struct args *a, const struct entries *e)
+{
+    return copy(a->b->arena, e->key, e->count * sizeof *e->key);
+}
+
+// Pointers to what a map's entries are, whichever kind it is of.
+static const void *items_of(struct args *a, const struct entries *e)
+{
+    return copy(a->b->arena, e->item, e->count * sizeof *e->item);
 }
 
 const struct pigment_map *build_pigment_map(struct args *a, const struct ast *block,
                                             bool average, bool density)
 {
-    struct args in = args_of(a->b, block, a);
     struct entries e;
-    const void *id = map_identifier(&in, density ? VALUE_DENSITY_MAP : VALUE_PIGMENT_MAP);
-    if (id)
-        return in.failed ? NULL : id;
-    if (!read_entries(&in, density ? BODY_DENSITY : BODY_PIGMENT, average, &e))
-        return NULL;
-    return finish_map(a, &e);
+    const void *id;
+    if (!read_map(a, block, density ? VALUE_DENSITY_MAP : VALUE_PIGMENT_MAP,
+                  density ? BODY_DENSITY : BODY_PIGMENT, average, &e, &id))
+        return id;
+    struct pigment_map *m = arena_new_struct(a->b->arena, struct pigment_map);
+    *m = (struct pigment_map){e.count, keys_of(a, &e), items_of(a, &e)};
+    return m;
 }
 
 const struct normal_map *build_normal_map(struct args *a, const struct ast *block,
                                           bool average)
 {
-    struct args in = args_of(a->b, block, a);
     struct entries e;
-    const void *id = map_identifier(&in, VALUE_NORMAL_MAP);
-    if (id)
-        return in.failed ? NULL : id;
-    if (!read_entries(&in, BODY_NORMAL, average, &e))
-        return NULL;
+    const void *id;
+    if (!read_map(a, block, VALUE_NORMAL_MAP, BODY_NORMAL, average, &e, &id))
+        return id;
     struct normal_map *m = arena_new_struct(a->b->arena, struct normal_map);
-    const struct normal **item =
-        arena_new_array(a->b->arena, const struct normal *, e.count);
-    for (uint32_t i = 0; i < e.count; i++)
-        item[i] = e.item[i];
-    m->count = e.count;
-    m->key = copy(a->b->arena, e.key, e.count * sizeof *e.key);
-    m->entry = item;
+    *m = (struct normal_map){e.count, keys_of(a, &e), items_of(a, &e)};
     return m;
 }
 
 const struct texture_map *build_texture_map(struct args *a, const struct ast *block,
                                             bool average)
 {
-    struct args in = args_of(a->b, block, a);
     struct entries e;
-    const void *id = map_identifier(&in, VALUE_TEXTURE_MAP);
-    if (id)
-        return in.failed ? NULL : id;
-    if (!read_entries(&in, BODY_TEXTURE, average, &e))
-        return NULL;
+    const void *id;
+    if (!read_map(a, block, VALUE_TEXTURE_MAP, BODY_TEXTURE, average, &e, &id))
+        return id;
     struct texture_map *m = arena_new_struct(a->b->arena, struct texture_map);
-    const struct texture **item =
-        arena_new_array(a->b->arena, const struct texture *, e.count);
-    for (uint32_t i = 0; i < e.count; i++)
-        item[i] = e.item[i];
-    m->count = e.count;
-    m->key = copy(a->b->arena, e.key, e.count * sizeof *e.key);
-    m->entry = item;
+    *m = (struct texture_map){e.count, keys_of(a, &e), items_of(a, &e)};
     return m;
 }
 

@@ -1,33 +1,16 @@
 // PNG files through libpng. No time stamp: equal pictures give equal bytes.
-#include "image/codec.h"
-
-#include <png.h>
-#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/png_error.h"
+
 static const int usual_level = 3;
-
-// libpng reports through longjmp; what must survive it lives here.
-struct png_job {
-    struct codec_error error;
-    struct byte_buffer *out;
-};
-
-static void on_error(png_structp png, png_const_charp text)
-{
-    struct png_job *job = png_get_error_ptr(png);
-    codec_fail(job->error, "%s", text);
-    longjmp(png_jmpbuf(png), 1);
-}
-
-static void on_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
 static void on_write(png_structp png, png_bytep data, size_t n)
 {
-    struct png_job *job = png_get_io_ptr(png);
-    byte_buffer_append(job->out, data, n);
-    if (job->out->failed)
+    struct byte_buffer *out = png_get_io_ptr(png);
+    byte_buffer_append(out, data, n);
+    if (out->failed)
         png_error(png, "out of memory");
 }
 
@@ -87,16 +70,15 @@ static void write_header(png_structp png, png_infop info, const struct image *im
 bool png_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e)
 {
-    struct png_job job = {.error = e, .out = out};
     struct sample_rows rows;
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &e, png_error_jump,
+                                              png_no_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     volatile bool ok = false;
     if (!sample_rows_begin(&rows, im, o) || !info) {
         codec_fail(e, "out of memory");
     } else if (!setjmp(png_jmpbuf(png))) {
-        png_set_write_fn(png, &job, on_write, on_flush);
+        png_set_write_fn(png, out, on_write, on_flush);
         write_header(png, info, im, o);
         for (int y = 0; y < im->height; y++)
             png_write_row(png,

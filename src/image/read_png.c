@@ -1,10 +1,8 @@
 // PNG files through libpng: samples and palette indices as stored.
-#include <png.h>
-#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/codec.h"
+#include "image/png_error.h"
 
 // libpng reports through longjmp; what must survive it lives here.
 struct job {
@@ -13,15 +11,6 @@ struct job {
     struct texels *t;
     png_bytepp rows;
 };
-
-static void on_error(png_structp png, png_const_charp text)
-{
-    struct job *job = png_get_error_ptr(png);
-    codec_fail(job->error, "%s", text);
-    longjmp(png_jmpbuf(png), 1);
-}
-
-static void on_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
 static void on_read(png_structp png, png_bytep data, size_t n)
 {
@@ -106,8 +95,8 @@ static bool read_rows(png_structp png, png_infop info, struct job *job)
 bool png_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
 {
     struct job job = {.error = e, .in = {data, data + size, false}, .t = t};
-    png_structp png =
-        png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job.error,
+                                             png_error_jump, png_no_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     volatile bool ok = false;
     if (!info) {

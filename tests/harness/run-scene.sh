@@ -6,6 +6,7 @@
 #   // expect error: Ennnn   an error that is reported on this line, and the same
 #   // expect warning: Ennnn with warnings; no other error may appear
 scene=$1
+harness=$(cd "$(dirname "$0")" && pwd)
 lambert=$(cd "${top_builddir:-.}" && pwd)/lambert
 folder=$(cd "$(dirname "$scene")" && pwd)
 name=$(basename "$scene")
@@ -14,20 +15,8 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 unset POVINI POVINC LAMBERT_PATH
-n=0 failed=0
 
-# compare NAME: file wanted against file got
-compare()
-{
-  n=$((n + 1))
-  if diff wanted got >difference; then
-    echo "ok $n - $1"
-  else
-    echo "not ok $n - $1"
-    sed 's/^/# /' difference
-    failed=1
-  fi
-}
+. "$harness/same.sh"
 
 read_scene()
 {
@@ -39,7 +28,7 @@ read_scene --diagnostics=json
 code=$?
 grep -v -e '^{"v":' -e '^lambert: ' err >got
 sed -n 's|^// debug: \{0,1\}||p' "$scene" >wanted
-compare 'debug stream'
+same 'debug stream'
 
 sed -n 's/.*"sev":"\([a-z]*\)","code":"\(E[0-9]*\)","file":"[^"]*'"$name"'","line":\([0-9]*\).*/\3 \1 \2/p' \
   err >found
@@ -48,7 +37,7 @@ if grep -q '// expect warning:' "$scene"; then cat found; else grep ' error ' fo
 awk '!/^\/\/ message:/ && match($0, /\/\/ expect (error|warning): E[0-9]+/) {
        n = split(substr($0, RSTART, RLENGTH), w, " "); sub(":", "", w[3]); print NR, w[3], w[4]
      }' "$scene" | sort -u >wanted
-compare 'errors and their lines'
+same 'errors and their lines'
 
 n=$((n + 1))
 if grep -q '// expect error:' "$scene"; then code_wanted=1; else code_wanted=0; fi
@@ -63,13 +52,12 @@ fi
 if grep -q '^// expect:' "$scene"; then
   sed -n 's|^// expect: \{0,1\}||p' "$scene" >wanted
   cp out got
-  compare 'objects'
+  same 'objects'
 fi
 if grep -q '^// message:' "$scene"; then
   sed -n 's|^// message: \{0,1\}||p' "$scene" >wanted
   read_scene --diagnostics=text --color=never
   sed -e "s|$folder/||g" -e '/^lambert: /d' err >got
-  compare 'messages'
+  same 'messages'
 fi
-echo "1..$n"
-exit $failed
+same_end

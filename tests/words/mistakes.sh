@@ -3,6 +3,7 @@
 # of each scene, with caret and hint, is in mistakes.out. `mistakes.sh --update` writes that,
 # `mistakes.sh --povray` compares with an installed POV-Ray instead.
 folder=$(cd "$(dirname "$0")" && pwd)
+harness=$folder/../harness
 lambert=${lambert:-$(cd "${top_builddir:-.}" && pwd)/lambert}
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -43,7 +44,7 @@ if [ "$1" = --povray ]; then
 fi
 
 paste rows scenes | while IFS=$tab read -r _ _ _ _ scene; do
-  "$lambert" check --color=never "$scene" >out 2>&1
+  "$lambert" check "+L$folder/../../scenes/include" --color=never "$scene" >out 2>&1
   verdict $? >>verdicts
   sed -n 3p "$scene" | sed 's/^/==== /'
   sed "s/^$scene://" out
@@ -53,28 +54,14 @@ if [ "$1" = --update ]; then
   exit
 fi
 
-failed=0
-# check NAME: says that files `wanted` and `got` are the same
-check()
-{
-  n=$((n + 1))
-  if diff wanted got >difference; then
-    echo "ok $n - $1"
-  else
-    echo "not ok $n - $1"
-    sed 's/^/# /' difference
-    failed=1
-  fi
-}
-n=0
+. "$harness/same.sh"
 seq 1 73 | grep -v -x -e 16 -e 19 -e 73 >wanted
 cut -f 1 rows | sort -nu >got
-check "every mistake of the list has a scene"
+same "every mistake of the list has a scene"
 paste scenes rows | cut -f 1,4 >wanted
 paste scenes verdicts >got
-check "each is an error, a warning or nothing as the rows say"
+same "each is an error, a warning or nothing as the rows say"
 cp "$folder/mistakes.out" wanted
 cp shown got
-check "the messages show the place and help"
-echo "1..$n"
-exit $failed
+same "the messages show the place and help"
+same_end

@@ -2,6 +2,7 @@
 # Walks words.tsv: every reserved word has a row, its scene is read or refused as the row says,
 # and the word can be no name. `words.sh --povray` compares with an installed POV-Ray instead.
 folder=$(cd "$(dirname "$0")" && pwd)
+harness=$folder/../harness
 lambert=${lambert:-$(cd "${top_builddir:-.}" && pwd)/lambert}
 data=$folder/../data
 work=$(mktemp -d) || exit 1
@@ -31,34 +32,21 @@ if [ "$1" = --povray ]; then
   exit
 fi
 
-failed=0
-# check NAME: says that files `wanted` and `got` are the same
-check()
-{
-  n=$((n + 1))
-  if diff wanted got >difference; then
-    echo "ok $n - $1"
-  else
-    echo "not ok $n - $1"
-    sed 's/^/# /' difference
-    failed=1
-  fi
-}
+. "$harness/same.sh"
 
 sed -n 's/^WORD(\([a-z_0-9]*\),.*/\1/p' "$folder/../../src/lang/keywords.def" | sort >wanted
 cut -f 1 rows | sort >got
-check "every reserved word has a row"
+same "every reserved word has a row"
 
 cut -f 1 rows | sed 's/$/.pov/' | xargs "$lambert" check --diagnostics=gcc >out 2>&1
 sed -n 's/^\([a-z_0-9]*\)\.pov:[0-9:]* error: .*/\1/p' out | sort -u >got
 awk -F '\t' '$3 == "no" { print $1 }' rows | sort >wanted
-check "read or refused as the rows say"
+same "read or refused as the rows say"
 
 { echo '#version 3.7;'; sed 's/^\([^\t]*\).*/#declare \1 = 1;/' rows; } >names.scn
 "$lambert" check --max-errors=0 --diagnostics=gcc names.scn >out 2>&1
 sed -n 's/^names\.scn:\([0-9]*\):.* error: .*\[E[0-9]*\]$/\1/p' out | sort -nu >got
 awk 'END { for (i = 2; i <= NR + 1; i++) print i }' rows >wanted
-check "no reserved word can be declared"
+same "no reserved word can be declared"
 
-echo "1..$n"
-exit $failed
+same_end
