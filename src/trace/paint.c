@@ -17,53 +17,56 @@ void paint_init(struct tracer *t)
     const uint32_t count = t->job->paint_count;
     if (!count)
         return;
-    t->paint_head = malloc(count * sizeof *t->paint_head);
-    t->paint_seen = malloc(BATCH_SIZE * sizeof *t->paint_seen);
-    t->paint_link = malloc(BATCH_SIZE * sizeof *t->paint_link);
-    if (!t->paint_head || !t->paint_seen || !t->paint_link)
+    struct paint_scratch *s = t->paint =
+        aligned_alloc(64, (sizeof *t->paint + 63) & ~(size_t)63);
+    if (!s)
+        abort();
+    s->head = malloc(count * sizeof *s->head);
+    s->tail = malloc(count * sizeof *s->tail);
+    if (!s->head || !s->tail)
         abort();
     for (uint32_t i = 0; i < count; i++)
-        t->paint_head[i] = END;
+        s->head[i] = END;
+    s->seen_count = s->group_count = s->sheet_count = s->coat_count = 0;
 }
 
 void paint_end(struct tracer *t)
 {
-    free(t->paint_head);
-    free(t->paint_seen);
-    free(t->paint_link);
+    if (!t->paint)
+        return;
+    free(t->paint->head);
+    free(t->paint->tail);
+    free(t->paint);
 }
 
 bool paint_take(struct tracer *t, uint32_t k)
 {
     const struct job *job = t->job;
+    struct paint_scratch *s = t->paint;
     if (!job->paint)
         return false;
     const uint32_t surface = job->world->leaf[t->hit->leaf[k]].surface;
     const struct paint_surface *p = &job->paint[surface];
     if (!p->top)
         return false;
-    if (t->paint_head[p->number] == END)
-        t->paint_seen[t->paint_count++] = surface;
-    t->paint_link[k] = t->paint_head[p->number];
-    t->paint_head[p->number] = (uint16_t)k;
+    if (s->head[p->number] == END) {
+        s->seen[s->seen_count++] = surface;
+        s->head[p->number] = (uint16_t)k;
+    } else {
+        s->link[s->tail[p->number]] = (uint16_t)k;
+    }
+    s->tail[p->number] = (uint16_t)k;
+    s->link[k] = END;
     return true;
 }
 
-// Hits of one surface; lanes past `count` repeat the first.
+// Hits of one surface.
 struct brush {
     struct tracer *t;
     const struct surface *surface;
     const struct paint_surface *paint;
-    int count;
-    uint16_t ray[8];
-    struct path path[8];
-    struct hit hit[8];
-    struct interaction at[8];
-    struct painted layer[8][PAINT_LAYERS]; // of all parts
-    struct paint_part part[8][PAINT_PARTS];
-    uint32_t layer_count[8], part_count[8];
-    double p[3][8], d[3][8], n[3][8], uv[2][8]; // n: of the surface, towards the ray
-    double seen[3][8];                          // the normal of the layer before
+    struct paint_group *group;
+    double seen[3][8]; // the normal of the layer before
 };
 
 // Where a texture is looked up, as struct texture_point and struct texture_chain.
@@ -73,41 +76,6 @@ struct spot {
     const struct texture *map; // around it; NULL: the outermost
 };
 
-static void set_lane(double v[3][8], int i, struct vec3 x)
-{
-    v[0][i] = x.x, v[1][i] = x.y, v[2][i] = x.z;
-}
-
-static struct vec3 lane_of(double v[3][8], int i)
-{
-    return vec3(v[0][i], v[1][i], v[2][i]);
-}
-
-static const struct transform *brush_transform(const struct brush *b)
-{
-    // Textures of a uv mapped object are not moved with it.
-    return b->surface->flags & OBJECT_UV_MAPPING ? &transform_identity
-                                                 : &b->surface->texture_transform;
-}
-
-static void brush_lane(struct brush *b, struct spot *spot, int i)
-{
-    const struct interaction *at = &b->at[i];
-    const struct vec3 d = b->path[i].d;
-    const struct vec3 n = vec3_dot(at->ns, d) > 0 ? vec3_neg(at->ns) : at->ns;
-    const struct transform *m = brush_transform(b);
-    set_lane(b->p, i, at->p);
-    set_lane(b->d, i, d);
-    set_lane(b->n, i, n);
-    set_lane(b->seen, i, n);
-    b->uv[0][i] = at->uv.u;
-    b->uv[1][i] = at->uv.v;
-    set_lane(spot->place, i,
-             b->surface->flags & OBJECT_UV_MAPPING ? vec3(at->uv.u, at->uv.v, 0)
-                                                   : transform_inverse_point(m, at->p));
-    set_lane(spot->normal, i, transform_inverse_normal(m, n));
-}
-
 static const struct surface_kernels *kernels_of(const struct brush *b)
 {
     return b->t->job->kernels->surface;
@@ -115,8 +83,21 @@ static const struct surface_kernels *kernels_of(const struct brush *b)
 
 static struct pattern_packet packet_of(const struct brush *b)
 {
-    return (struct pattern_packet){(const double(*)[8])b->p, (const double(*)[8])b->seen,
-                                   (const double(*)[8])b->d, (const double(*)[8])b->uv};
+    const struct simple_group *h = &b->group->hits;
+    return (struct pattern_packet){
+        (const double(*)[8])h->p, (const double(*)[8])b->seen, (const double(*)[8])h->d,
+        b->surface->wants_uv ? (const double(*)[8])h->uv : NULL};
+}
+
+static void lanes_copy(double to[3][8], const double from[3][8], unsigned lanes)
+{
+    if (lanes == 255) {
+        memcpy(to, from, 3 * sizeof *to);
+        return;
+    }
+    for (; lanes; lanes &= lanes - 1)
+        for (int k = 0, i = __builtin_ctz(lanes); k < 3; k++)
+            to[k][i] = from[k][i];
 }
 
 static void layer_normals(struct brush *b, const struct spot *spot,
@@ -130,61 +111,81 @@ static void layer_normals(struct brush *b, const struct spot *spot,
     for (const struct spot *s = spot; s->map; s = s->outer)
         if (s->map->kind != TEXTURE_UV)
             k->normal_out(s->map->pattern, v);
-    for (; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        set_lane(b->seen, i,
-                 vec3_normalize(transform_normal(brush_transform(b), lane_of(v, i))));
+    b->t->job->kernels->world_normals(b->surface, v);
+    lanes_copy(b->seen, (const double(*)[8])v, live);
+}
+
+static void even_color(const struct rgbft *c, float out[5][8])
+{
+    for (int i = 0; i < 8; i++) {
+        out[0][i] = c->r, out[1][i] = c->g, out[2][i] = c->b;
+        out[3][i] = c->filter, out[4][i] = c->transmit;
     }
+}
+
+static void layer_colors(struct brush *b, const struct paint_texture *x,
+                         const struct spot *spot, uint32_t number, struct paint_sheet *s)
+{
+    const struct pigment_tape *tape = x->tape[number];
+    s->found = s->lanes;
+    if (!tape) {
+        even_color(&s->layer->pigment->color, s->color);
+        return;
+    }
+    const struct pattern_packet packet = packet_of(b);
+    memset(s->color, 0, sizeof s->color);
+    s->found = kernels_of(b)->colors(tape, &packet, (const double(*)[8])spot->place,
+                                     s->lanes, s->color);
+    if (tape->channels == 3) // as image_map_color where it does not reach
+        for (unsigned bare = s->lanes & ~s->found; bare; bare &= bare - 1)
+            s->color[4][__builtin_ctz(bare)] = 1;
 }
 
 // One layer in the lanes of `live`; returns those that let light through.
 static unsigned paint_layer(struct brush *b, const struct paint_texture *x,
                             const struct spot *spot, uint32_t number, unsigned live,
-                            struct painted *const to[8])
+                            struct paint_coat *coat)
 {
-    const struct texture_layer *l = &x->texture->layer[number];
-    const struct pigment_tape *tape = x->tape[number];
-    const struct pattern_packet packet = packet_of(b);
-    float color[5][8] = {{0}};
-    unsigned found = live, clear = 0;
-    if (l->normal && b->t->job->normals)
-        layer_normals(b, spot, l->normal, live);
+    const struct job *job = b->t->job;
+    struct paint_sheet *s = &b->t->paint->sheet[b->t->paint->sheet_count++];
+    float mirror[3][8];
+    s->layer = &x->texture->layer[number];
+    s->lanes = live;
+    if (s->layer->normal && job->normals)
+        layer_normals(b, spot, s->layer->normal, live);
     else
-        for (unsigned left = live; left; left &= left - 1)
-            set_lane(b->seen, __builtin_ctz(left), lane_of(b->n, __builtin_ctz(left)));
-    if (tape)
-        found = kernels_of(b)->colors(tape, &packet, (const double(*)[8])spot->place,
-                                      live, color);
-    for (; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        struct painted *p = &to[i][number];
-        *p = (struct painted){lane_of(b->seen, i), l->pigment->color, found >> i & 1};
-        if (tape)
-            p->color = (struct rgbft){color[0][i], color[1][i], color[2][i], color[3][i],
-                                      color[4][i]};
-        if (!p->found &&
-            tape->channels == 3) // as image_map_color where it does not reach
-            p->color.transmit = 1;
-        const struct rgb pass = rgbft_pass(p->color);
-        if (!p->found || pass.r != 0 || pass.g != 0 || pass.b != 0)
-            clear |= 1u << i;
-    }
-    return clear;
+        lanes_copy(b->seen, (const double(*)[8])b->group->hits.n, live);
+    memcpy(s->n, b->seen, sizeof s->n);
+    layer_colors(b, x, spot, number, s);
+    // Hit by hit, mirrors are asked when the light is found.
+    const bool conserves = s->layer->finish->conserve_energy && b->paint->lit;
+    if (conserves)
+        paint_mirror(b->t, b->group, s, s->found, mirror);
+    return job->kernels->sheet_pass(job, s, conserves ? (const float(*)[8])mirror : NULL,
+                                    coat);
 }
 
 static void paint_plain(struct brush *b, const struct paint_texture *x,
                         const struct spot *spot, unsigned live, const double weight[8])
 {
-    struct painted *to[8] = {NULL};
-    for (unsigned left = live; left; left &= left - 1) {
-        const int i = __builtin_ctz(left);
-        to[i] = &b->layer[i][b->layer_count[i]];
-        b->layer_count[i] += x->texture->layer_count;
-        b->part[i][b->part_count[i]++] =
-            (struct paint_part){x->texture, weight[i], to[i]};
+    struct paint_scratch *s = b->t->paint;
+    struct paint_coat *coat = &s->coat[s->coat_count++];
+    coat->texture = x->texture;
+    coat->lanes = live;
+    coat->any = 0;
+    coat->sheet = s->sheet_count;
+    memcpy(coat->weight, weight, sizeof coat->weight);
+    for (int i = 0; i < 8; i++) {
+        coat->trans[i] = 1;
+        for (int k = 0; k < 3; k++) {
+            coat->passed[k][i] = 1;
+            coat->filter[k][i] = (float)weight[i];
+        }
     }
     for (uint32_t k = x->texture->layer_count; k-- > 0 && live;)
-        live = paint_layer(b, x, spot, k, live, to);
+        live = paint_layer(b, x, spot, k, live, coat);
+    coat->open = live;
+    coat->sheet_count = s->sheet_count - coat->sheet;
 }
 
 static void paint_texture(struct brush *b, const struct paint_texture *x,
@@ -260,8 +261,10 @@ static void paint_material(struct brush *b, const struct paint_texture *x,
     uint32_t entry[8] = {0};
     for (unsigned left = live; left; left &= left - 1) {
         const int i = __builtin_ctz(left);
-        entry[i] = image_map_entry(x->texture->image, lane_of(inner->place, i),
-                                   x->texture->map->count);
+        entry[i] = image_map_entry(
+            x->texture->image,
+            vec3(inner->place[0][i], inner->place[1][i], inner->place[2][i]),
+            x->texture->map->count);
     }
     paint_entries(b, x, inner, live, weight, entry, all);
 }
@@ -279,7 +282,7 @@ static void paint_texture(struct brush *b, const struct paint_texture *x,
     inner.outer = spot;
     inner.map = x->texture;
     if (x->texture->kind == TEXTURE_UV) {
-        memcpy(inner.place, b->uv, sizeof b->uv);
+        memcpy(inner.place, b->group->hits.uv, sizeof b->group->hits.uv);
         memset(inner.place[2], 0, sizeof inner.place[2]);
         paint_entries(b, x, &inner, live, weight, first, all);
         return;
@@ -295,46 +298,92 @@ static void paint_texture(struct brush *b, const struct paint_texture *x,
     }
 }
 
-static void brush_shade(struct brush *b)
+// ---- light ----------------------------------------------------------------------------
+
+// Shades a lane by the general rule.
+static void shade_lane(struct tracer *t, const struct paint_group *g, int i)
+{
+    struct painted layer[PAINT_LAYERS], *end = layer;
+    struct paint_part part[PAINT_PARTS];
+    uint32_t parts = 0;
+    for (uint32_t k = g->coat; k < g->coat + g->coat_count; k++) {
+        const struct paint_coat *c = &t->paint->coat[k];
+        if (!(c->lanes >> i & 1))
+            continue;
+        part[parts++] = (struct paint_part){c->texture, c->weight[i], end};
+        uint32_t number = c->texture->layer_count;
+        for (uint32_t l = c->sheet; l < c->sheet + c->sheet_count; l++) {
+            const struct paint_sheet *s = &t->paint->sheet[l];
+            end[--number] =
+                (struct painted){{s->n[0][i], s->n[1][i], s->n[2][i]},
+                                 {s->color[0][i], s->color[1][i], s->color[2][i],
+                                  s->color[3][i], s->color[4][i]},
+                                 s->found >> i & 1};
+        }
+        end += c->texture->layer_count;
+    }
+    const struct hit hit = hit_batch_at(t->hit, g->hits.ray[i]);
+    const struct path path = wave_path(t, g->hits.slot[i]);
+    const struct ray ray = {path.o, path.d, 0, INFINITY};
+    struct interaction at;
+    trace_interaction(t->job->world, &ray, &hit, &at);
+    t->slot = g->hits.slot[i];
+    shade_painted(t, &path, &hit, &at, part, parts);
+}
+
+// Lights what waits.
+static void brush_flush(struct brush *b)
+{
+    struct paint_scratch *s = b->t->paint;
+    if (b->paint->lit && s->group_count)
+        paint_light(b->t, s->group, s->group_count);
+    for (uint32_t i = 0; i < s->group_count && !b->paint->lit; i++)
+        for (unsigned live = s->group[i].hits.live; live; live &= live - 1)
+            shade_lane(b->t, &s->group[i], __builtin_ctz(live));
+    s->group_count = s->sheet_count = s->coat_count = 0;
+}
+
+// Paints up to eight hits.
+static void brush_paint(struct brush *b, const uint16_t *ray, uint32_t count)
 {
     static const double whole[8] = {1, 1, 1, 1, 1, 1, 1, 1};
-    struct tracer *t = b->t;
+    struct paint_scratch *s = b->t->paint;
+    const struct shade_kernels *kernels = b->t->job->kernels;
+    if (s->group_count == PAINT_GROUPS ||
+        s->sheet_count + 8 * PAINT_LAYERS > PAINT_SHEETS ||
+        s->coat_count + 8 * PAINT_PARTS > PAINT_COATS)
+        brush_flush(b);
+    struct paint_group *g = b->group = &s->group[s->group_count++];
     struct spot spot = {.map = NULL};
-    for (int i = 0; i < b->count; i++) {
-        b->hit[i] = hit_batch_at(t->hit, b->ray[i]);
-        b->path[i] = wave_path(t, t->wave.slot[b->ray[i]]);
-        const struct ray ray = {b->path[i].o, b->path[i].d, 0, INFINITY};
-        trace_interaction(t->job->world, &ray, &b->hit[i], &b->at[i]);
-        brush_lane(b, &spot, i);
-        b->layer_count[i] = b->part_count[i] = 0;
-    }
-    for (int i = b->count; i < 8; i++) {
-        b->path[i] = b->path[0];
-        b->at[i] = b->at[0];
-        brush_lane(b, &spot, i);
-    }
-    paint_texture(b, b->paint->top, &spot, (1u << b->count) - 1, whole);
-    for (int i = 0; i < b->count; i++) {
-        t->slot = t->wave.slot[b->ray[i]];
-        shade_painted(t, &b->path[i], &b->hit[i], &b->at[i], b->part[i],
-                      b->part_count[i]);
-    }
+    g->surface = b->surface;
+    g->sheet = s->sheet_count;
+    g->coat = s->coat_count;
+    kernels->points(b->t, ray, count, b->surface->wants_uv, &g->hits);
+    kernels->texture_space(b->surface, &g->hits, spot.place, spot.normal);
+    memcpy(b->seen, g->hits.n, sizeof b->seen);
+    paint_texture(b, b->paint->top, &spot, g->hits.live, whole);
+    g->sheet_count = s->sheet_count - g->sheet;
+    g->coat_count = s->coat_count - g->coat;
 }
 
 void paint_shade(struct tracer *t)
 {
-    const struct world *w = t->job->world;
+    struct paint_scratch *s = t->paint;
     struct brush b = {.t = t};
-    for (uint32_t s = 0; s < t->paint_count; s++) {
-        b.surface = &w->surface[t->paint_seen[s]];
-        b.paint = &t->job->paint[t->paint_seen[s]];
-        uint16_t k = t->paint_head[b.paint->number];
-        t->paint_head[b.paint->number] = END;
+    for (uint32_t n = 0; s && n < s->seen_count; n++) {
+        b.surface = &t->job->world->surface[s->seen[n]];
+        b.paint = &t->job->paint[s->seen[n]];
+        uint16_t k = s->head[b.paint->number];
+        s->head[b.paint->number] = END;
         while (k != END) {
-            for (b.count = 0; b.count < 8 && k != END; k = t->paint_link[k])
-                b.ray[b.count++] = k;
-            brush_shade(&b);
+            uint16_t ray[8];
+            uint32_t count = 0;
+            for (; count < 8 && k != END; k = s->link[k])
+                ray[count++] = k;
+            brush_paint(&b, ray, count);
         }
+        brush_flush(&b);
     }
-    t->paint_count = 0;
+    if (s)
+        s->seen_count = 0;
 }

@@ -122,7 +122,7 @@ static bool texture_compile(struct build *b, const struct texture *x, int level,
 
 // ---- surfaces -------------------------------------------------------------------------
 
-// Layers of one colour each leave nothing to do.
+// Layers of one colour each leave nothing to do but to be lit.
 static bool has_work(const struct job *job, const struct texture *x)
 {
     for (uint32_t i = 0; i < x->layer_count; i++) {
@@ -134,45 +134,48 @@ static bool has_work(const struct job *job, const struct texture *x)
     return x->kind != TEXTURE_PLAIN;
 }
 
-static const struct paint_texture *surface_compile(struct build *b,
-                                                   const struct surface *s)
+static struct paint_surface surface_compile(struct build *b, const struct surface *s)
 {
     const struct texture *x = s->texture;
+    struct paint_surface p = {.lit = paint_lights_surface(b->job, s) &&
+                                     paint_lights_texture(b->job, x)};
     struct paint_size size;
-    if (s->parts || s->cutaway || s->interior_texture || !has_work(b->job, x))
-        return NULL;
+    if (s->parts || s->cutaway || s->interior_texture || !(p.lit || has_work(b->job, x)))
+        return p;
     struct paint_texture *top = arena_new_struct(b->pigments.arena, struct paint_texture);
     b->mapped = false;
-    return texture_compile(b, x, 0, top, &size) ? top : NULL;
+    if (texture_compile(b, x, 0, top, &size))
+        p.top = top;
+    return p;
 }
 
 void paint_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
-    // Below 0, what lies under opaque layers would count.
-    if (job->general || !job->pigments || !job->lights || job->adc_bailout < 0)
+    // Below 0, what lies under opaque layers would count; from 1 on, no layer does.
+    if (job->general || !job->pigments || !job->lights ||
+        !(job->adc_bailout >= 0 && job->adc_bailout < 1))
         return;
     struct build b = {.job = job, .pigments = {.arena = a}};
-    struct paint_surface *all = NULL;
-    const struct texture *last = NULL; // neighbours often share their texture
-    const struct paint_texture *top = NULL;
+    struct paint_surface *all = NULL, last = {0};
     for (uint32_t i = 0; i < w->surface_count; i++) {
         const struct surface *s = &w->surface[i];
         if (job->simple && job->simple[i].class != SIMPLE_NONE)
             continue;
-        if (s->texture != last || !top) {
-            top = surface_compile(&b, s);
-            last = s->texture;
-        } else if (s->parts || s->cutaway || s->interior_texture) {
-            continue;
-        }
-        if (!top)
+        // Neighbours often share their texture.
+        const struct surface *before = i ? &w->surface[i - 1] : NULL;
+        if (!before || !last.top || before->texture != s->texture ||
+            before->light_group != s->light_group || before->photons != s->photons ||
+            s->parts || s->cutaway || s->interior_texture)
+            last = surface_compile(&b, s);
+        if (!last.top)
             continue;
         if (!all) {
             all = arena_new_array(a, struct paint_surface, w->surface_count);
             memset(all, 0, w->surface_count * sizeof *all);
         }
-        all[i] = (struct paint_surface){job->paint_count++, top};
+        all[i] = last;
+        all[i].number = job->paint_count++;
     }
     job->paint = all;
 }

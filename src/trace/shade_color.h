@@ -61,6 +61,21 @@ static const struct transform *texture_place8(const struct surface *s,
     return &s->texture_transform;
 }
 
+static void texture_space(const struct surface *s, const struct simple_group *g,
+                          double place[3][8], double normal[3][8])
+{
+    const struct transform *m = texture_place8(s, g, place);
+    v8_store(normal, v8_inverse_normal(m, v8_load((const double(*)[8])g->n)));
+}
+
+static void world_normals(const struct surface *s, double v[3][8])
+{
+    // Textures of a uv mapped object are not moved with it.
+    const struct transform *m =
+        s->flags & OBJECT_UV_MAPPING ? &transform_identity : &s->texture_transform;
+    v8_store(v, v8_normalize(v8_normal(m, v8_load((const double(*)[8])v))));
+}
+
 // The normals of a layer in the lanes of `bits`.
 static void normals8(const struct tracer *t, const struct surface *s,
                      const struct simple_surface *x, struct simple_group *g,

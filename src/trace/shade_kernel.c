@@ -10,6 +10,7 @@
 #include "trace/shade_lamp.h"
 #include "trace/shade_lit.h"
 #include "trace/shade_place.h"
+#include "trace/shade_sheets.h"
 
 // ---- places -----------------------------------------------------------------------------
 
@@ -32,22 +33,27 @@ static bool wants_uv(const struct tracer *t, const struct leaf *const leaf[8])
     return wants;
 }
 
-static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
-                  struct simple_group *g)
+// The hits of a group; returns whether they are of several leaves.
+LANES_INLINE bool group_hits(struct tracer *t, const uint16_t *ray, uint32_t count,
+                             struct simple_group *g, const struct leaf *leaf[8])
 {
-    const struct leaf *leaf[8];
-    uint32_t id[8], differ = 0;
+    uint32_t differ = 0;
     g->live = (1u << count) - 1;
     for (uint32_t i = 0; i < 8; i++) {
         const uint32_t k = ray[i < count ? i : 0];
         g->ray[i] = k;
         g->slot[i] = t->wave.slot[k];
-        id[i] = t->hit->leaf[k];
-        differ |= id[i] ^ id[0];
-        leaf[i] = &t->job->world->leaf[id[i]];
+        differ |= t->hit->leaf[k] ^ t->hit->leaf[ray[0]];
+        leaf[i] = &t->job->world->leaf[t->hit->leaf[k]];
     }
+    return differ;
+}
+
+LANES_INLINE void group_points(struct tracer *t, const struct leaf *const leaf[8],
+                               bool differ, bool uv, struct simple_group *g)
+{
     const struct ray_batch *b = t->rays;
-    const bool rays_in_row = count == 8 && g->ray[7] - g->ray[0] == 7;
+    const bool rays_in_row = g->live == 255 && g->ray[7] - g->ray[0] == 7;
     const struct vec8 o = {gather(b->o[0], g, rays_in_row),
                            gather(b->o[1], g, rays_in_row),
                            gather(b->o[2], g, rays_in_row)};
@@ -63,7 +69,6 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
         .hit = t->hit,
         .ray = g->ray};
     struct place8 x = {.p = v8_mad(o, at, d)};
-    const bool uv = wants_uv(t, leaf);
     if (uv) {
         place_each(t, g, 255, &x);
         memcpy(g->uv, x.uv, sizeof g->uv);
@@ -91,12 +96,28 @@ static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
                 g->through[c][i] = through[g->slot[i]];
     }
     g->bare = 0;
+}
+
+static void place(struct tracer *t, const uint16_t *ray, uint32_t count,
+                  struct simple_group *g)
+{
+    const struct leaf *leaf[8];
+    const bool differ = group_hits(t, ray, count, g, leaf);
+    group_points(t, leaf, differ, wants_uv(t, leaf), g);
     if (!differ)
         colors_of(t, leaf[0]->surface, g, 255);
     else
         colors(t, leaf, g);
     g->bare &= g->live;
     g->live &= ~g->bare;
+}
+
+static void points(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,
+                   struct simple_group *g)
+{
+    const struct leaf *leaf[8];
+    const bool differ = group_hits(t, ray, count, g, leaf);
+    group_points(t, leaf, differ, uv, g);
 }
 
 // ---- light ------------------------------------------------------------------------------
@@ -187,45 +208,98 @@ LANES_INLINE uint32_t queue8(struct tracer *t, const struct simple_group *g,
     return queued;
 }
 
+// What shade_lamp asks of the lamp alone.
+struct shaded_lamp {
+    const struct lamp *lamp;
+    bool even, shadowed;
+};
+
+static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp)
+{
+    const struct light *l = lamp->light;
+    return (struct shaded_lamp){
+        lamp, l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0),
+        t->job->shadows && !l->shadowless};
+}
+
+// The rest of shade_lamp, once it is known what the surfaces make of the light.
+LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
+                               const struct simple_group *g, unsigned live,
+                               const struct light8 *v, struct rgb8 sum, uint32_t queued)
+{
+    struct rgb8 value =
+        rgb8_mul(v->color, rgb8_add(rgb8_set((struct rgb){0, 0, 0}), sum));
+    live &= ~black8(value);
+    if (!live)
+        return queued;
+    value = rgb8_mul(value, rgb8_load((const float(*)[8])g->through));
+    const unsigned bare =
+        lamp->shadowed ? live & m8_bits(r8_le(v->distance, r8_set(0))) : live;
+    if (bare)
+        add_own(t, g, bare, value);
+    live &= ~bare;
+    if (!live)
+        return queued;
+    if (queued + 8 > BATCH_SIZE) {
+        shadow_flush_simple(t, queued);
+        queued = 0;
+    }
+    return queue8(t, g, live, v, value, queued);
+}
+
 // shade_lamp.
 static uint32_t light(struct tracer *t, const struct simple_class *c,
                       const struct lamp *lamp, const struct simple_group *g,
                       uint32_t groups, uint32_t queued)
 {
-    const struct light *l = lamp->light;
-    const bool even =
-        l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0);
-    const bool shadowed = t->job->shadows && !l->shadowless;
-    if (even && is_black(l->color))
+    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
+    if (shaded.even && is_black(lamp->light->color))
         return queued;
     for (const struct simple_group *end = g + groups; g < end; g++) {
         struct light8 v = direction8(lamp, v8_load((const double(*)[8])g->p));
-        unsigned live = even ? g->live : attenuate(lamp, g, &v);
+        unsigned live = shaded.even ? g->live : attenuate(lamp, g, &v);
         if (!live)
             continue;
-        const struct rgb8 sum = lit8(c, lamp, g, v.to, &live);
-        if (!live)
-            continue;
-        struct rgb8 value =
-            rgb8_mul(v.color, rgb8_add(rgb8_set((struct rgb){0, 0, 0}), sum));
-        live &= ~black8(value);
-        if (!live)
-            continue;
-        value = rgb8_mul(value, rgb8_load((const float(*)[8])g->through));
-        const unsigned bare =
-            shadowed ? live & m8_bits(r8_le(v.distance, r8_set(0))) : live;
-        if (bare)
-            add_own(t, g, bare, value);
-        live &= ~bare;
-        if (!live)
-            continue;
-        if (queued + 8 > BATCH_SIZE) {
-            shadow_flush_simple(t, queued);
-            queued = 0;
-        }
-        queued = queue8(t, g, live, &v, value, queued);
+        const struct lit_layer l = {c->finish, (const double(*)[8])g->d,
+                                    (const double(*)[8])g->n, (const float(*)[8])g->color,
+                                    g->att};
+        const struct rgb8 sum = lit8(&l, c->side_test, lamp, v.to, &live);
+        if (live)
+            queued = lamp_add(t, &shaded, g, live, &v, sum, queued);
     }
     return queued;
+}
+
+// The same for the layers of painted hits (layers_lit).
+static uint32_t light_sheets(struct tracer *t, bool side_test, const struct lamp *lamp,
+                             const struct paint_group *g, uint32_t groups,
+                             uint32_t queued)
+{
+    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
+    if (shaded.even && is_black(lamp->light->color))
+        return queued;
+    for (const struct paint_group *end = g + groups; g < end; g++) {
+        const struct simple_group *h = &g->hits;
+        struct light8 v = direction8(lamp, v8_load((const double(*)[8])h->p));
+        const unsigned live = shaded.even ? h->live : attenuate(lamp, h, &v);
+        const struct paint_sheet *s = t->paint->sheet + g->sheet;
+        struct rgb8 sum = rgb8_set((struct rgb){0, 0, 0});
+        unsigned lit = 0;
+        for (uint32_t i = 0; i < g->sheet_count && live; i++)
+            lit |= sheet_lit(&s[i], h, side_test, lamp, v.to, live, &sum);
+        if (lit)
+            queued = lamp_add(t, &shaded, h, lit, &v, sum, queued);
+    }
+    return queued;
+}
+
+static void own_sheets(struct tracer *t, const struct paint_group *g)
+{
+    const struct paint_sheet *s = t->paint->sheet + g->sheet;
+    for (uint32_t i = 0; i < g->sheet_count; i++)
+        add_own(t, &g->hits, s[i].lanes,
+                rgb8_mul(rgb8_load((const float(*)[8])g->hits.through),
+                         sheet_own(t->job, &s[i])));
 }
 
 // ---- sums ---------------------------------------------------------------------------------
@@ -278,4 +352,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 }
 
 const struct shade_kernels OF_ISA(shade_kernels_) = {
-    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, meets};
+    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, meets,
+    points, texture_space, world_normals, sheet_pass, own_sheets, light_sheets};

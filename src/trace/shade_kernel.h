@@ -4,6 +4,9 @@
 #include "trace/simple.h"
 
 struct surface_kernels;
+struct paint_coat;
+struct paint_group;
+struct paint_sheet;
 
 // What shading compiles once per instruction set, as trace/packet.h.
 struct shade_kernels {
@@ -31,6 +34,25 @@ struct shade_kernels {
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);
+    // ---- painted hits (trace/paint.h)
+    // `place` without colours. uv: with uv coordinates.
+    void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,
+                   struct simple_group *g);
+    // Points and normals as the textures of a surface see them, and those normals again in
+    // the world, unit.
+    void (*texture_space)(const struct surface *s, const struct simple_group *g,
+                          double place[3][8], double normal[3][8]);
+    void (*world_normals)(const struct surface *s, double v[3][8]);
+    // Puts a layer, whose colours and normals are known, below those of the coat, as
+    // shade_plain. mirror: what it mirrors if it conserves energy, else NULL. Returns the
+    // lanes in which more than adc_bailout passes.
+    unsigned (*sheet_pass)(const struct job *job, struct paint_sheet *s,
+                           const float mirror[3][8], struct paint_coat *coat);
+    // As own and light.
+    void (*own_sheets)(struct tracer *t, const struct paint_group *g);
+    uint32_t (*light_sheets)(struct tracer *t, bool side_test, const struct lamp *lamp,
+                             const struct paint_group *g, uint32_t groups,
+                             uint32_t queued);
 };
 
 extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,

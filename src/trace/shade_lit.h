@@ -51,9 +51,17 @@ LANES_INLINE struct float8 highlights8(const struct finish *f, struct vec8 d,
     return sum;
 }
 
+// A layer at eight points, as it is lit.
+struct lit_layer {
+    const struct finish *finish;
+    const double (*d)[8], (*n)[8]; // of the ray; of the layer, towards the ray
+    const float (*color)[8];       // red, green, blue
+    const float *att;
+};
+
 // Metals tint their highlights, lane by lane.
-static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
-                          struct float8 sum, struct real8 facing)
+static struct rgb8 tinted(const struct lit_layer *l, struct float8 sum,
+                          struct real8 facing)
 {
     float s[8], c[3][8];
     double cosine[8];
@@ -62,8 +70,8 @@ static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
     for (int i = 0; i < 8; i++) {
         struct rgb x = rgb_gray(s[i]);
         if (s[i] != 0)
-            x = metal_tint(x, rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
-                           f->metallic, cosine[i]);
+            x = metal_tint(x, rgb(l->color[0][i], l->color[1][i], l->color[2][i]),
+                           l->finish->metallic, cosine[i]);
         c[0][i] = x.r;
         c[1][i] = x.g;
         c[2][i] = x.b;
@@ -72,15 +80,14 @@ static struct rgb8 tinted(const struct finish *f, const struct simple_group *g,
 }
 
 // layer_lit. Takes lanes that get nothing out of *live.
-LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *lamp,
-                              const struct simple_group *g, struct vec8 to,
-                              unsigned *live)
+LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test,
+                              const struct lamp *lamp, struct vec8 to, unsigned *live)
 {
-    const struct finish *f = k->finish;
-    const struct vec8 n = v8_load((const double(*)[8])g->n);
+    const struct finish *f = l->finish;
+    const struct vec8 n = v8_load(l->n);
     const struct real8 facing = v8_dot(n, to);
     unsigned back = 0;
-    if (k->side_test) {
+    if (side_test) {
         back = *live & m8_bits(r8_lt(facing, r8_set(zero)));
         if (f->diffuse_back == 0) {
             *live &= ~back;
@@ -96,14 +103,13 @@ LANES_INLINE struct rgb8 lit8(const struct simple_class *k, const struct lamp *l
             cosine = r8_pow_single(cosine, (double)f->brilliance);
         const struct float8 strength = f8_select(back, f8_set(fmaxf(0, f->diffuse_back)),
                                                  f8_set(fmaxf(0, f->diffuse)));
-        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(strength, f8_load(g->att))),
-                       rgb8_load((const float(*)[8])g->color));
+        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(strength, f8_load(l->att))),
+                       rgb8_load(l->color));
     }
     if (!lamp->dull) {
-        const struct vec8 d = v8_load((const double(*)[8])g->d);
-        const struct float8 sum = highlights8(f, d, n, to, *live & ~back);
+        const struct float8 sum = highlights8(f, v8_load(l->d), n, to, *live & ~back);
         if (f->metallic != 0)
-            c = rgb8_add(c, tinted(f, g, sum, facing));
+            c = rgb8_add(c, tinted(l, sum, facing));
         else
             c = rgb8_add(c, (struct rgb8){sum, sum, sum});
     }

@@ -51,7 +51,7 @@ static enum simple_pigment pigment_kind(const struct pigment *p)
                : SIMPLE_TAPE;
 }
 
-static bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
+bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
 {
     for (uint32_t i = 0; i < list->count; i++) {
         const struct light *l = list->lamp[i]->light;

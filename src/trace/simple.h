@@ -64,6 +64,8 @@ struct simple_bounce {
     float fade[3][8];
 };
 
+// Whether eight points can be lit by them at a time.
+bool lamps_are_simple(const struct job *job, const struct lamp_list *list);
 void simple_compile(struct job *job, struct arena *a);
 void simple_init(struct tracer *t);
 void simple_end(struct tracer *t);

@@ -12,6 +12,7 @@
 struct arena;
 struct simple_group;
 struct hit_run;
+struct paint_scratch;
 
 // The interiors a ray is inside, the last entered first; never changed once made, so
 // that rays share tails.
@@ -141,8 +142,7 @@ struct tracer {
     struct hit_run *run;
     uint32_t run_count;
     uint32_t *class_seen, class_count;
-    uint16_t *paint_head, *paint_link; // trace/paint.c
-    uint32_t *paint_seen, paint_count;
+    struct paint_scratch *paint; // trace/paint.h; NULL: nothing is painted
     struct sample_sum *sum;
     uint32_t sum_count, sum_capacity;
     struct power_request *power;

@@ -3,7 +3,7 @@ perf_scenes = \
 	%D%/box_minus_2000.scn %D%/csg_1000.scn %D%/drilled_1500.scn %D%/function_calls.scn %D%/function_pigment.scn %D%/glass_balls.scn %D%/mesh_sphere.scn \
 	%D%/nested_csg.scn %D%/one_object.scn %D%/quadric_field.scn %D%/shadows_8.scn \
 	%D%/spheres_100k.scn %D%/texture_agate.scn %D%/texture_crackle.scn \
-	%D%/texture_granite.scn %D%/texture_normals.scn %D%/texture_woods.scn \
+	%D%/texture_granite.scn %D%/texture_layers.scn %D%/texture_maps.scn %D%/texture_normals.scn %D%/texture_woods.scn \
 	%D%/texture_wrinkles.scn %D%/tori.scn %D%/union_4000.scn
 perf_shapes = \
 	%D%/shapes/bicubic_patch.scn \

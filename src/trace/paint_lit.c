@@ -1,0 +1,143 @@
+// Light of painted hits, eight at a time, with the bits of trace/shade.c: what the layers give
+// off, what lamps bring, and the rays that go on.
+#include "scene/effects.h"
+#include "trace/paint.h"
+#include "trace/shade.h"
+#include "trace/shade_kernel.h"
+
+// ---- which surfaces ---------------------------------------------------------------------
+
+static bool lights_finish(const struct job *job, const struct finish *f)
+{
+    return f->irid == 0 && f->crand <= 0 && !(f->has_subsurface && job->subsurface);
+}
+
+bool paint_lights_texture(const struct job *job, const struct texture *x)
+{
+    bool lights = true;
+    if (x->kind == TEXTURE_PLAIN)
+        for (uint32_t i = 0; i < x->layer_count; i++)
+            lights &= lights_finish(job, x->layer[i].finish);
+    else
+        for (uint32_t i = 0; lights && i < (x->kind == TEXTURE_UV ? 1 : x->map->count);
+             i++)
+            lights = paint_lights_texture(job, x->map->entry[i]);
+    return lights;
+}
+
+bool paint_lights_surface(const struct job *job, const struct surface *s)
+{
+    return !job->settings.indirect.data && !job->has_air && !job->has_media &&
+           !(job->shoots && (!s->photons || s->photons->collect)) &&
+           lamps_are_simple(job, &job->lamps[s->light_group]);
+}
+
+// ---- rays that go on --------------------------------------------------------------------
+
+void paint_mirror(const struct tracer *t, const struct paint_group *g,
+                  const struct paint_sheet *s, unsigned lanes, float out[3][8])
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        const struct simple_group *h = &g->hits;
+        const struct vec3 d = vec3(h->d[0][i], h->d[1][i], h->d[2][i]);
+        const struct vec3 n = vec3(s->n[0][i], s->n[1][i], s->n[2][i]);
+        float weight;
+        const struct rgb c = finish_reflectivity(
+            s->layer->finish, -vec3_dot(d, n),
+            rgb(s->color[0][i], s->color[1][i], s->color[2][i]),
+            wave_inside(t, h->slot[i]), g->surface->interior, &weight);
+        out[0][i] = c.r, out[1][i] = c.g, out[2][i] = c.b;
+    }
+}
+
+static const struct paint_sheet *sheets_of(const struct tracer *t,
+                                           const struct paint_group *g)
+{
+    return t->paint->sheet + g->sheet;
+}
+
+// The lanes that send rays on.
+static unsigned going_on(const struct tracer *t, const struct paint_group *g)
+{
+    unsigned lanes = 0;
+    for (uint32_t i = 0; i < g->coat_count && t->job->refraction; i++)
+        lanes |= t->paint->coat[g->coat + i].open;
+    for (uint32_t i = 0; i < g->sheet_count && t->job->mirrors; i++)
+        if (finish_has_mirror(sheets_of(t, g)[i].layer->finish))
+            lanes |= sheets_of(t, g)[i].lanes;
+    return lanes;
+}
+
+static void lane_layer(const struct tracer *t, const struct paint_sheet *s, int i,
+                       struct layer *to)
+{
+    const struct painted p = {
+        {s->n[0][i], s->n[1][i], s->n[2][i]},
+        {s->color[0][i], s->color[1][i], s->color[2][i], s->color[3][i], s->color[4][i]},
+        s->found >> i & 1};
+    layer_painted(t, s->layer, &p, to);
+    to->filter = rgb(s->filter[0][i], s->filter[1][i], s->filter[2][i]);
+    to->trans = s->trans[i];
+}
+
+// shade_transmit of one lane, coat by coat.
+static void lane_go_on(struct tracer *t, const struct paint_group *g, int i)
+{
+    const struct simple_group *h = &g->hits;
+    struct path here = wave_path(t, h->slot[i]);
+    t->slot = h->slot[i];
+    if (!(here.flags & PATH_CONTINUED))
+        here.level++;
+    here.flags &= (uint8_t)~PATH_OF_ONE_WAY;
+    struct shading s;
+    s.t = t;
+    s.path = &here;
+    s.s = t->hit->t[h->ray[i]];
+    s.at.surface = g->surface;
+    s.at.p = vec3(h->p[0][i], h->p[1][i], h->p[2][i]);
+    s.at.ng = vec3(h->ng[0][i], h->ng[1][i], h->ng[2][i]);
+    s.at.error = h->error[i];
+    s.view.n = vec3(h->n[0][i], h->n[1][i], h->n[2][i]);
+    s.layer = s.few;
+    s.layer_count = 0;
+    s.dark = false;
+    for (uint32_t k = 0; k < g->coat_count; k++) {
+        const struct paint_coat *c = &t->paint->coat[g->coat + k];
+        if (!(c->lanes >> i & 1))
+            continue;
+        struct plain_result r = {
+            .begin = s.layer_count,
+            .weight = (float)c->weight[i],
+            .trans = c->trans[i],
+            .filter = {c->filter[0][i], c->filter[1][i], c->filter[2][i]},
+            .any = c->any >> i & 1};
+        for (uint32_t l = c->sheet; l < c->sheet + c->sheet_count; l++)
+            if (t->paint->sheet[l].lanes >> i & 1)
+                lane_layer(t, &t->paint->sheet[l], i, &s.few[s.layer_count++]);
+        r.end = s.layer_count;
+        shade_transmit(&s, &r);
+    }
+}
+
+// ---- light ------------------------------------------------------------------------------
+
+void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
+{
+    const struct shade_kernels *kernels = t->job->kernels;
+    const struct surface *surface = g->surface;
+    const struct lamp_list *lamps = &t->job->lamps[surface->light_group];
+    const bool side_test = !(surface->flags & OBJECT_DOUBLE_ILLUMINATE);
+    uint32_t queued = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        kernels->own_sheets(t, &g[i]);
+        for (unsigned lanes = going_on(t, &g[i]); lanes; lanes &= lanes - 1)
+            lane_go_on(t, &g[i], __builtin_ctz(lanes));
+    }
+    for (uint32_t i = 0; i < lamps->count; i++)
+        if (!lamps->lamp[i]->inert)
+            queued =
+                kernels->light_sheets(t, side_test, lamps->lamp[i], g, count, queued);
+    if (queued)
+        shadow_flush_simple(t, queued);
+}
