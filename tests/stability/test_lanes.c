@@ -98,6 +98,22 @@ static const char *const walked[] = {
     "<1, 0, 1> }",
 };
 
+static const char *const turned[] = {
+    "lathe { linear_spline 5, <0, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9> }",
+    "lathe { linear_spline 5, <.3, -.7>, <.8, -.6>, <.8, .4>, <.4, .5>, <.3, -.7> }",
+    "lathe { quadratic_spline 6, <0, -1>, <.2, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, "
+    ".9> "
+    "}",
+    "lathe { cubic_spline 7, <0, -1>, <.2, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9>, "
+    "<0, "
+    "1> }",
+    "lathe { bezier_spline 8, <0, -.9>, <.9, -.9>, <.9, -.3>, <.4, 0>, <.4, 0>, <.1, "
+    ".3>, "
+    "<.9, .9>, <0, .8> }",
+    "sor { 7, <.1, -1>, <.5, -.8>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9>, <0, 1> }",
+    "sor { 6, <.1, -1>, <.5, -.8>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9> open }",
+};
+
 // Those whose lanes have the bits of the one line's crossings.
 static const char *const same_bits[] = {
     "prism { -.4, .5, 5, <-.8, -.7>, <.9, -.5>, <.7, .8>, <-.6, .6>, <-.8, -.7> }",
@@ -128,19 +144,6 @@ static const char *const same_bits[] = {
     "sphere_sweep { cubic_spline 6, <-.8, -.5, 0>, .3, <.2, -.6, .3>, .3, <.7, .4, -.2>, "
     ".2, "
     "<-.3, .7, .1>, .1, <-.6, .1, -.6>, .25, <.4, .1, .6>, .3 }",
-    "lathe { linear_spline 5, <0, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9> }",
-    "lathe { linear_spline 5, <.3, -.7>, <.8, -.6>, <.8, .4>, <.4, .5>, <.3, -.7> }",
-    "lathe { quadratic_spline 6, <0, -1>, <.2, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, "
-    ".9> "
-    "}",
-    "lathe { cubic_spline 7, <0, -1>, <.2, -.9>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9>, "
-    "<0, "
-    "1> }",
-    "lathe { bezier_spline 8, <0, -.9>, <.9, -.9>, <.9, -.3>, <.4, 0>, <.4, 0>, <.1, "
-    ".3>, "
-    "<.9, .9>, <0, .8> }",
-    "sor { 7, <.1, -1>, <.5, -.8>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9>, <0, 1> }",
-    "sor { 6, <.1, -1>, <.5, -.8>, <.7, -.6>, <.3, 0>, <.8, .5>, <.2, .9> open }",
     "polygon { 4, <-.9, -.8, .1>, <.8, -.9, .2>, <.1, .9, 0>, <-.9, -.8, .1> }",
     "polygon { 10, <-.8, 0, -.8>, <.8, 0, -.8>, <.8, 0, .8>, <-.8, 0, .8>, <-.8, 0, "
     "-.8>, "
@@ -179,6 +182,7 @@ static const char *const same_hits[] = {
 enum {
     SHAPES = sizeof shapes / sizeof *shapes,
     WALKED = sizeof walked / sizeof *walked,
+    TURNED = sizeof turned / sizeof *turned,
     SAME_BITS = sizeof same_bits / sizeof *same_bits,
     SAME_HITS = sizeof same_hits / sizeof *same_hits,
     PACKETS = 50,
@@ -372,6 +376,19 @@ static void eight_rays_walk_as_one_line_does(void **state)
         }
 }
 
+static void eight_rays_meet_what_is_turned(void **state)
+{
+    (void)state;
+    for (int i = 0; i < TURNED; i++)
+        for (int any = 0; any < 2; any++) {
+            struct loaded l;
+            load(&l, "%s", turned[i]);
+            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            look(&l, turned[i], any != 0, MORE_PACKETS, false, false);
+            unload(&l);
+        }
+}
+
 static void eight_rays_have_the_bits_of_one_line(void **state)
 {
     (void)state;
@@ -419,8 +436,10 @@ static const char *const carved[] = {
     "difference { quartic { <1,0,0,0,2,0,0,2,0,-1.3, 0,0,0,0,0,0,0,0,0,0, "
     "1,0,0,2,0,.82,0,0,0,0, 1,0,-1.3,0,.1681> } box { <0, -1, -2>, <2, 1, 2> } "
     "cone { -y, .9, y, .6 } }",
-    "difference { isosurface { function { x*x*x*x + y*y*y*y + z*z*z*z - .07 } } sphere { 0, 1 "
-    "scale <.45, .45, .05> translate -.5*z } sphere { 0, 1 scale <.45, .45, .05> translate "
+    "difference { isosurface { function { x*x*x*x + y*y*y*y + z*z*z*z - .07 } } sphere { "
+    "0, 1 "
+    "scale <.45, .45, .05> translate -.5*z } sphere { 0, 1 scale <.45, .45, .05> "
+    "translate "
     ".5*z rotate 90*x } cylinder { -y, y, .2 } }",
     "object { " WAVES " clipped_by { box { -.6, .6 rotate 20*y } } }",
     "object { " WAVES
@@ -590,6 +609,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_rays_meet_what_one_line_does),
         cmocka_unit_test(eight_rays_walk_as_one_line_does),
+        cmocka_unit_test(eight_rays_meet_what_is_turned),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
         cmocka_unit_test(boxes_hold_bounded_polynomials),

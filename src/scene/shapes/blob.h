@@ -48,12 +48,43 @@ struct blob_line {
     double noise;         // what the rounding of o makes of t
 };
 
-// The first crossing of the ray with t > t_min among `count` stretches of its line, which
-// are all that reach into the ray's range; `end` has room for twice as many. False: there is
-// none up to t_max, or one beyond was found.
-bool blob_first(const struct blob *b, const struct blob_line *line,
-                const struct blob_stretch *at, uint32_t count, double *end,
-                struct boundary *out);
+// A walk along a line over `count` stretches, which are all that reach into the ray's range,
+// for the first crossing with t > t_min.
+struct blob_walk {
+    const struct blob *blob;
+    const struct blob_stretch *at;
+    const double *end;    // of all stretches, ascending
+    uint32_t count, next; // stretches; the end that is next
+    bool in, known;       // the state; whether it is known
+    bool first_only;      // of those with t > t_min; then `first`, once `found`
+    bool found;
+    double start, stop; // of the ray, on the line
+    struct blob_line line;
+    struct boundary *first;
+    struct boundary_list *out; // where all are wanted
+};
+
+// A stretch between two ends, on which the field less the threshold is one quartic about m.
+struct blob_piece {
+    double c[5]; // ascending
+    double m, half;
+    double rounding,
+        lost; // of the coefficients, in units of roundoff; of the first, by a sum
+};
+
+// `end` has room for twice the count.
+void blob_walk_begin(struct blob_walk *w, const struct blob *b,
+                     const struct blob_line *line, const struct blob_stretch *at,
+                     uint32_t count, double *end, struct boundary *first);
+// The next piece that may have a crossing; false: there is none, or the first was found.
+bool blob_walk_next(struct blob_walk *w, struct blob_piece *piece);
+// Its crossings, and the state behind it.
+void blob_walk_over(struct blob_walk *w, const struct blob_piece *piece);
+// The same where its first crossing is known to be at m + t, and that it comes from inside; or
+// that it has none, and which state it has.
+void blob_walk_to(struct blob_walk *w, const struct blob_piece *piece, bool in, double t,
+                  double dt);
+void blob_walk_past(struct blob_walk *w, bool in);
 
 // As shape_ops.closest8. Lanes that are `odd` are for the one line's crossings.
 #define BLOB_CLOSEST8(isa)                                                               \

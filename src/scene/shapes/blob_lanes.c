@@ -1,8 +1,9 @@
 // Eight rays and a blob, compiled once per instruction set: the components are met side by
 // side, by the operations of blob_walk.c; then each ray goes on with the few that it meets in
-// its range.
+// its range, and the quartics of all are solved together.
 #include <math.h>
 
+#include "math/polynomial_lanes.h"
 #include "scene/shapes/blob.h"
 #include "scene/shapes/lanes.h"
 
@@ -122,12 +123,66 @@ static uint32_t column(const struct rows *x, int lane, struct blob_stretch *out)
     return n;
 }
 
+// The walks of eight rays, and where each is.
+struct walks {
+    struct blob_walk walk[8];
+    struct blob_piece piece[8];
+    struct boundary first[8];
+    struct blob_stretch at[8][ROWS];
+    double end[8][2 * ROWS];
+};
+
+// Takes `lanes` over their pieces.
+static void walk_over8(struct walks *x, unsigned lanes)
+{
+    enum { N = 4 };
+    double c[N + 1][8] = {{0}}, lo[8] = {0}, hi[8] = {0}, sign[8] = {0},
+                 rounding[8] = {0}, lost[8] = {0}, t[8], dt[8];
+    struct real8 c8[N + 1];
+    for (unsigned left = lanes; left; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        const struct blob_walk *w = &x->walk[i];
+        const struct blob_piece *p = &x->piece[i];
+        for (int k = 0; k <= N; k++)
+            c[k][i] = p->c[k];
+        const bool whole = w->start <= p->m - p->half;
+        lo[i] = whole ? -p->half : w->start - p->m;
+        hi[i] = p->half;
+        sign[i] = whole && w->known ? w->in ? 1 : -1 : 0;
+        rounding[i] = p->rounding * ROUNDOFF;
+        lost[i] = p->lost;
+    }
+    for (int k = 0; k <= N; k++)
+        c8[k] = r8_load(c[k]);
+    const struct brackets8 r =
+        poly8_isolate(c8, N, r8_load(lo), r8_load(hi), r8_load(sign), lanes, false, NULL);
+    if (r.found) {
+        const struct real8 root = poly8_refine(c8, N, &r, r.found);
+        const struct real8 error =
+            r8_add(r8_mul(r8_load(rounding), poly8_size(c8, N, root)), r8_load(lost));
+        r8_store(t, root);
+        r8_store(dt, poly8_root_error(c8, N, root, error));
+    }
+    r8_store(sign, r.sign);
+    for (unsigned left = lanes; left; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        const struct blob_line *l = &x->walk[i].line;
+        if (r.found >> i & 1 && dt[i] < INFINITY &&
+            (x->piece[i].m + t[i] + l->shift) / l->length > l->t_min)
+            blob_walk_to(&x->walk[i], &x->piece[i], sign[i] > 0, t[i], dt[i]);
+        else if ((r.found | r.unsure) >> i & 1)
+            blob_walk_over(&x->walk[i], &x->piece[i]);
+        else
+            blob_walk_past(&x->walk[i], sign[i] > 0);
+    }
+}
+
 unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *rays,
                                 unsigned lanes, struct shape_hits *out, unsigned *odd)
 {
     struct rows x;
-    struct blob_stretch at[ROWS];
-    double end[2 * ROWS], shift[8], length[8], noise[8];
+    struct walks w;
+    double shift[8], length[8], noise[8];
     *odd = 0;
     set_up(&x, s, rays);
     for (uint32_t i = 0; i < s->count; i++)
@@ -142,15 +197,28 @@ unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *r
     r8_store(shift, x.shift);
     r8_store(length, x.length);
     r8_store(noise, x.noise);
+    for (unsigned left = lanes; left; left &= left - 1) {
+        const int l = __builtin_ctz(left);
+        const struct blob_line line = {rays->t_min[l], rays->t_max[l], shift[l],
+                                       length[l], noise[l]};
+        const uint32_t count = column(&x, l, w.at[l]);
+        blob_walk_begin(&w.walk[l], s, &line, w.at[l], count, w.end[l], &w.first[l]);
+    }
+    for (unsigned on = lanes; on;) {
+        for (unsigned left = on; left; left &= left - 1) {
+            const int l = __builtin_ctz(left);
+            if (!blob_walk_next(&w.walk[l], &w.piece[l]))
+                on &= ~(1u << l);
+        }
+        if (on)
+            walk_over8(&w, on);
+    }
     unsigned met = 0;
     for (; lanes; lanes &= lanes - 1) {
         const int l = __builtin_ctz(lanes);
-        const struct blob_line line = {rays->t_min[l], rays->t_max[l], shift[l],
-                                       length[l], noise[l]};
-        struct boundary b;
-        if (!blob_first(s, &line, at, column(&x, l, at), end, &b))
+        if (!w.walk[l].found || !(w.first[l].t <= rays->t_max[l]))
             continue;
-        shape_hits_put(out, l, &b);
+        shape_hits_put(out, l, &w.first[l]);
         met |= 1u << l;
     }
     return met;

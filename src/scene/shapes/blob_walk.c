@@ -64,19 +64,7 @@ static double add_quartic(const struct blob_stretch *s, double m, double c[5])
     return fabs(s->s) * (s->top * s->top + fabs(q0 * sink));
 }
 
-struct walk {
-    const struct blob *blob;
-    const struct blob_stretch *at;
-    uint32_t count;
-    bool in, known; // the state; whether it is known
-    struct blob_line line;
-    bool first_only; // of those with t > t_min; then `first`, once `found`
-    bool found;
-    struct boundary *first;
-    struct boundary_list *out; // where all are wanted
-};
-
-static void cross(struct walk *w, double t, double dt)
+static void cross(struct blob_walk *w, double t, double dt)
 {
     const struct boundary b = {.t = (t + w->line.shift) / w->line.length,
                                .dt = (dt + w->line.noise + GAMMA(4) * fabs(t)) /
@@ -109,47 +97,63 @@ static double peak_between(const struct blob_stretch *s, double lo, double hi)
     return s->s * q * q;
 }
 
-static void walk_between(struct walk *w, double lo, double hi)
+// Mostly the components around are too weak to reach the threshold.
+static bool is_weak_between(const struct blob_walk *w, double lo, double hi)
 {
-    const double m = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
-    if (half <= GAMMA(4) * fabs(m)) // joints that rounding has parted
-        return;
-    double c[5] = {-w->blob->threshold}, most = 0;
-    if (!w->known ||
-        !w->in) { // mostly the components around are too weak to reach the threshold
-        for (uint32_t i = 0; i < w->count; i++)
-            if (w->at[i].lo <= lo && w->at[i].hi >= hi)
-                most += peak_between(&w->at[i], lo, hi);
-        if (most < w->blob->threshold * (1 - 0x1p-30)) {
-            w->known = true;
-            w->in = false;
-            return;
-        }
-    }
+    double most = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        if (w->at[i].lo <= lo && w->at[i].hi >= hi)
+            most += peak_between(&w->at[i], lo, hi);
+    return most < w->blob->threshold * (1 - 0x1p-30);
+}
+
+static void sum_between(const struct blob_walk *w, double lo, double hi,
+                        struct blob_piece *p)
+{
+    const double m = 0.5 * (lo + hi);
     double bend = 0; // -1/radius^2
     double sum = fabs(w->blob->threshold);
+    *p = (struct blob_piece){.c = {-w->blob->threshold}, .m = m, .half = 0.5 * (hi - lo)};
     for (uint32_t i = 0; i < w->count; i++)
         if (w->at[i].lo <= lo && w->at[i].hi >= hi) {
-            sum += add_quartic(&w->at[i], m, c);
+            sum += add_quartic(&w->at[i], m, p->c);
             bend = fmax(bend, fabs(w->at[i].bend));
         }
-    const double lost = GAMMA(8) * sum; // in the sum that became c[0]
+    p->lost = GAMMA(8) * sum; // in the sum that became c[0]
     // A place that is off by e changes s q^2 by up to 4 s e/radius.
-    const double rounding = 16 + 4 * (w->line.noise / ROUNDOFF) * sqrt(bend);
+    p->rounding = 16 + 4 * (w->line.noise / ROUNDOFF) * sqrt(bend);
+}
+
+void blob_walk_over(struct blob_walk *w, const struct blob_piece *p)
+{
+    const double half = p->half, lo = p->m - half;
     struct polynomial_root root[4];
-    const int n = polynomial_roots(c, 4, -half, half, rounding, root);
-    const bool starts_in = n > 0 ? !root[0].rising : c[0] > 0;
+    const int n = polynomial_roots(p->c, 4, -half, half, p->rounding, root);
+    const bool starts_in = n > 0 ? !root[0].rising : p->c[0] > 0;
     if (!w->known)
         w->in = starts_in;
     w->known = true;
     if (starts_in != w->in) // the sign changed near the joint, by rounding
         cross(w, lo,
               GAMMA(64) * (fabs(lo) + half) +
-                  polynomial_root_error(c, 4, -half,
-                                        rounding_at(c, -half, rounding) + lost));
+                  polynomial_root_error(p->c, 4, -half,
+                                        rounding_at(p->c, -half, p->rounding) + p->lost));
     for (int i = 0; i < n; i++)
-        cross(w, m + root[i].t,
-              root[i].dt + polynomial_root_error(c, 4, root[i].t, lost));
+        cross(w, p->m + root[i].t,
+              root[i].dt + polynomial_root_error(p->c, 4, root[i].t, p->lost));
+}
+
+void blob_walk_past(struct blob_walk *w, bool in)
+{
+    w->in = in;
+    w->known = true;
+}
+
+void blob_walk_to(struct blob_walk *w, const struct blob_piece *p, bool in, double t,
+                  double dt)
+{
+    blob_walk_past(w, in);
+    cross(w, p->m + t, dt);
 }
 
 enum { ON_STACK = 64 };
@@ -180,7 +184,7 @@ static uint32_t collect(const struct blob *b, struct vec3 o, struct vec3 d,
     return n;
 }
 
-static void walk_all(struct walk *w, double *end)
+static void begin(struct blob_walk *w, double *end)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < w->count; i++) {
@@ -188,47 +192,72 @@ static void walk_all(struct walk *w, double *end)
         end[n++] = w->at[i].hi;
     }
     sort(end, n);
+    w->end = end;
+    w->next = 1;
     // The first crossing alone: stretches behind the ray's start, and what follows the
     // crossing, are left out.
     const struct blob_line *l = &w->line;
-    const double start = w->first_only ? l->t_min * l->length - l->shift : -HUGE_VAL;
-    const double stop = w->first_only ? l->t_max * l->length - l->shift : HUGE_VAL;
-    for (uint32_t i = 1; i < n; i++) {
-        if (!(end[i - 1] < end[i]))
+    w->start = w->first_only ? l->t_min * l->length - l->shift : -HUGE_VAL;
+    w->stop = w->first_only ? l->t_max * l->length - l->shift : HUGE_VAL;
+}
+
+void blob_walk_begin(struct blob_walk *w, const struct blob *b,
+                     const struct blob_line *line, const struct blob_stretch *at,
+                     uint32_t count, double *end, struct boundary *first)
+{
+    *w = (struct blob_walk){.blob = b,
+                            .at = at,
+                            .count = count,
+                            .in = 0 > b->threshold,
+                            .known = true,
+                            .line = *line,
+                            .first_only = true,
+                            .first = first};
+    begin(w, end);
+}
+
+bool blob_walk_next(struct blob_walk *w, struct blob_piece *piece)
+{
+    const uint32_t n = 2 * w->count;
+    while (w->next < n && !(w->first_only && w->found)) {
+        const double lo = w->end[w->next - 1], hi = w->end[w->next];
+        if (lo > w->stop)
+            return false;
+        w->next++;
+        if (!(lo < hi))
             continue;
-        if (end[i] < start) {
+        if (hi < w->start) {
             w->known = false;
             continue;
         }
-        walk_between(w, end[i - 1], end[i]);
-        if ((w->first_only && w->found) || end[i] > stop)
-            return;
+        if (0.5 * (hi - lo) <= GAMMA(4) * fabs(0.5 * (lo + hi)))
+            continue; // joints that rounding has parted
+        if ((!w->known || !w->in) && is_weak_between(w, lo, hi)) {
+            blob_walk_past(w, false);
+            continue;
+        }
+        sum_between(w, lo, hi, piece);
+        return true;
     }
-    if (w->known && w->in != (0 > w->blob->threshold)) // beyond the last component
-        cross(w, end[n - 1], GAMMA(64) * fabs(end[n - 1]));
+    if (n && w->next == n && !(w->first_only && w->found) && w->known &&
+        w->in != (0 > w->blob->threshold)) // beyond the last component
+        cross(w, w->end[n - 1], GAMMA(64) * fabs(w->end[n - 1]));
+    return false;
 }
 
-bool blob_first(const struct blob *b, const struct blob_line *line,
-                const struct blob_stretch *at, uint32_t count, double *end,
-                struct boundary *out)
+static void walk_all(struct blob_walk *w, double *end)
 {
-    struct walk w = {.blob = b,
-                     .at = at,
-                     .count = count,
-                     .in = 0 > b->threshold,
-                     .known = true,
-                     .line = *line,
-                     .first_only = true,
-                     .first = out};
-    if (count)
-        walk_all(&w, end);
-    return w.found && out->t <= line->t_max;
+    struct blob_piece piece;
+    begin(w, end);
+    while (blob_walk_next(w, &piece))
+        blob_walk_over(w, &piece);
 }
 
 void blob_intersect(const struct blob *b, const struct ray *ray,
                     struct boundary_list *out)
 {
-    struct walk w = {.blob = b, .known = true, .first_only = out->first_only, .out = out};
+    struct blob_walk w = {
+        .blob = b, .known = true, .first_only = out->first_only, .out = out};
     struct blob_line *l = &w.line;
     l->length = vec3_length(ray->d);
     l->t_min = ray->t_min;

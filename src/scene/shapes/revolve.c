@@ -457,46 +457,6 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     alternate(&l, from);
 }
 
-static bool in_range(const struct boundary *b, const struct ray *ray)
-{
-    return b->t > ray->t_min && b->t <= ray->t_max;
-}
-
-bool revolve_first(const struct revolve *r, const struct ray *ray,
-                   const uint32_t *segment, uint32_t count, bool any,
-                   struct boundary *out)
-{
-    enum { ROOM = 8 * REVOLVE_FIRST_MAX + 2 }; // a segment has at most 8 crossings
-    struct boundary room[ROOM];
-    struct boundary_list list = {.at = room, .capacity = ROOM};
-    const struct line l = line_of(r, ray, &list);
-    for (uint32_t i = 0, seen = 0; i < count; i++) {
-        sloped_segment(&l, segment[i]);
-        for (; any && seen < list.count; seen++)
-            if (in_range(&room[seen], ray)) {
-                *out = room[seen];
-                return true;
-            }
-    }
-    if (any && !r->caps_drawn)
-        return false;
-    meet_caps(&l);
-    boundary_list_sort(&list, 0);
-    if (list.count % 2) // as in alternate
-        list.count--;
-    for (uint32_t i = 0; i < list.count; i++) {
-        struct boundary *b = &list.at[i];
-        if (!in_range(b, ray))
-            continue;
-        orient(&l, b, i % 2);
-        if (!b->drawn)
-            continue;
-        *out = *b;
-        return true;
-    }
-    return false;
-}
-
 unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops *ops,
                           const void *shape, const struct shape_rays *rays,
                           unsigned lanes, bool any, struct shape_hits *out)

@@ -18,7 +18,7 @@
 // the same function of (r^2, h) for all segments, changes its sign. Neighbours share
 // their end points bit for bit, so crossings are even in number.
 struct revolve_segment {
-    double h[4], r2[7]; // ascending powers of w
+    double h[4], r2[8]; // ascending powers of w; the last is room
     int h_degree, r2_degree;
     double h_end[2], r2_end[2]; // at w = 0 and 1, shared with the neighbours
     double low, high, most2; // it lies between these heights, within this radius squared
@@ -47,14 +47,6 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
                        struct boundary_list *out);
 // Up to this slope a ray is nearly flat.
 #define REVOLVE_NEARLY_FLAT 0x1p-14
-
-// The first drawn crossing with t_min < t <= t_max of a ray that is not nearly flat, among
-// those with `count` segments, in rising order, and the caps. The line meets no other segment.
-// any: the t of any such crossing will do.
-bool revolve_first(const struct revolve *r, const struct ray *ray,
-                   const uint32_t *segment, uint32_t count, bool any,
-                   struct boundary *out);
-enum { REVOLVE_FIRST_MAX = 12 }; // segments that it takes
 
 // closest8 of a lathe and a sor.
 unsigned revolve_closest8(const struct shape_kernels *k, const struct shape_ops *ops,
