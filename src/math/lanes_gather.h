@@ -20,6 +20,18 @@ LANES_INLINE struct real8 r8_gather(const double *p, struct real8 at)
 #endif
 }
 
+// Of a table of 16, by indices below 16.
+LANES_INLINE struct real8 r8_lookup16(const double *table, struct real8 at)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    return (struct real8){_mm512_permutex2var_pd(_mm512_loadu_pd(table),
+                                                 _mm512_cvttpd_epi64(at.a),
+                                                 _mm512_loadu_pd(table + 8))};
+#else
+    return r8_gather(table, at);
+#endif
+}
+
 // The same of floats: those, and those behind them.
 #if defined(__AVX2__)
 LANES_INLINE void r4_gather_floats(const float *p, __m256d at, __m256d *x, __m256d *y)

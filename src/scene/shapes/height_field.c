@@ -88,6 +88,51 @@ static void make_levels(struct height_field *f, struct arena *arena)
     f->high = (double)f->level[f->top].range[0][1] / HEIGHT_UNIT;
 }
 
+// The mean of the normals of the triangles with a sample as their corner of the right angle, in
+// the shape's space. Beyond the field's edge there is no triangle: its weight is 0. Loops over
+// all are what compilers take in lanes.
+static void sample_normal(const struct height_field *f, int i, int j, double n[3])
+{
+    const int w = f->h.width, d = f->h.height;
+    const double h = value(f, i, j);
+    const bool left = i > 0, right = i + 1 < w, front = j > 0, back = j + 1 < d;
+    const double a[2] = {right ? h - value(f, i + 1, j) : 0,
+                         left ? value(f, i - 1, j) - h : 0};
+    const double b[2] = {back ? h - value(f, i, j + 1) : 0,
+                         front ? value(f, i, j - 1) - h : 0};
+    const double weight[4] = {right && back, left && back, right && front, left && front};
+    double x[4], y[4], z[4], sum[3] = {0};
+    for (int q = 0; q < 4; q++) {
+        const double u = a[q & 1], v = b[q >> 1];
+        y[q] = weight[q] / sqrt(u * u + 1 + v * v);
+        x[q] = y[q] * u;
+        z[q] = y[q] * v;
+    }
+    for (int q = 0; q < 4; q++) {
+        sum[0] += x[q];
+        sum[1] += y[q];
+        sum[2] += z[q];
+    }
+    n[0] = sum[0] * (w - 1);
+    n[1] = sum[1] * HEIGHT_UNIT;
+    n[2] = sum[2] * (d - 1);
+    const double by = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++)
+        n[k] *= by;
+}
+
+enum { NORMALS_MAX = 1 << 20 }; // 24 bytes each
+
+static void make_normals(struct height_field *f, struct arena *arena)
+{
+    const size_t w = (size_t)f->h.width, all = w * (size_t)f->h.height;
+    if (!f->smooth || all > NORMALS_MAX)
+        return;
+    f->normal = arena_alloc(arena, all * sizeof *f->normal);
+    for (size_t k = 0; k < all; k++)
+        sample_normal(f, (int)(k % w), (int)(k / w), f->normal[k]);
+}
+
 // The picture's bottom row lies at z = 0.
 static bool read_heights(struct height_field *f, struct args *args)
 {
@@ -130,6 +175,7 @@ static bool build(void *shape, struct args *args)
         }
     }
     make_levels(f, args_arena(args));
+    make_normals(f, args_arena(args));
     f->water = fmax(f->low, water) - 0.001 / HEIGHT_UNIT;
     f->under_water = f->water > f->low;
     return true;
@@ -380,11 +426,12 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     return k->height_field(shape, rays, lanes, any, out);
 }
 
-// Lanes number samples by 31 bits.
+// Lanes number samples by 31 bits and have the levels in a small table.
 static bool has_lanes(const void *shape)
 {
     const struct height_field *f = shape;
-    return (size_t)f->h.width * (size_t)f->h.height < (size_t)1 << 30;
+    return f->top < HEIGHT_LANE_LEVELS &&
+           (size_t)f->h.width * (size_t)f->h.height < (size_t)1 << 30;
 }
 
 // ---- the rest -------------------------------------------------------------------------
@@ -418,55 +465,6 @@ static bool inside(const void *shape, struct vec3 p)
     return p.y < fmax(y / HEIGHT_UNIT, f->water);
 }
 
-// The means of the normals of the triangles at the samples of a cell's corners: at
-// n[axis][corner], in the shape's space. Beyond the field's edge there is no triangle: its
-// weight is 0. Loops over all are what compilers take in lanes.
-static void corner_normals(const struct height_field *f, int i, int j, double n[3][4])
-{
-    double h[4][4], a[16], b[16], weight[16];
-    const int w = f->h.width, d = f->h.height;
-    const bool left = i > 0, right = i + 2 < w, front = j > 0, back = j + 2 < d;
-    for (int r = 0; r < 4; r++) {
-        const int z = r == 0 && !front ? j : r == 3 && !back ? j + 1 : j + r - 1;
-        const float *row = f->h.at + (size_t)z * (size_t)w + i;
-        h[r][0] = (double)row[left ? -1 : 0];
-        h[r][1] = (double)row[0];
-        h[r][2] = (double)row[1];
-        h[r][3] = (double)row[right ? 2 : 1];
-    }
-    // Of the corner k the triangles q: beyond it or before it along x, along z.
-    const double at_x[2][2] = {{1, left}, {right, 1}},
-                 at_z[2][2] = {{1, front}, {back, 1}};
-    for (int q = 0; q < 4; q++)
-        for (int k = 0; k < 4; k++) {
-            const int kx = k & 1, kz = k >> 1, x = kx + 1 - (q & 1),
-                      z = kz + 1 - (q >> 1);
-            a[4 * q + k] = h[kz + 1][x] - h[kz + 1][x + 1];
-            b[4 * q + k] = h[z][kx + 1] - h[z + 1][kx + 1];
-            weight[4 * q + k] = at_x[kx][q & 1] * at_z[kz][q >> 1];
-        }
-    for (int k = 0; k < 16; k++)
-        weight[k] /= sqrt(a[k] * a[k] + 1 + b[k] * b[k]);
-    for (int k = 0; k < 4; k++) {
-        double x = 0, y = 0, z = 0;
-        for (int q = k; q < 16; q += 4) {
-            x += weight[q] * a[q];
-            y += weight[q];
-            z += weight[q] * b[q];
-        }
-        n[0][k] = x * (w - 1);
-        n[1][k] = y * HEIGHT_UNIT;
-        n[2][k] = z * (d - 1);
-    }
-    for (int k = 0; k < 4; k++) {
-        const double by =
-            1 / sqrt(n[0][k] * n[0][k] + n[1][k] * n[1][k] + n[2][k] * n[2][k]);
-        n[0][k] *= by;
-        n[1][k] *= by;
-        n[2][k] *= by;
-    }
-}
-
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -486,11 +484,17 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
         return;
     const double u = fmax(0, fmin(1, p.x * sx - i)), v = fmax(0, fmin(1, p.z * sz - j));
     const double share[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    double corner_n[3][4];
     struct vec3 s = {0, 0, 0};
-    corner_normals(f, i, j, corner_n);
-    for (int k = 0; k < 4; k++)
-        s = vec3_mad(s, share[k], vec3(corner_n[0][k], corner_n[1][k], corner_n[2][k]));
+    for (int k = 0; k < 4; k++) {
+        const int ci = i + (k & 1), cj = j + (k >> 1);
+        double made[3];
+        const double *c = made;
+        if (f->normal)
+            c = f->normal[(size_t)cj * (size_t)f->h.width + (size_t)ci];
+        else
+            sample_normal(f, ci, cj, made);
+        s = vec3_mad(s, share[k], vec3(c[0], c[1], c[2]));
+    }
     out->ns = vec3_normalize(s);
 }
 

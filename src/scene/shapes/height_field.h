@@ -21,7 +21,7 @@ struct height_level {
     float (*range)[2];
 };
 
-enum { HEIGHT_LEVELS = 20 };
+enum { HEIGHT_LEVELS = 32, HEIGHT_LANE_LEVELS = 16 }; // the latter: that lanes take
 
 struct height_field {
     struct heights h;
@@ -31,6 +31,7 @@ struct height_field {
     float (*ranges)[2];
     double level_from[HEIGHT_LEVELS], level_width[HEIGHT_LEVELS];
     double low, high, water; // in the shape's space
+    double (*normal)[3];     // of `smooth`, at the samples; NULL: too many, made when asked for
     bool smooth, under_water;
 };
 

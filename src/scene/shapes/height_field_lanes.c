@@ -66,9 +66,9 @@ LANES_INLINE unsigned pass_by(struct over8 *w, const struct leave8 *e, unsigned 
     const struct height_field *f = w->f;
     const struct mask8 here = m8_of(lanes);
     const struct real8 level = r8_select(here, w->level, r8_set(1));
-    const struct real8 width = r8_gather(f->level_width, level);
+    const struct real8 width = r8_lookup16(f->level_width, level);
     const struct real8 at =
-        r8_add(r8_gather(f->level_from, level), r8_add(r8_mul(w->j, width), w->i));
+        r8_add(r8_lookup16(f->level_from, level), r8_add(r8_mul(w->j, width), w->i));
     struct real8 low, high;
     r8_gather_floats(f->ranges[0], r8_select(here, r8_add(at, at), r8_set(0)), &low,
                      &high);
