@@ -8,6 +8,8 @@
 #include "irradiance/fill.h"
 #include "math/elementary.h"
 #include "math/halton.h"
+#include "trace/accel.h"
+#include "trace/packet.h"
 
 // About y, with density proportional to the cosine (spec/lighting.md 12.3).
 static void directions_init(struct irradiance_cache *c)
@@ -73,7 +75,7 @@ struct irradiance_cache *irradiance_cache_new(const struct world *w,
     c->settings = &w->scene->settings.radiosity_settings;
     c->depths = (uint32_t)c->settings->recursion_limit;
     c->eye = w->scene->has_camera ? w->scene->camera.location : camera_default.location;
-    store_init(&c->store);
+    store_init(&c->store, w->accel->kernels->name);
     directions_init(c);
     jobs_init(c, w, settings);
     if (!irradiance_fill(c, settings, watch, report)) {

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "irradiance/fill.h"
+#include "irradiance/store_kernel.h"
 
 enum { SQUARE = 32 }; // side of the squares that know nothing of each other in a pass
 
@@ -111,7 +112,7 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
         const uint32_t i = p->order[p->done + k];
         const int x0 = p->settings->col_begin + SQUARE * (int)(i % across),
                   y0 = p->settings->row_begin + SQUARE * (int)(i / across);
-        store_init(&p->fresh[i]);
+        store_init(&p->fresh[i], p->cache->store.kernels->name);
         s->gatherer->fresh = &p->fresh[i];
         gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
         const uint64_t before = gatherer_rays(s->gatherer);

@@ -1,5 +1,6 @@
 #include "irradiance/gather.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -273,22 +274,24 @@ static double required(const struct gatherer *g, uint32_t depth)
 // Four samples in the right place count as one of weight 4.
 static const double sample_weight = 4;
 
-static bool is_enough(const struct gatherer *g, uint32_t depth, double weight)
+// The least sum of weights with which no sample is taken.
+static double enough(const struct gatherer *g, uint32_t depth)
 {
     if (g->final && !g->cache->settings->always_sample)
-        return weight > 0;
-    return sample_weight * weight >= required(g, depth);
+        return DBL_TRUE_MIN;
+    return required(g, depth) / sample_weight;
 }
 
 bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s)
 {
     const struct gatherer before = {.cache = c};
-    const struct cache_point at = {s->p, s->n, error_bound(&before, s->depth, 1),
-                                   s->depth, false};
+    const double least = enough(&before, s->depth);
+    const struct cache_point at = {s->p,     s->n,  error_bound(&before, s->depth, 1),
+                                   s->depth, false, least};
     struct cache_mean mean = {0};
     if (c->store.count)
         store_mean(&c->store, &at, &mean);
-    return !is_enough(&before, s->depth, mean.weight);
+    return mean.weight < least;
 }
 
 static struct rgb shown(const struct radiosity_settings *s, const struct cache_mean *mean)
@@ -323,20 +326,27 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
     struct gather_level *l = state;
     const struct gatherer *g = l->owner;
     (void)t;
-    const struct cache_point at = {q->at->p, q->n, error_bound(g, l->depth, q->weight),
-                                   l->depth, g->final && l->depth == 0};
+    // Before the picture nobody looks at what the camera sees: samples are all it asks for.
+    const bool scouts = g->fresh && l->depth == 0;
+    const double least = enough(g, l->depth);
+    const struct cache_point at = {q->at->p,
+                                   q->n,
+                                   error_bound(g, l->depth, q->weight),
+                                   l->depth,
+                                   g->final && l->depth == 0,
+                                   scouts ? least : INFINITY};
     struct cache_mean mean = {0};
     if (c->store.count)
         store_mean(&c->store, &at, &mean);
-    if (g->fresh && g->fresh->count)
+    if (g->fresh && g->fresh->count && mean.weight < at.enough)
         store_mean(g->fresh, &at, &mean);
     // After a cancel nobody looks at the light; a sample may take many seconds.
-    if (!is_enough(g, l->depth, mean.weight) && !(c->cancel && *c->cancel)) {
+    if (mean.weight < least && !(c->cancel && *c->cancel)) {
         struct cache_sample fresh;
         if (!g->fresh)
             l->next = q->hash % c->direction_count;
         take_sample(l, q, &fresh);
-        const double w = (double)fresh.quality;
+        const double w = fresh.quality;
         mean.weight += w;
         mean.light[0] += w * (double)fresh.light.r;
         mean.light[1] += w * (double)fresh.light.g;

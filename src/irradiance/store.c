@@ -1,13 +1,26 @@
-#include "irradiance/store.h"
+#include "irradiance/store_kernel.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-void store_init(struct store *s)
+static const struct store_kernels *kernels_named(const char *isa)
 {
-    *s = (struct store){0};
+#ifdef LAMBERT_X86
+    if (strcmp(isa, store_kernels_avx512.name) == 0)
+        return &store_kernels_avx512;
+    if (strcmp(isa, store_kernels_avx2.name) == 0)
+        return &store_kernels_avx2;
+#else
+    (void)isa;
+#endif
+    return &store_kernels_base;
+}
+
+void store_init(struct store *s, const char *isa)
+{
+    *s = (struct store){.kernels = kernels_named(isa)};
     for (int i = 0; i < STORE_DEPTHS; i++) {
         s->size_low[i] = INT16_MAX;
         s->size_high[i] = INT16_MIN;
@@ -17,14 +30,11 @@ void store_init(struct store *s)
 void store_free(struct store *s)
 {
     free(s->sample);
-    free(s->link);
+    free(s->filed);
     free(s->cell);
 }
 
 // ---- weights ----------------------------------------------------------------------------
-
-// The spec's own constants (spec/lighting.md 12.5).
-static const double same_place = 1e-6, behind = -0.05, least_weight = 0.001;
 
 static double falloff(double error, const struct cache_point *at)
 {
@@ -46,22 +56,22 @@ double cache_weight(const struct cache_sample *s, const struct cache_point *at)
     if (distance >= s->radius * at->error_bound)
         return 0;
     double radius = s->radius, front = 1;
-    if (distance > same_place) {
+    if (distance > cache_same_place) {
         const struct vec3 way = vec3_scale(1 / distance, d);
         const double nearing = vec3_dot(s->to, way);
         if (nearing > 0)
             radius = nearing * s->nearest + (1 - nearing) * radius;
         front = vec3_dot(way, vec3_normalize(vec3_add(at->n, s->n)));
     }
-    if (distance >= radius * at->error_bound || !(front > behind))
+    if (distance >= radius * at->error_bound || !(front > cache_behind))
         return 0;
     const double error = distance / radius + 2 * sqrt(turned);
     if (!(error < at->error_bound))
         return 0;
     double weight = falloff(error, at);
     if (front <= 0)
-        weight *= 1 - front / behind;
-    return weight <= least_weight ? 0 : weight * (double)s->quality;
+        weight *= 1 - front / cache_behind;
+    return weight <= cache_least_weight ? 0 : weight * s->quality;
 }
 
 // ---- cells ------------------------------------------------------------------------------
@@ -88,7 +98,7 @@ static struct cache_cell *cell_slot(const struct store *s, const struct cache_ce
 {
     const uint32_t mask = s->cell_capacity - 1;
     for (uint32_t i = cell_hash(c) >> 7 & mask;; i = (i + 1) & mask)
-        if (!s->cell[i].state || same_cell(&s->cell[i], c))
+        if (!s->cell[i].count || same_cell(&s->cell[i], c))
             return &s->cell[i];
 }
 
@@ -109,61 +119,84 @@ static void cells_grow(struct store *s)
     if (!s->cell)
         abort();
     for (uint32_t i = 0; i < old.cell_capacity; i++)
-        if (old.cell[i].state)
+        if (old.cell[i].count)
             *cell_slot(s, &old.cell[i]) = old.cell[i];
     free(old.cell);
+}
+
+// A cell's part of `filed` has room for a power of two; when that is used up, the cell
+// moves to one twice as large behind all others.
+static void cell_move(struct store *s, struct cache_cell *c)
+{
+    enum { FEWEST = 2 };
+    const uint32_t room = c->count ? 2 * c->count : FEWEST;
+    while (s->filed_capacity - s->filed_count < room)
+        s->filed = grown(s->filed, &s->filed_capacity, sizeof *s->filed);
+    if (c->count)
+        memcpy(s->filed + s->filed_count, s->filed + c->first,
+               c->count * sizeof *s->filed);
+    c->first = s->filed_count;
+    s->filed_count += room;
+}
+
+static bool is_used_up(uint32_t count)
+{
+    return count != 1 && (count & (count - 1)) == 0;
 }
 
 static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
 {
     if (2 * (s->cell_count + 1) > s->cell_capacity)
         cells_grow(s);
-    if (s->link_count == s->link_capacity)
-        s->link = grown(s->link, &s->link_capacity, sizeof *s->link);
     struct cache_cell *c = cell_slot(s, &at);
-    if (!c->state) {
+    if (!c->count) {
         *c = at;
-        c->first = STORE_END;
-        c->state = 1;
         s->cell_count++;
     }
-    const struct cache_sample *x = &s->sample[sample];
-    s->link[s->link_count] = (struct cache_link){x->p, x->radius, sample, c->first};
-    c->first = s->link_count++;
+    if (is_used_up(c->count))
+        cell_move(s, c);
+    s->filed[c->first + c->count++] = sample;
 }
 
 // Far from the origin, places of small cells leave the range of integers: such cells all
 // lie at its end, which costs time only.
-static int32_t place_of(double x, int size)
+static int32_t place_of(double x, double cells_per_unit)
 {
-    const double p = floor(ldexp(x, -size));
-    return p < -2e9 ? -2000000000 : p > 2e9 ? 2000000000 : (int32_t)p;
+    static const double most = 2e9;
+    const double p = x * cells_per_unit;
+    if (!(fabs(p) < most))
+        return p < 0 ? (int32_t)-most : (int32_t)most;
+    const int32_t towards_nought = (int32_t)p;
+    return towards_nought - (p < towards_nought);
 }
 
 void store_add(struct store *s, const struct cache_sample *sample)
 {
+    enum { SIZE_LEAST = -1000 }; // its inverse is a number, too
     const double reach = sample->reach;
     if (s->count == s->capacity)
         s->sample = grown(s->sample, &s->capacity, sizeof *s->sample);
     s->sample[s->count] = *sample;
     int size;
     frexp(reach, &size);
-    if (size < INT16_MIN / 2)
-        size = INT16_MIN / 2;
+    if (size < SIZE_LEAST)
+        size = SIZE_LEAST;
     const uint32_t depth = sample->depth;
     if (size < s->size_low[depth])
         s->size_low[depth] = (int16_t)size;
     if (size > s->size_high[depth])
         s->size_high[depth] = (int16_t)size;
+    const double scale = ldexp(1, -size);
     const struct vec3 r = vec3(reach, reach, reach);
     const struct vec3 a = vec3_sub(sample->p, r), b = vec3_add(sample->p, r);
-    for (int32_t z = place_of(a.z, size); z <= place_of(b.z, size); z++)
-        for (int32_t y = place_of(a.y, size); y <= place_of(b.y, size); y++)
-            for (int32_t x = place_of(a.x, size); x <= place_of(b.x, size); x++)
-                cell_put(
-                    s,
-                    (struct cache_cell){{x, y, z}, (int16_t)size, (uint16_t)depth, 0, 1},
-                    s->count);
+    for (int32_t z = place_of(a.z, scale); z <= place_of(b.z, scale); z++)
+        for (int32_t y = place_of(a.y, scale); y <= place_of(b.y, scale); y++)
+            for (int32_t x = place_of(a.x, scale); x <= place_of(b.x, scale); x++)
+                cell_put(s,
+                         (struct cache_cell){.place = {x, y, z},
+                                             .size = (int16_t)size,
+                                             .depth = (uint16_t)depth},
+                         s->count);
     s->count++;
 }
 
@@ -171,29 +204,14 @@ void store_mean(const struct store *s, const struct cache_point *at,
                 struct cache_mean *mean)
 {
     for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth]; size++) {
-        const struct cache_cell key = {
-            {place_of(at->p.x, size), place_of(at->p.y, size), place_of(at->p.z, size)},
-            (int16_t)size,
-            (uint16_t)at->depth,
-            0,
-            1};
+        const double scale = ldexp(1, -size);
+        const struct cache_cell key = {.place = {place_of(at->p.x, scale),
+                                                 place_of(at->p.y, scale),
+                                                 place_of(at->p.z, scale)},
+                                       .size = (int16_t)size,
+                                       .depth = (uint16_t)at->depth};
         const struct cache_cell *c = cell_slot(s, &key);
-        if (!c->state)
-            continue;
-        for (uint32_t i = c->first; i != STORE_END; i = s->link[i].next) {
-            const struct cache_link *link = &s->link[i];
-            const struct vec3 d = vec3_sub(at->p, link->p);
-            const double limit = link->radius * at->error_bound;
-            if (vec3_dot(d, d) >= limit * limit)
-                continue;
-            const struct cache_sample *x = &s->sample[link->sample];
-            const double w = cache_weight(x, at);
-            if (!(w > 0))
-                continue;
-            mean->weight += w;
-            mean->light[0] += w * (double)x->light.r;
-            mean->light[1] += w * (double)x->light.g;
-            mean->light[2] += w * (double)x->light.b;
-        }
+        if (!s->kernels->mean(s->sample, s->filed + c->first, c->count, at, mean))
+            return;
     }
 }

@@ -1,0 +1,148 @@
+// Weights of eight samples at a time, compiled once per instruction set. Each expression is
+// that of cache_weight, in the same order: the bits are the same.
+#include "irradiance/store_kernel.h"
+
+#include "math/isa.h"
+#include "math/lanes.h"
+
+// What is asked for, in every lane.
+struct asked {
+    struct vec8 p, n;
+    struct real8 bound, bound2;
+    bool smooth;
+};
+
+static void rows_of(const struct cache_sample *sample, const uint32_t *k, uint32_t count,
+                    const double *row[8])
+{
+    for (uint32_t i = 0; i < 8; i++)
+        row[i] = sample[k[i < count ? i : 0]].row;
+}
+
+// Which of eight samples may count: neither too far nor turned too much.
+LANES_INLINE unsigned may_count(const struct asked *a, const double *const row[8])
+{
+    struct real8 r[4], q[4];
+    r8_load_rows(row, 0, r);
+    r8_load_rows(row, 4, q);
+    const struct vec8 d = v8_sub(a->p, (struct vec8){r[0], r[1], r[2]});
+    const struct real8 limit = r8_mul(r[3], a->bound);
+    const struct real8 turned =
+        r8_abs(r8_sub(r8_set(1), v8_dot(a->n, (struct vec8){q[0], q[1], q[2]})));
+    return m8_bits(m8_and(r8_lt(v8_dot(d, d), r8_mul(limit, limit)),
+                          r8_lt(r8_mul(r8_set(4), turned), a->bound2)));
+}
+
+LANES_INLINE struct real8 falloff8(struct real8 error, const struct asked *a)
+{
+    const struct real8 one = r8_set(1), half = r8_set(0.5), two = r8_set(2);
+    const struct real8 x = r8_div(error, a->bound);
+    if (!a->smooth)
+        return r8_sub(one, x);
+    const struct mask8 low = r8_lt(x, half);
+    const struct real8 y = r8_select(low, r8_mul(two, x), r8_mul(two, r8_sub(one, x)));
+    const struct real8 part = r8_div(r8_mul(y, y), two);
+    return r8_select(low, r8_sub(one, part), part);
+}
+
+LANES_INLINE struct vec8 v8_scale(struct real8 s, struct vec8 v)
+{
+    return (struct vec8){r8_mul(s, v.x), r8_mul(s, v.y), r8_mul(s, v.z)};
+}
+
+// The sum of two unit vectors, made unit; nought where it is nought.
+LANES_INLINE struct vec8 middle_of(struct vec8 a, struct vec8 b)
+{
+    struct vec8 m = {r8_add(a.x, b.x), r8_add(a.y, b.y), r8_add(a.z, b.z)};
+    const struct real8 nought = r8_set(0), length = r8_sqrt(v8_dot(m, m));
+    const struct real8 by = r8_select(r8_lt(nought, length), length, r8_set(1));
+    return (struct vec8){r8_div(m.x, by), r8_div(m.y, by), r8_div(m.z, by)};
+}
+
+// cache_weight of eight samples.
+LANES_INLINE struct real8 weights(const struct asked *a, const double *const row[8])
+{
+    const struct real8 nought = r8_set(0), one = r8_set(1), two = r8_set(2);
+    struct real8 r[4], q[4], s[4];
+    r8_load_rows(row, 0, r);
+    r8_load_rows(row, 4, q);
+    r8_load_rows(row, 8, s);
+    const struct vec8 n = {q[0], q[1], q[2]}, to = {s[0], s[1], s[2]};
+    const struct vec8 d = v8_sub(a->p, (struct vec8){r[0], r[1], r[2]});
+    const struct real8 turned = r8_abs(r8_sub(one, v8_dot(a->n, n)));
+    struct mask8 on = r8_lt(r8_mul(r8_set(4), turned), a->bound2);
+    const struct real8 distance = r8_sqrt(v8_dot(d, d));
+    on = m8_and(on, r8_lt(distance, r8_mul(r[3], a->bound)));
+    const struct mask8 apart = r8_lt(r8_set(cache_same_place), distance);
+    const struct vec8 way = v8_scale(r8_div(one, distance), d);
+    const struct real8 nearing = v8_dot(to, way);
+    const struct real8 nearer =
+        r8_add(r8_mul(nearing, q[3]), r8_mul(r8_sub(one, nearing), r[3]));
+    const struct real8 radius =
+        r8_select(m8_and(apart, r8_lt(nought, nearing)), nearer, r[3]);
+    const struct real8 front = r8_select(apart, v8_dot(way, middle_of(a->n, n)), one);
+    on = m8_and(on, r8_lt(distance, r8_mul(radius, a->bound)));
+    on = m8_and(on, r8_lt(r8_set(cache_behind), front));
+    const struct real8 error =
+        r8_add(r8_div(distance, radius), r8_mul(two, r8_sqrt(turned)));
+    on = m8_and(on, r8_lt(error, a->bound));
+    const struct real8 full = falloff8(error, a);
+    const struct real8 less =
+        r8_mul(full, r8_sub(one, r8_div(front, r8_set(cache_behind))));
+    const struct real8 weight = r8_select(r8_le(front, nought), less, full);
+    on = m8_and(on, r8_lt(r8_set(cache_least_weight), weight));
+    return r8_select(on, r8_mul(weight, s[3]), nought);
+}
+
+// Adds at most eight samples in their order; false: that is enough.
+static bool add(const struct cache_sample *sample, const uint32_t *k, uint32_t count,
+                const struct asked *a, double enough, struct cache_mean *mean)
+{
+    const double *row[8];
+    double weight[8];
+    rows_of(sample, k, count, row);
+    r8_store(weight, weights(a, row));
+    for (uint32_t i = 0; i < count; i++) {
+        const double w = weight[i];
+        const struct rgb *light = &sample[k[i]].light;
+        if (!(w > 0))
+            continue;
+        mean->weight += w;
+        mean->light[0] += w * (double)light->r;
+        mean->light[1] += w * (double)light->g;
+        mean->light[2] += w * (double)light->b;
+        if (mean->weight >= enough)
+            return false;
+    }
+    return true;
+}
+
+static bool mean_of(const struct cache_sample *sample, const uint32_t *filed,
+                    uint32_t count, const struct cache_point *at, struct cache_mean *mean)
+{
+    const double bound = at->error_bound;
+    const struct asked a = {V8_SET(at->p), V8_SET(at->n), r8_set(bound),
+                            r8_set(bound * bound), at->smooth};
+    uint32_t some[16], waiting = 0;
+    for (uint32_t end = count, n; end; end -= n) {
+        const double *row[8];
+        n = end < 8 ? end : 8;
+        rows_of(sample, filed + end - n, n, row);
+        unsigned good = may_count(&a, row) & ((1u << n) - 1);
+        while (good) { // the last first
+            const int i = 31 - __builtin_clz(good);
+            good ^= 1u << i;
+            some[waiting++] = filed[end - n + (uint32_t)i];
+        }
+        if (waiting < 8)
+            continue;
+        if (!add(sample, some, 8, &a, at->enough, mean))
+            return false;
+        waiting -= 8;
+        for (uint32_t i = 0; i < waiting; i++)
+            some[i] = some[8 + i];
+    }
+    return !waiting || add(sample, some, waiting, &a, at->enough, mean);
+}
+
+const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, mean_of};

@@ -1,0 +1,147 @@
+// Samples of irradiance are found where they lie, and every instruction set weighs them to
+// the bit as the rule does.
+#include "test.h"
+
+#include <stdlib.h>
+
+#include "irradiance/store.h"
+#include "trace/packet.h"
+
+enum { SAMPLES = 400, POINTS = 2000 };
+
+static uint64_t random_state;
+
+static double between(double low, double high)
+{
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * (double)(random_state >> 11) * 0x1p-53;
+}
+
+static struct vec3 some_point(double size)
+{
+    const double x = between(-size, size), y = between(-size, size);
+    return vec3(x, y, between(-size, size));
+}
+
+static struct vec3 some_normal(void)
+{
+    // Most are nearly upright, so that samples agree about them.
+    const struct vec3 n = some_point(between(0, 1) < 0.2 ? 1 : 0.1);
+    return vec3_normalize(vec3_add(n, vec3(0, 1, 0)));
+}
+
+static struct cache_sample some_sample(double bound)
+{
+    struct cache_sample s = {.p = some_point(0.7), .n = some_normal()};
+    s.radius = exp(between(-4, 0));
+    s.nearest = between(0, 1) < 0.1 ? INFINITY : s.radius * between(0.1, 1);
+    s.to = s.nearest < INFINITY ? vec3_normalize(some_point(1)) : vec3(0, 0, 0);
+    s.quality = between(0, 1) < 0.2 ? 1 : between(0, 1);
+    s.light = rgb((float)between(0, 1), (float)between(0, 1), (float)between(0, 1));
+    s.depth = between(0, 1) < 0.5;
+    s.reach = s.radius * bound;
+    return s;
+}
+
+static struct cache_point some_place(const struct cache_sample *s, double bound)
+{
+    struct cache_point at = {.error_bound = bound * between(0.3, 1),
+                             .depth = s->depth,
+                             .smooth = between(0, 1) < 0.5,
+                             .enough = INFINITY};
+    at.p = vec3_add(s->p, some_point(between(0, 1) < 0.1 ? 1e-7 : s->radius));
+    at.n = some_normal();
+    return at;
+}
+
+// Every instruction set that the machine has: packet_kernels_choose takes the one that is
+// named, or the best.
+static bool isa_present(const char *name)
+{
+    setenv("LAMBERT_ISA", name, 1);
+    const bool present = strcmp(packet_kernels_choose()->name, name) == 0;
+    unsetenv("LAMBERT_ISA");
+    return present;
+}
+
+static const char *const isas[] = {"base", "avx2", "avx512"};
+
+static void test_weight_of_one(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        if (!isa_present(isas[k]))
+            continue;
+        uint32_t heard = 0;
+        random_state = 1;
+        for (int i = 0; i < POINTS; i++) {
+            struct store s;
+            const double bound = between(0.1, 2);
+            const struct cache_sample x = some_sample(bound);
+            const struct cache_point at = some_place(&x, bound);
+            const double want = cache_weight(&x, &at);
+            struct cache_mean mean = {0};
+            store_init(&s, isas[k]);
+            store_add(&s, &x);
+            store_mean(&s, &at, &mean);
+            assert_true(mean.weight == want);
+            assert_true(mean.light[1] == (want > 0 ? want * (double)x.light.g : 0));
+            heard += want > 0;
+            store_free(&s);
+        }
+        assert_true(heard > POINTS / 10 && heard < POINTS);
+    }
+}
+
+// All of many samples are found, and in one order.
+static void test_sum_of_many(void **state)
+{
+    const double bound = 0.8;
+    struct cache_sample sample[SAMPLES];
+    struct store s[3];
+    (void)state;
+    random_state = 2;
+    for (int i = 0; i < SAMPLES; i++)
+        sample[i] = some_sample(bound);
+    for (int k = 0; k < 3; k++) {
+        store_init(&s[k], isa_present(isas[k]) ? isas[k] : isas[0]);
+        for (int i = 0; i < SAMPLES; i++)
+            store_add(&s[k], &sample[i]);
+    }
+    uint32_t crowded = 0;
+    for (int i = 0; i < POINTS; i++) {
+        struct cache_point at = some_place(&sample[i % SAMPLES], bound);
+        struct cache_mean mean[3] = {0};
+        double weight = 0;
+        uint32_t heard = 0;
+        for (int j = 0; j < SAMPLES; j++) {
+            const double w =
+                sample[j].depth == at.depth ? cache_weight(&sample[j], &at) : 0;
+            weight += w;
+            heard += w > 0;
+        }
+        for (int k = 0; k < 3; k++)
+            store_mean(&s[k], &at, &mean[k]);
+        assert_near(mean[0].weight, weight, SAMPLES * 0x1p-52 * weight);
+        assert_memory_equal(&mean[0], &mean[1], sizeof mean[0]);
+        assert_memory_equal(&mean[0], &mean[2], sizeof mean[0]);
+        crowded += heard > 8;
+        if (!(weight > 0))
+            continue;
+        // Half of it is enough: no more is added than what exceeds it.
+        struct cache_mean half = {0};
+        at.enough = weight / 2;
+        store_mean(&s[0], &at, &half);
+        assert_true(half.weight >= at.enough && half.weight <= mean[0].weight);
+    }
+    assert_true(crowded > POINTS / 20);
+    for (int k = 0; k < 3; k++)
+        store_free(&s[k]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weight_of_one),
+                                       cmocka_unit_test(test_sum_of_many)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
