@@ -300,9 +300,19 @@ static void list_products(struct arena *a, const struct world *w, struct accel *
     }
 }
 
-// clear_only: without the objects that are wholly opaque.
+static bool is_of_part(const struct world *w, const struct world_object *o,
+                       enum accel_part part)
+{
+    if (o->opaque || part == ACCEL_WHOLE)
+        return part != ACCEL_CLEAR;
+    bool any = part == ACCEL_CLEAR;
+    for (uint32_t i = 0; i < o->leaf_count && !any; i++)
+        any = w->surface[w->leaf[o->first_leaf + i].surface].opaque;
+    return any;
+}
+
 static void build_top(struct arena *a, const struct world *w, struct accel *accel,
-                      bool clear_only)
+                      enum accel_part part)
 {
     struct aabb *box = malloc((w->object_count + 1) * sizeof *box);
     uint32_t *object = malloc((w->object_count + 1) * sizeof *object);
@@ -314,7 +324,7 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
     accel->infinite = arena_new_array(a, uint32_t, infinite + 1);
     for (uint32_t i = 0; i < w->object_count; i++) {
         const struct world_object *o = &w->object[i];
-        if (aabb_is_empty(o->bounds) || (clear_only && o->opaque))
+        if (aabb_is_empty(o->bounds) || !is_of_part(w, o, part))
             continue;
         if (aabb_is_finite(o->bounds)) {
             box[n] = aabb_pad(o->bounds);
@@ -360,20 +370,21 @@ struct accel *accel_build(struct arena *a, const struct world *w)
     classify(a, w, accel);
     list_products(a, w, accel);
     build_large(a, w, accel);
-    build_top(a, w, accel, false);
+    build_top(a, w, accel, ACCEL_WHOLE);
     list_lone_spheres(a, w, accel);
     accel->few = is_few(accel);
     accel->kernels = packet_kernels_choose();
     return accel;
 }
 
-struct accel *accel_build_clear(struct arena *a, const struct world *w)
+struct accel *accel_build_part(struct arena *a, const struct world *w,
+                               enum accel_part part)
 {
     struct accel *accel = arena_new_struct(a, struct accel);
     *accel = *w->accel;
     accel->infinite_count = 0;
     accel->lone_flags = 0;
-    build_top(a, w, accel, true);
+    build_top(a, w, accel, part);
     list_lone_spheres(a, w, accel);
     accel->few = is_few(accel);
     return accel;

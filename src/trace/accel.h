@@ -22,8 +22,8 @@ enum packet_shape {
     PACKET_LANES,   // the shape takes eight rays itself
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE,  // of objects: an intersection of few solids less many spheres
-    PACKET_CARVED   // of objects: an intersection of a PACKET_LANES with what may be part of a
-                    // product (trace/carve.h)
+    PACKET_CARVED // of objects: an intersection of a PACKET_LANES with what may be part of a
+                  // product (trace/carve.h)
 };
 
 // Whether a solid of that shape may be part of a PACKET_PRODUCT.
@@ -97,7 +97,13 @@ accel_large(const struct accel *a, const struct world_object *o, uint32_t object
 }
 
 struct accel *accel_build(struct arena *a, const struct world *w);
-// The same of the objects that are not wholly opaque; w->accel is there.
-struct accel *accel_build_clear(struct arena *a, const struct world *w);
+// The same of some objects; w->accel is there.
+enum accel_part {
+    ACCEL_WHOLE,
+    ACCEL_CLEAR, // the objects that are not wholly opaque
+    ACCEL_OPAQUE // those that have something opaque
+};
+struct accel *accel_build_part(struct arena *a, const struct world *w,
+                               enum accel_part part);
 
 #endif

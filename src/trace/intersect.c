@@ -331,8 +331,8 @@ struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
 bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
                       const struct ray_query *q)
 {
-    const struct accel *a = w->accel;
-    struct search f = search_of(w, s, q, SWEEP_OPAQUE);
+    const struct accel *a = w->dark->accel;
+    struct search f = search_of(w->dark, s, q, SWEEP_OPAQUE);
     s->stats.shadow_rays++;
     for (uint32_t i = 0; i < a->infinite_count; i++)
         if (search_try_object(&f, a->infinite[i]))

@@ -112,5 +112,5 @@ void trace_closest(const struct world *w, struct trace_scratch *s,
 void trace_occluded(const struct world *w, struct trace_scratch *s,
                     const struct ray_batch *rays, uint8_t *out)
 {
-    w->accel->kernels->occluded(w, s, rays, out);
+    w->accel->kernels->occluded(w->dark, s, rays, out);
 }

@@ -586,18 +586,27 @@ static void *keep(struct arena *a, struct vector *v)
     return p;
 }
 
-// The world of what is not opaque: where nothing is opaque, the world itself.
-static const struct world *clear_of(struct arena *a, const struct world *w)
+// The world with some objects alone.
+static const struct world *part_of(struct arena *a, const struct world *w,
+                                   enum accel_part part)
 {
-    uint32_t i = 0;
-    while (i < w->object_count && !w->object[i].opaque)
-        i++;
-    if (i == w->object_count)
-        return w;
-    struct world *clear = arena_new_struct(a, struct world);
-    *clear = *w;
-    clear->accel = accel_build_clear(a, w);
-    return clear;
+    struct world *x = arena_new_struct(a, struct world);
+    *x = *w;
+    x->accel = accel_build_part(a, w, part);
+    return x;
+}
+
+// Where nothing, or all, is opaque, the world itself is one of the two.
+static void split(struct arena *a, struct world *w)
+{
+    uint32_t opaque = 0;
+    for (uint32_t i = 0; i < w->object_count; i++)
+        opaque += w->object[i].opaque;
+    w->dark = w;
+    if (!w->has_transparent)
+        return;
+    w->clear = opaque ? part_of(a, w, ACCEL_CLEAR) : w;
+    w->dark = part_of(a, w, ACCEL_OPAQUE);
 }
 
 struct world *world_build(struct arena *a, const struct scene *scene)
@@ -638,7 +647,6 @@ struct world *world_build(struct arena *a, const struct scene *scene)
         if (aabb_is_finite(w->object[i].bounds))
             w->bounds = aabb_join(w->bounds, w->object[i].bounds);
     w->accel = accel_build(a, w);
-    if (w->has_transparent)
-        w->clear = clear_of(a, w);
+    split(a, w);
     return w;
 }

@@ -121,6 +121,9 @@ struct world {
     // The same world with nothing to meet but the objects that are not wholly opaque, for
     // rays of which it is known that nothing opaque is on their way. NULL: none are.
     const struct world *clear;
+    // The same with those that have something opaque, for rays of which it is asked whether
+    // that is on their way.
+    const struct world *dark;
 };
 
 // Splits unions, resolves inheritance, absorbs transforms, computes bounds.
