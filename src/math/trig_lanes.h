@@ -38,15 +38,15 @@ LANES_INLINE struct dd8 dd8_add(struct dd8 a, struct dd8 b)
 // |x| <= 2^20 less the nearest multiple of pi/2; turns: which.
 LANES_INLINE struct dd8 trig8_reduce(struct real8 x, struct real8 *turns)
 {
-    const struct real8 zero = r8_set(0), ax = r8_abs(x);
+    const struct real8 none = r8_set(0), ax = r8_abs(x);
     const struct real8 k =
         r8_floor(r8_add(r8_mul(ax, r8_set(0x1.45f306dc9c883p-1)), r8_set(0.5)));
     *turns = k;
     struct dd8 r = dd8_two_sum(r8_sub(ax, r8_mul(k, r8_set(0x1.921fb54400000p+0))),
                                r8_neg(r8_mul(k, r8_set(0x1.0b4611a600000p-34))));
-    r = dd8_add(r, (struct dd8){r8_neg(r8_mul(k, r8_set(0x1.3198a2e000000p-69))), zero});
+    r = dd8_add(r, (struct dd8){r8_neg(r8_mul(k, r8_set(0x1.3198a2e000000p-69))), none});
     return dd8_add(r,
-                   (struct dd8){r8_neg(r8_mul(k, r8_set(0x1.b839a252049c1p-104))), zero});
+                   (struct dd8){r8_neg(r8_mul(k, r8_set(0x1.b839a252049c1p-104))), none});
 }
 
 LANES_INLINE struct real8 trig8_series(struct real8 r2, const double c[8])

@@ -1,12 +1,9 @@
 #include "scene/camera.h"
 
-#include <float.h>
-
 #include "math/elementary.h"
+#include "scene/camera_frame.h"
 #include "scene/mesh_camera.h"
 #include "scene/texture.h"
-
-static const double pi = 3.14159265358979323846;
 
 const struct camera camera_default = {
     .kind = CAMERA_PERSPECTIVE,
@@ -23,104 +20,89 @@ const struct camera camera_default = {
 // What the formulas of spec/lighting.md 1.3 work on, and what they leave for the
 // camera normal: the type's last intermediate coordinates.
 struct view {
-    const struct camera *c;
-    double u, v;                      // -0.5..0.5, right and up
-    struct vec3 right, up, direction; // unit
-    double len_right, len_up;
+    const struct camera_frame *frame;
+    double u, v; // -0.5..0.5, right and up
     struct vec3 origin, d;
     double x0, y0;
 };
 
-static double radians(double degrees) { return degrees * (pi / 180); }
-
-// The direction at angle theta from the axis and phi around it.
-static struct vec3 polar(const struct view *w, double phi, double theta)
+// The direction at angle y0 from the axis, and at an angle around it.
+static struct vec3 polar(const struct view *w, double cos_phi, double sin_phi)
 {
-    const double s = det_sin(theta);
-    return vec3_add(
-        vec3_mad(vec3_scale(det_cos(phi) * s, w->right), det_sin(phi) * s, w->up),
-        vec3_scale(det_cos(theta), w->direction));
+    const struct camera_frame *f = w->frame;
+    const double s = det_sin(w->y0);
+    return vec3_add(vec3_mad(vec3_scale(cos_phi * s, f->right), sin_phi * s, f->up),
+                    vec3_scale(det_cos(w->y0), f->direction));
 }
 
-static double polar_phi(double a, double b, double rho)
+// The distance of (a, b) from the middle and its direction there; above 1 there is no picture.
+static double disc(struct view *w, double a, double b, double *cos_phi, double *sin_phi)
 {
-    if (rho == 0)
-        return 0;
-    const double phi = det_asin(fmax(-1, fmin(1, b / rho)));
-    return a < 0 ? pi - phi : phi;
+    const double rho = sqrt(a * a + b * b);
+    *cos_phi = rho > 0 ? a / rho : 1;
+    *sin_phi = rho > 0 ? b / rho : 0;
+    if (w->frame->camera->normal)
+        w->x0 = camera_phi(*cos_phi, *sin_phi);
+    return rho;
 }
 
 static bool fisheye(struct view *w)
 {
-    const double a = 2 * w->u * w->len_right, b = 2 * w->v * w->len_up;
-    const double rho = sqrt(a * a + b * b);
-    if (rho > 1)
-        return false;
-    w->x0 = polar_phi(a, b, rho);
-    w->y0 = rho * radians(w->c->angle) / 2;
-    w->d = polar(w, w->x0, w->y0);
-    return true;
+    const struct camera_frame *f = w->frame;
+    double cos_phi, sin_phi;
+    const double rho =
+        disc(w, 2 * w->u * f->len_right, 2 * w->v * f->len_up, &cos_phi, &sin_phi);
+    w->y0 = rho * f->angle / 2;
+    w->d = polar(w, cos_phi, sin_phi);
+    return rho <= 1;
 }
 
-// The distortion of an Omnimax projector's lens, cut off 135 degrees below.
+// Cut off 135 degrees below.
 static bool omnimax(struct view *w)
 {
-    static const double dome_aspect = 1.283458;
-    const double aspect = w->len_right / w->len_up;
-    double a = 2 * w->u, b = 2 * w->v;
-    if (aspect > dome_aspect) {
-        a *= aspect / dome_aspect;
-        b = (b - 1) / dome_aspect + 1;
-    } else if (aspect > 1) {
-        b = (b - 1) / aspect + 1;
-    } else {
-        b /= aspect;
-    }
-    const double rho = sqrt(a * a + b * b);
-    if (rho > 1)
-        return false;
-    const double rho2 = rho * rho;
-    w->x0 = polar_phi(a, b, rho);
-    w->y0 = rho * (1.411269 - 0.09439 * rho2 + 0.25674 * rho2 * rho2);
-    const double tan135 = -1;
-    if (det_sin(w->x0) * det_sin(w->y0) < tan135 * det_cos(w->y0))
-        return false;
-    w->d = polar(w, w->x0, w->y0);
-    return true;
+    const struct omnimax_scale s = omnimax_scale(w->frame);
+    double cos_phi, sin_phi;
+    const double rho = disc(w, 2 * w->u * s.across,
+                            (2 * w->v - s.top) / s.upright + s.top, &cos_phi, &sin_phi);
+    const double rho2 = rho * rho, tan135 = -1;
+    w->y0 = rho * (OMNIMAX_0 - OMNIMAX_2 * rho2 + OMNIMAX_4 * rho2 * rho2);
+    w->d = polar(w, cos_phi, sin_phi);
+    return rho <= 1 && !(sin_phi * det_sin(w->y0) < tan135 * det_cos(w->y0));
 }
 
 static void ultra_wide(struct view *w)
 {
-    const double angle = radians(w->c->angle);
-    w->x0 = w->u * angle;
-    w->y0 = w->v * angle * w->len_up / w->len_right;
-    w->d = vec3_add(vec3_mad(vec3_scale(det_sin(w->x0), w->right), det_sin(w->y0), w->up),
-                    vec3_scale(det_cos(w->x0) * det_cos(w->y0), w->direction));
+    const struct camera_frame *f = w->frame;
+    w->x0 = w->u * f->angle;
+    w->y0 = w->v * f->angle * f->len_up / f->len_right;
+    w->d = vec3_add(vec3_mad(vec3_scale(det_sin(w->x0), f->right), det_sin(w->y0), f->up),
+                    vec3_scale(det_cos(w->x0) * det_cos(w->y0), f->direction));
 }
 
 static void panoramic(struct view *w)
 {
-    static const double steepest = 2e10;
-    w->x0 = pi * (0.5 - w->u);
-    w->y0 = pi * w->v;
-    const double t = fmax(-steepest, fmin(steepest, det_tan(w->y0)));
-    w->d = vec3_add(vec3_mad(vec3_scale(det_cos(w->x0), w->c->right), t, w->c->up),
-                    vec3_scale(det_sin(w->x0), w->c->direction));
+    const struct camera *c = w->frame->camera;
+    w->x0 = CAMERA_PI * (0.5 - w->u);
+    w->y0 = CAMERA_PI * w->v;
+    const double t = fmax(-PANORAMIC_STEEPEST,
+                          fmin(PANORAMIC_STEEPEST, det_sin(w->y0) / det_cos(w->y0)));
+    w->d = vec3_add(vec3_mad(vec3_scale(det_cos(w->x0), c->right), t, c->up),
+                    vec3_scale(det_sin(w->x0), c->direction));
 }
 
 // Types 1 and 3 bend across, 2 and 4 upwards; 3 and 4 are parallel along the axis.
 static void cylinder(struct view *w)
 {
-    const double angle = radians(w->c->angle);
-    const bool across =
-        w->c->kind == CAMERA_CYLINDER_1 || w->c->kind == CAMERA_CYLINDER_3;
-    w->x0 = across ? w->u * angle : w->u * w->len_right;
-    w->y0 = across ? w->v * w->len_up : w->v * angle;
+    const struct camera_frame *f = w->frame;
+    const enum camera_kind kind = f->camera->kind;
+    const bool across = kind == CAMERA_CYLINDER_1 || kind == CAMERA_CYLINDER_3;
+    w->x0 = w->u * (across ? f->angle : f->len_right);
+    w->y0 = w->v * (across ? f->len_up : f->angle);
     const double bend = across ? w->x0 : w->y0, along = across ? w->y0 : w->x0;
-    const struct vec3 around = across ? w->right : w->up,
-                      axis = across ? w->up : w->right;
-    w->d = vec3_mad(vec3_scale(det_sin(bend), around), det_cos(bend), w->direction);
-    if (w->c->kind == CAMERA_CYLINDER_3 || w->c->kind == CAMERA_CYLINDER_4)
+    const struct vec3 around = across ? f->right : f->up,
+                      axis = across ? f->up : f->right;
+    w->d = vec3_mad(vec3_scale(det_sin(bend), around), det_cos(bend), f->direction);
+    if (kind == CAMERA_CYLINDER_3 || kind == CAMERA_CYLINDER_4)
         w->origin = vec3_mad(w->origin, along, axis);
     else
         w->d = vec3_mad(w->d, along, axis);
@@ -136,31 +118,23 @@ static struct vec3 rotate(struct vec3 p, struct vec3 axis, double angle)
 
 static void spherical(struct view *w)
 {
-    w->x0 = w->u * radians(w->c->angle);
-    w->y0 = w->v * radians(w->c->angle_v);
-    w->d = rotate(rotate(w->c->direction, w->right, -w->y0), w->up, w->x0);
+    const struct camera_frame *f = w->frame;
+    w->x0 = w->u * f->angle;
+    w->y0 = w->v * f->angle_v;
+    w->d = rotate(rotate(f->camera->direction, f->right, -w->y0), f->up, w->x0);
 }
 
 static bool view_ray(struct view *w)
 {
-    w->x0 = w->u;
-    w->y0 = w->v;
-    switch (w->c->kind) {
+    const struct camera *c = w->frame->camera;
+    switch (c->kind) {
     case CAMERA_PERSPECTIVE:
-        w->d = vec3_mad(vec3_mad(w->c->direction, w->u, w->c->right), w->v, w->c->up);
-        return true;
+        w->d = vec3_mad(vec3_mad(c->direction, w->u, c->right), w->v, c->up);
+        break;
     case CAMERA_ORTHOGRAPHIC:
-        w->origin = vec3_mad(vec3_mad(w->origin, w->u, w->c->right), w->v, w->c->up);
-        w->d = w->c->direction;
-        return true;
-    default: break;
-    }
-    w->len_right = vec3_length(w->c->right);
-    w->len_up = vec3_length(w->c->up);
-    w->right = vec3_normalize(w->c->right);
-    w->up = vec3_normalize(w->c->up);
-    w->direction = vec3_normalize(w->c->direction);
-    switch (w->c->kind) {
+        w->origin = vec3_mad(vec3_mad(w->origin, w->u, c->right), w->v, c->up);
+        w->d = c->direction;
+        break;
     case CAMERA_FISHEYE: return fisheye(w);
     case CAMERA_OMNIMAX: return omnimax(w);
     case CAMERA_ULTRA_WIDE_ANGLE: ultra_wide(w); break;
@@ -171,21 +145,25 @@ static bool view_ray(struct view *w)
     return true;
 }
 
-static bool view_at(struct view *w, const struct camera *c, double x, double y, int width,
-                    int height)
+static bool view_at(struct view *w, const struct camera_frame *f, double x, double y,
+                    int width, int height)
 {
-    *w = (struct view){
-        .c = c, .u = x / width - 0.5, .v = 0.5 - y / height, .origin = c->location};
+    *w = (struct view){.frame = f,
+                       .u = x / width - 0.5,
+                       .v = 0.5 - y / height,
+                       .origin = f->camera->location};
+    w->x0 = w->u;
+    w->y0 = w->v;
     return view_ray(w);
 }
 
-static struct vec3 bent(const struct view *w, struct vec3 d)
+static struct vec3 bent(const struct camera *c, const struct view *w, struct vec3 d)
 {
-    if (!w->c->normal)
+    if (!c->normal)
         return d;
     const struct texture_point at = {
         .p = {w->x0, w->y0, 0}, .uv = {w->x0, w->y0}, .normal = d, .ray_d = d};
-    return vec3_normalize(normal_perturb(w->c->normal, &at));
+    return vec3_normalize(normal_perturb(c->normal, &at));
 }
 
 bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct ray *out)
@@ -193,20 +171,21 @@ bool camera_ray(const struct camera *c, double x, double y, int w, int h, struct
     struct view view;
     if (c->kind == CAMERA_MESH)
         return camera_mesh_ray(c, x, y, w, h, 0, out);
-    if (!view_at(&view, c, x, y, w, h))
+    const struct camera_frame frame = camera_frame_of(c);
+    if (!view_at(&view, &frame, x, y, w, h))
         return false;
-    *out = (struct ray){view.origin, bent(&view, vec3_normalize(view.d)), 0, INFINITY};
+    *out = (struct ray){view.origin, bent(c, &view, vec3_normalize(view.d)), 0, INFINITY};
     return true;
 }
 
 bool camera_mesh_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
                      struct ray *out)
 {
-    const struct view at = {.c = c}; // one bend for all: at the origin
+    const struct view at = {0}; // one bend for all: at the origin
     struct vec3 o, d;
     if (!mesh_camera_ray(c, x, y, w, h, k, &o, &d))
         return false;
-    *out = (struct ray){o, bent(&at, d), 0, INFINITY};
+    *out = (struct ray){o, bent(c, &at, d), 0, INFINITY};
     return true;
 }
 
@@ -223,13 +202,14 @@ bool camera_lens_ray(const struct camera *c, const struct camera_lens *l, double
                      double y, int w, int h, struct vec2 lens, struct ray *out)
 {
     struct view view;
-    if (!view_at(&view, c, x, y, w, h))
+    const struct camera_frame frame = camera_frame_of(c);
+    if (!view_at(&view, &frame, x, y, w, h))
         return false;
     const struct vec3 shift =
         vec3_sub(vec3_scale(lens.u, l->across), vec3_scale(lens.v, l->upright));
     const struct vec3 d = vec3_sub(vec3_scale(l->reach, view.d), shift);
-    *out = (struct ray){vec3_add(c->location, shift), bent(&view, vec3_normalize(d)), 0,
-                        INFINITY};
+    *out = (struct ray){vec3_add(c->location, shift), bent(c, &view, vec3_normalize(d)),
+                        0, INFINITY};
     return true;
 }
 

@@ -50,4 +50,4 @@ nodist_liblambert_a_SOURCES += %D%/noise_tables.c
 CLEANFILES += %D%/noise_tables.c
 %D%/noise_tables.c: gen_noise_tables$(EXEEXT)
 	$(AM_V_GEN)$(MKDIR_P) %D% && ./gen_noise_tables$(EXEEXT) >$@.tmp && mv $@.tmp $@
-liblambert_a_SOURCES += %D%/camera.c %D%/light.c
+liblambert_a_SOURCES += %D%/camera.c %D%/camera_frame.h %D%/light.c

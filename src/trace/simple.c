@@ -183,8 +183,8 @@ void simple_compile(struct job *job, struct arena *a)
     // Where light by way of others is collected, the order of hits counts: one order only.
     const bool collects =
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
-    job->quick_camera = !general && !collects && !c->normal && !camera_has_lens(c) &&
-                        (c->kind == CAMERA_PERSPECTIVE || c->kind == CAMERA_ORTHOGRAPHIC);
+    job->quick_camera =
+        !general && !collects && !camera_has_lens(c) && c->kind != CAMERA_MESH;
     if (general || collects || job->has_air || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))
         return;

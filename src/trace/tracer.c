@@ -161,18 +161,35 @@ static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
     rays_run(t, ray, count);
 }
 
+// The camera's rays are made and traced as if they were all; what they see is put where
+// their positions are. Where there is no ray nothing is seen.
+static void run_with_gaps(struct tracer *t, const struct vec2 *position, uint32_t count,
+                          const uint16_t *place, uint32_t made)
+{
+    struct vec2 kept[BATCH_SIZE];
+    for (uint32_t i = 0; i < made; i++)
+        kept[i] = position[place[i]];
+    wave_run_camera(t, kept, made);
+    for (uint32_t i = count, k = made; i-- > 0;)
+        t->sum[i] = k && place[k - 1] == i ? t->sum[--k] : (struct sample_sum){.t = 1};
+}
+
 const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
                                       uint32_t count)
 {
     const struct job *job = t->job;
     if (job->quick_camera) {
         begin(t, count);
-        job->kernels->camera(job, position, count, t->rays);
-        for (uint32_t i = 0; i < count && t->eye_inside; i++)
+        uint16_t place[BATCH_SIZE];
+        const uint32_t made = job->kernels->camera(job, position, count, t->rays, place);
+        for (uint32_t i = 0; i < made && t->eye_inside; i++)
             t->eye_inside[i] =
                 inside_at(t->arena, job->world,
                           vec3(t->rays->o[0][i], t->rays->o[1][i], t->rays->o[2][i]));
-        wave_run_camera(t, position, count);
+        if (made < count)
+            run_with_gaps(t, position, count, place, made);
+        else
+            wave_run_camera(t, position, count);
     } else {
         samples_one_by_one(t, position, count);
     }
