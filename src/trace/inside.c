@@ -2,7 +2,6 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
-#include "scene/texture.h"
 
 const struct inside *inside_push(struct arena *a, const struct inside *list,
                                  const struct interior *interior)
@@ -20,14 +19,6 @@ const struct inside *inside_enter(struct tracer *t, const struct inside *list,
         *last =
             (struct inside_pushed){list, interior, inside_push(t->arena, list, interior)};
     return last->pushed;
-}
-
-const struct inside *inside_find(const struct inside *list,
-                                 const struct interior *interior)
-{
-    while (list && list->interior != interior)
-        list = list->outer;
-    return list;
 }
 
 const struct inside *inside_remove(struct arena *a, const struct inside *list,
@@ -56,8 +47,6 @@ const struct inside *inside_at(struct arena *a, const struct world *w, struct ve
     }
     return list;
 }
-
-double interior_ior(const struct interior *i) { return i->ior > 0 ? i->ior : 1; }
 
 bool interior_fades_exponentially(const struct interior *i)
 {

@@ -7,9 +7,9 @@
 #include "scene/mesh_camera.h"
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
-#include "trace/packet.h"
 #include "trace/photons.h"
 #include "trace/media.h"
+#include "trace/packet.h"
 #include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
@@ -132,9 +132,13 @@ static void pass_init(struct job *job, struct arena *a)
     if (!w->has_transparent)
         return;
     struct even_pass *pass = arena_new_array(a, struct even_pass, w->surface_count);
-    for (uint32_t i = 0; i < w->surface_count; i++)
+    bool all_even = true;
+    for (uint32_t i = 0; i < w->surface_count; i++) {
         pass[i] = even_pass(job, &w->surface[i]);
+        all_even &= pass[i].known || w->surface[i].opaque;
+    }
     job->pass = pass;
+    job->lists_crossings = all_even && !job->has_media && packet_lists_crossings(w);
     clear_init(job, a);
 }
 

@@ -60,6 +60,7 @@ struct job {
         *pass;                // per surface of the world; NULL: none lets light through
     const struct aabb *clear; // around everything that lets light through
     uint32_t clear_count;
+    bool lists_crossings; // shadow rays among them take trace/shadow_list.h
     // Photons (trace/photons.h).
     bool shoots; // lamps shoot at targets
     bool subsurface; // light goes on below surfaces (trace/subsurface.h)

@@ -101,6 +101,19 @@ struct boundary packet_lane_hit(struct packet *p, int lane)
     abort();
 }
 
+// ---- all crossings --------------------------------------------------------------------
+
+bool packet_lists_crossings(const struct world *w)
+{
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        const enum packet_shape shape = w->accel->object_shape[i];
+        if (!w->object[i].opaque && shape != PACKET_PRODUCT &&
+            (shape < PACKET_SPHERE || shape > PACKET_TRIANGLE))
+            return false;
+    }
+    return true;
+}
+
 // ---- batches --------------------------------------------------------------------------
 
 void trace_closest(const struct world *w, struct trace_scratch *s,

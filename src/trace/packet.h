@@ -79,6 +79,18 @@ static inline uint8_t crossing_of_leaf(uint8_t crossing, bool inverted)
                                                 : CROSS_ENTER;
 }
 
+// The surfaces that eight rays cross between t_min and t_max, in order.
+enum { CROSSINGS = 16 };
+struct crossings8 {
+    double t[8][CROSSINGS];
+    uint32_t leaf[8][CROSSINGS];
+    uint8_t count[8];
+    unsigned left; // lanes whose crossings are not known
+};
+
+// Whether `crossings` may be asked for the objects of a world that are not opaque.
+bool packet_lists_crossings(const struct world *w);
+
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
@@ -87,6 +99,11 @@ struct packet_kernels {
                  const struct ray_batch *rays, const struct hit_batch *out);
     void (*occluded)(const struct world *w, struct trace_scratch *s,
                      const struct ray_batch *rays, uint8_t *out);
+    // What the lanes of eight rays from `first` on cross, in a world of packet_lists_crossings.
+    // Each surface is the nearest (trace_closest) of a ray that goes on from the last.
+    void (*crossings)(const struct world *w, struct trace_scratch *s,
+                      const struct ray_batch *rays, uint32_t first, unsigned lanes,
+                      struct crossings8 *out);
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
     const struct shape_kernels *shapes;

@@ -3,6 +3,7 @@
 #include "math/isa.h"
 #include "trace/packet.h"
 #include "trace/packet_lanes.h"
+#include "trace/packet_list.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_sponge.h"
 
@@ -394,5 +395,21 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
     }
 }
 
+static void crossings(const struct world *w, struct trace_scratch *s,
+                      const struct ray_batch *rays, uint32_t first, unsigned lanes,
+                      struct crossings8 *out)
+{
+    struct packet p;
+    struct eight e;
+    p.w = w;
+    p.s = s;
+    p.mode = SWEEP_CLOSEST;
+    s->stats.rays += (unsigned)__builtin_popcount(lanes);
+    memset(out->count, 0, sizeof out->count);
+    out->left = 0;
+    begin(&e, &p, rays, first, lanes);
+    list_all(&e, out);
+}
+
 const struct packet_kernels OF_ISA(packet_kernels_) = {
-    ISA_TEXT, trace_closest8, trace_occluded8, walk, &OF_ISA(shape_kernels_)};
+    ISA_TEXT, trace_closest8, trace_occluded8, crossings, walk, &OF_ISA(shape_kernels_)};

@@ -31,8 +31,14 @@ static inline uint8_t photons_instead(const struct job *job, const struct surfac
         return 0;
     return light->photon_refraction > 0 ? 2 : 1;
 }
+// Whether photons bring the light that goes through a surface; instead: as above, not 0.
+static inline bool photons_instead_of(const struct surface *s, uint8_t instead)
+{
+    const struct photon_target *p = s->photons;
+    return p && p->target && p->refraction >= 0 && (p->refraction > 0 || instead == 2);
+}
 struct media_mix;
-// The same to a point in media.
+// photons_instead to a point in media.
 uint8_t photons_instead_in_media(const struct job *job, const struct media_mix *mix,
                                  const struct light *light);
 

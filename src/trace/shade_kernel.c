@@ -319,6 +319,12 @@ static void sums(const struct wavefront *w, struct sample_sum *out)
                                 w->t[i]};
 }
 
+static void exps(const double *x, uint32_t count, float *out)
+{
+    for (uint32_t i = 0; i < count; i += 8)
+        f8_store(out + i, f8_of(r8_exp_single(r8_load(x + i))));
+}
+
 // ---- boxes --------------------------------------------------------------------------------
 
 LANES_INLINE void slab8_meet(double min, double max, struct real8 o, struct real8 inv,
@@ -352,5 +358,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 }
 
 const struct shade_kernels OF_ISA(shade_kernels_) = {
-    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, meets,
+    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, exps, meets,
     points, texture_space, world_normals, sheet_pass, own_sheets, light_sheets};

@@ -32,6 +32,8 @@ struct shade_kernels {
                    struct simple_bounce *b);
     // What the wave's slots have collected, as the samples of the same numbers.
     void (*sums)(const struct wavefront *w, struct sample_sum *out);
+    // det_exp_single of `count` numbers; both arrays have room for eight more.
+    void (*exps)(const double *x, uint32_t count, float *out);
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);

@@ -7,6 +7,7 @@
 #include "trace/media.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
+#include "trace/shadow_list.h"
 #include "trace/sky.h"
 
 static const double zero = 1e-10; // spec/lighting.md 0
@@ -78,13 +79,6 @@ static struct rgb surface_pass(struct tracer *t, const struct ray *ray,
     return occluder_filter(t, &at, ray->d);
 }
 
-// Whether photons bring the light that goes through a surface.
-static bool is_target(const struct surface *surface, uint8_t photons)
-{
-    const struct photon_target *p = surface->photons;
-    return p && p->target && p->refraction >= 0 && (p->refraction > 0 || photons == 2);
-}
-
 // Fog and media of the scene on the stretch up to t, where it is hollow.
 static void air_between(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
                         double end)
@@ -102,7 +96,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
     const struct world *w = t->job->world;
     const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
     struct rgb pass = none;
-    if (!surface->opaque && !(s->photons && is_target(surface, s->photons)))
+    if (!surface->opaque && !(s->photons && photons_instead_of(surface, s->photons)))
         pass = surface_pass(t, ray, hit, surface);
     if (s->air)
         air_between(t, s, ray, hit->b.t);
@@ -225,6 +219,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
         }
         if (lit)
             met = lit & job->kernels->meets(job->clear, job->clear_count, b->rays, first);
+        if (t->list && !air_end && met)
+            met = shadow_list_take(t, b, first, met);
         for (lit = air_end ? lit : met; lit; lit &= lit - 1) {
             const uint32_t i = (uint32_t)__builtin_ctz(lit), k = first + i;
             s[n] = (struct shadow_walk){wave_inside(t, b->slot[k]), all,          0, k,
@@ -235,6 +231,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
                 walk_end(t, &s[n], b, air_end);
         }
     }
+    if (t->list)
+        shadow_list_end(t, b);
     while (n) {
         for (uint32_t i = 0; i < n; i++)
             walk_put(t->walk_rays, i, b->rays, &s[i]);
@@ -318,6 +316,8 @@ void shadow_init(struct tracer *t)
     t->walk = must_calloc(BATCH_SIZE, sizeof *t->walk);
     t->walk_hit = hit_batch_new(BATCH_SIZE);
     t->walk_rays = shadow_rays_new();
+    if (t->job->lists_crossings)
+        t->list = shadow_list_new();
 }
 
 void shadow_end(struct tracer *t)
@@ -330,6 +330,7 @@ void shadow_end(struct tracer *t)
     free(t->rest.pass);
     free(t->near.pass);
     free(t->walk);
+    shadow_list_free(t->list);
     hit_batch_free(t->walk_hit);
     free(t->shadow);
     free(t->shadow_order);

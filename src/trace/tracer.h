@@ -12,6 +12,7 @@
 struct arena;
 struct simple_group;
 struct hit_run;
+struct shadow_list;
 struct paint_scratch;
 
 // The interiors a ray is inside, the last entered first; never changed once made, so
@@ -102,6 +103,9 @@ struct wavefront {
     // By slot: light that came unhindered, light that passed a shadow test, transparency.
     float own[3][BATCH_SIZE], lit[3][BATCH_SIZE], t[BATCH_SIZE];
     float through[3][BATCH_SIZE];
+    // Those of a path, by slot where there are paths.
+    float through_t[BATCH_SIZE];
+    uint32_t sample[BATCH_SIZE];
 };
 
 // Shadow rays to one lamp after the other; what each adds to which slot.
@@ -137,6 +141,7 @@ struct tracer {
     struct shadow_walk *walk; // shadow rays among transparent things
     struct ray_batch *walk_rays;
     struct hit_batch *walk_hit;
+    struct shadow_list *list; // trace/shadow_list.h; NULL: not for this scene
     struct simple_group *group;                                 // BATCH_SIZE / 8 of them
     uint16_t *class_head, *class_tail, *class_ray; // trace/simple.c
     struct hit_run *run;
@@ -202,6 +207,8 @@ struct path wave_path(const struct tracer *t, uint32_t slot);
 const struct inside *wave_inside(const struct tracer *t, uint32_t slot);
 
 struct path *path_queue_add(struct path_queue *q);
+// Room for `count` more.
+void path_queue_reserve(struct path_queue *q, uint32_t count);
 // Appends a ray unless its level or weight says that it counts nothing.
 static inline bool path_counts(const struct job *job, int level, float weight)
 {

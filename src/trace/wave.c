@@ -30,13 +30,18 @@ static void *grow(void *at, uint32_t capacity, size_t size)
 
 static uint32_t more(uint32_t capacity) { return capacity ? 2 * capacity : 256; }
 
-struct path *path_queue_add(struct path_queue *q)
+void path_queue_reserve(struct path_queue *q, uint32_t count)
 {
-    if (q->count == q->capacity) {
+    while (q->count + count > q->capacity) {
         q->capacity = more(q->capacity);
         q->at = grow(q->at, q->capacity, sizeof *q->at);
         q->order = grow(q->order, q->capacity, sizeof *q->order);
     }
+}
+
+struct path *path_queue_add(struct path_queue *q)
+{
+    path_queue_reserve(q, 1);
     q->order[q->count] = q->count;
     return &q->at[q->count++];
 }
@@ -178,6 +183,8 @@ static void wave_put(struct tracer *t)
         w->through[0][i] = p->through.r;
         w->through[1][i] = p->through.g;
         w->through[2][i] = p->through.b;
+        w->through_t[i] = p->through_t;
+        w->sample[i] = p->sample;
     }
     b->count = w->count;
     for (uint32_t k = 0; k < w->count && t->job->reach > 0; k++)
@@ -205,7 +212,7 @@ static void emitted_sort(struct path_queue *q, uint32_t first)
 static void miss_add(struct tracer *t, uint32_t slot, struct rgb c, float clear)
 {
     struct wavefront *w = &t->wave;
-    const float through_t = w->path ? w->path[w->order[slot]].through_t : 1;
+    const float through_t = w->path ? w->through_t[slot] : 1;
     t->slot = slot;
     tracer_add(
         t,
@@ -272,7 +279,7 @@ static void sums_add(struct tracer *t)
         return;
     }
     for (uint32_t i = 0; i < w->count; i++) {
-        struct sample_sum *s = &t->sum[w->path[w->order[i]].sample];
+        struct sample_sum *s = &t->sum[w->sample[i]];
         s->light = rgb_add(s->light,
                            rgb(w->own[0][i] + w->lit[0][i], w->own[1][i] + w->lit[1][i],
                                w->own[2][i] + w->lit[2][i]));

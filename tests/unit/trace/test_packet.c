@@ -33,6 +33,7 @@ struct maker {
     const struct object *object[OBJECTS];
     uint32_t count;
     uint64_t random;
+    int crossed; // surfaces in lists of all that a ray crosses
     bool alone; // the one-ray form is the reference, not all crossings
     bool grid; // coordinates are multiples of 1/4, nothing is turned: faces coincide
 };
@@ -275,6 +276,36 @@ static void go_on(struct ray_batch *b, const struct hit_batch *hit)
             b->t_min[i] = hit->t[i];
 }
 
+// All that rays cross among what is not opaque is what they meet going on from one surface
+// to the next. Returns how many surfaces that were.
+static int check_crossings(const struct world *w, struct trace_scratch *s,
+                           const struct ray_batch *b)
+{
+    int total = 0;
+    if (!w->clear || !packet_lists_crossings(w))
+        return 0;
+    for (uint32_t first = 0; first + 8 <= b->count; first += 8) {
+        struct crossings8 c;
+        const unsigned lanes = first % 3 ? 255 : 5 << first % 5;
+        w->clear->accel->kernels->crossings(w->clear, s, b, first, lanes, &c);
+        for (unsigned m = lanes & ~c.left; m; m &= m - 1) {
+            const int lane = __builtin_ctz(m);
+            struct ray_query q = query_at(b, first + (uint32_t)lane);
+            for (uint32_t i = 0; i < c.count[lane]; i++) {
+                if (c.t[lane][i] == q.ray.t_min) // touches the last
+                    continue;
+                const struct hit next = trace_closest_1(w->clear, s, &q);
+                assert_memory_equal(&next.b.t, &c.t[lane][i], sizeof next.b.t);
+                assert_int_equal(next.b.leaf, c.leaf[lane][i]);
+                q.ray.t_min = next.b.t;
+                total++;
+            }
+            assert_true(isinf(trace_closest_1(w->clear, s, &q).b.t));
+        }
+    }
+    return total;
+}
+
 static int check_world(struct world *w, struct maker *m)
 {
     struct trace_scratch *s = trace_scratch_new(w);
@@ -289,6 +320,7 @@ static int check_world(struct world *w, struct maker *m)
             go_on(b, hit);
         trace_closest(w, s, b, hit);
         trace_occluded(w, s, b, dark);
+        m->crossed += check_crossings(w, s, b);
         for (uint32_t i = 0; i < b->count; i++) {
             const struct ray_query q = query_at(b, i);
             const struct hit one = trace_closest_1(w, s, &q);
@@ -320,11 +352,13 @@ static void check_scene(struct maker *m)
         struct maker rays = *m;
         struct world *w = world_build(m->a, &scene);
         assert_true(check_world(w, &rays) > 100);
+        m->crossed = rays.crossed;
     }
     unsetenv("LAMBERT_ISA");
 }
 
-static void check_random(uint64_t seed, int count, int depth, double apart, bool grid)
+// Returns the surfaces in lists of all crossings.
+static int check_random(uint64_t seed, int count, int depth, double apart, bool grid)
 {
     struct maker m = {.a = arena_new(1 << 16), .random = seed, .grid = grid};
     for (int i = 0; i < count; i++) {
@@ -335,13 +369,14 @@ static void check_random(uint64_t seed, int count, int depth, double apart, bool
     }
     check_scene(&m);
     arena_free(m.a);
+    return m.crossed;
 }
 
 static void lone_shapes(void **state)
 {
     (void)state;
-    check_random(1, 30, 0, 4, false);
-    check_random(2, 60, 0, 4, true);
+    assert_true(check_random(1, 30, 0, 4, false) > 1000);
+    assert_true(check_random(2, 60, 0, 4, true) > 1000);
 }
 
 // Thin, fat, and spindles.
@@ -444,6 +479,23 @@ static struct object *random_product(struct maker *m, double off)
     }
     return object_new_csg(m->a, chance(m) < .3 ? CSG_INTERSECTION : CSG_DIFFERENCE, child,
                           n, (struct span){0});
+}
+
+// Glass: all that rays cross, surface by surface.
+static void clear_products(void **state)
+{
+    (void)state;
+    struct maker m = {.a = arena_new(1 << 16), .random = 90};
+    for (int i = 0; i < 30; i++) {
+        struct object *o = random_product(&m, .01);
+        const struct transform t = transform_translate(somewhere(&m, 3));
+        o->texture = (struct attached_texture){&clear_texture, &transform_identity};
+        object_transform(m.a, o, &t);
+        m.object[m.count++] = o;
+    }
+    check_scene(&m);
+    assert_true(m.crossed > 1000);
+    arena_free(m.a);
 }
 
 // A block from which small solids are taken, again and again, and turned between.
@@ -610,6 +662,7 @@ int main(void)
         cmocka_unit_test(every_kernel),
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
+        cmocka_unit_test(clear_products),
         cmocka_unit_test(large_products),
         cmocka_unit_test(sponges),
         cmocka_unit_test(meshes),
