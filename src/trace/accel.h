@@ -50,18 +50,29 @@ struct accel_large {
                // of `leaves`; else NULL
 };
 
-// What quick tests of a PACKET_PRODUCT know of its leaves (trace/packet_quick.h).
-enum product_kind {
-    PRODUCT_EXACT,  // it has none
-    PRODUCT_PLACED, // no leaf has a transform
-    PRODUCT_MOVED   // one transform is that of all that have any
+enum { PRODUCT_SPACES = 3 }; // transforms of a PACKET_PRODUCT that quick tests take
+
+// A leaf of a PACKET_PRODUCT, with all that quick tests (trace/packet_quick.h) want.
+struct product_part {
+    struct vec3 centre; // this and the radius: of a sphere
+    double radius;
+    double at; // 2 i for leaf i of the object: its entry; its exit is 2 i + 1
+    const void *shape;
+    uint16_t leaf; // i
+    uint8_t kind;  // enum packet_shape
+    uint8_t space; // 0: the world's, k: that of accel_product.space[k - 1]
 };
 
+// Its parts: bounded solids in the world, which are most likely missed or cheap, other
+// solids, complements.
 struct accel_product {
-    double extent; // the most that coordinates and radii of a leaf add up to
+    const struct product_part *part; // NULL: there are no quick tests
+    double extent; // the most that coordinates and radii of a part add up to
     double least;  // radius
-    uint16_t kind;
-    uint16_t moved; // the first leaf with a transform, from the object's first
+    uint16_t world_solids, solids, count;
+    uint16_t spaces;
+    uint16_t
+        space[PRODUCT_SPACES]; // a leaf that has the transform, from the object's first
 };
 
 // One world's boxes: over the finite objects, and over the leaves of each large object.

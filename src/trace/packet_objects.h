@@ -248,16 +248,16 @@ LANES_INLINE struct real8 moved8(const struct leaf *l, const struct ray8 *ray,
     return r8_select(finite, r8_add(dt, r8_mul(dt, share)), dt);
 }
 
-// The same of a leaf.
+// The same of a leaf, seen by the rays of its own space.
 LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
-                                    enum packet_shape shape, struct mask8 *odd)
+                                    enum packet_shape shape, const struct ray8 *own,
+                                    struct mask8 *odd)
 {
+    struct span8 x = shape_span(l, shape, own, odd);
     if (l->transform->identity)
-        return shape_span(l, shape, &e->ray, odd);
-    const struct ray8 own = local_ray(l, &e->ray);
-    struct span8 x = shape_span(l, shape, &own, odd);
-    x.in_e = moved8(l, &e->ray, &own, x.in, x.in_e);
-    x.out_e = moved8(l, &e->ray, &own, x.out, x.out_e);
+        return x;
+    x.in_e = moved8(l, &e->ray, own, x.in, x.in_e);
+    x.out_e = moved8(l, &e->ray, own, x.out, x.out_e);
     return x;
 }
 
@@ -290,7 +290,8 @@ static unsigned exact_leaves(struct eight *e, struct product *x, bool complement
             continue;
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
         struct mask8 odd;
-        const struct span8 s = leaf_span(e, l, shape, &odd);
+        struct ray8 own;
+        const struct span8 s = leaf_span(e, l, shape, leaf_ray(l, &e->ray, &own), &odd);
         x->unsure = m8_or(x->unsure, odd);
         bits &= product_add(x, i, l->inverted, shape != PACKET_PLANE, &s);
     }
@@ -315,49 +316,62 @@ static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
     return unsure ? won | packet_try_object(p, unsure, object) : won;
 }
 
-// The lines' spans in a shape of quick products.
-LANES_INLINE struct span8 quick_span(const struct leaf *l, enum packet_shape shape,
-                                     const struct ray8 *ray)
+// ---- quick products -------------------------------------------------------------------------
+
+// The span of a cone or a quadric: its own bounds tell whether it is clear.
+static struct span8 quick_other(const struct eight *e, const struct quick *q,
+                                const struct product_part *part, const struct ray8 *ray,
+                                const struct leaf *l)
 {
-    switch (shape) {
-    case PACKET_SPHERE: return span8_sphere(l->shape, ray);
-    case PACKET_BOX: return span8_box(l->shape, ray);
-    case PACKET_CYLINDER: return span8_cylinder(l->shape, ray);
-    default: return span8_plane(l->shape, ray);
+    struct mask8 odd;
+    struct span8 x = leaf_span(e, l, part->kind, ray, &odd);
+    x.clear = m8_and(quick_clear(q, &x), m8_without(m8_of(255), odd));
+    return x;
+}
+
+// The span of a part, seen by the rays of its space.
+LANES_INLINE struct span8 part_span(const struct eight *e, const struct quick *q,
+                                    const struct product_part *part,
+                                    const struct ray8 *ray, uint32_t first_leaf,
+                                    unsigned bits)
+{
+    switch (part->kind) {
+    case PACKET_SPHERE: return quick_sphere(part, ray, bits);
+    case PACKET_BOX: return quick_box(part->shape, ray);
+    case PACKET_CYLINDER: return quick_cylinder(part->shape, ray, bits);
+    case PACKET_PLANE: return span8_plane(part->shape, ray);
+    default: return quick_other(e, q, part, ray, &e->p->w->leaf[first_leaf + part->leaf]);
     }
 }
 
-// Lanes where a leaf's own bounds touch t_min, as product_add: rays that leave a surface
-// begin close to it.
-static struct mask8 begins_at(struct eight *e, const struct leaf *l,
-                              enum packet_shape shape)
+// The spans of the solids and of what matters of their complements; returns the lanes that
+// may meet the object.
+LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_product *x,
+                                  uint32_t first_leaf, unsigned bits, struct quick *q,
+                                  struct quick_spans *v, struct ray8 own[PRODUCT_SPACES])
 {
-    struct mask8 odd;
-    const struct span8 x = leaf_span(e, l, shape, &odd);
-    return m8_and(x.met, m8_or(r8_le(r8_abs(r8_sub(x.in, e->t_min)), x.in_e),
-                               r8_le(r8_abs(r8_sub(x.out, e->t_min)), x.out_e)));
-}
-
-// The spans of the leaves that are complements, or of those that are not; returns the lanes
-// that can still meet the object.
-static unsigned product_leaves(struct eight *e, struct quick *q, bool complements,
-                               const struct world_object *o, const struct ray8 *moved,
-                               unsigned bits)
-{
-    const struct world *w = e->p->w;
-    for (uint32_t i = 0; i < o->leaf_count && bits; i++) {
-        const struct leaf *l = &w->leaf[o->first_leaf + i];
-        if (l->inverted != complements)
-            continue;
-        const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
-        const struct span8 s =
-            quick_span(l, shape, l->transform->identity ? &e->ray : moved);
-        if (!complements)
-            bits &= quick_solid(q, i, shape != PACKET_PLANE, &s);
-        else if (!quick_complement(q, i, shape != PACKET_PLANE, bits, &s))
-            continue;
-        if (m8_bits(q->near) & bits)
-            q->doubt = m8_or(q->doubt, begins_at(e, l, shape));
+    const struct product_part *part = x->part;
+    uint32_t i = 0;
+    for (; i < x->world_solids && bits; i++) {
+        const struct span8 s = part_span(e, q, &part[i], &e->ray, first_leaf, bits);
+        bits &= quick_solid(q, v, &part[i], &s);
+    }
+    for (uint32_t k = 0; k < x->spaces && bits; k++) {
+        const struct leaf *l = &e->p->w->leaf[first_leaf + x->space[k]];
+        own[k] = local_ray(l, &e->ray);
+        quick_moved(q, x, l, &e->ray, &own[k]);
+    }
+    for (; i < x->solids && bits; i++) {
+        const struct ray8 *ray = part[i].space ? &own[part[i].space - 1] : &e->ray;
+        const struct span8 s = part_span(e, q, &part[i], ray, first_leaf, bits);
+        bits &= quick_solid(q, v, &part[i], &s);
+    }
+    if (bits)
+        bits &= quick_solids_end(q, v, r8_load(e->p->t));
+    for (; i < x->count && bits; i++) {
+        const struct ray8 *ray = part[i].space ? &own[part[i].space - 1] : &e->ray;
+        const struct span8 s = part_span(e, q, &part[i], ray, first_leaf, bits);
+        quick_complement(q, v, &part[i], bits, &s);
     }
     return bits;
 }
@@ -372,27 +386,21 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     if (!bits)
         return 0;
     p->s->stats.csg_tests++;
-    if (x->kind == PRODUCT_EXACT)
+    if (!x->part)
         return product_exact(e, bits, object);
     struct quick q;
-    struct ray8 own;
+    struct quick_spans v; // not set to zero: it is large
+    struct ray8 own[PRODUCT_SPACES];
+    v.count = 0;
     quick_begin(&q, e->t_min, e->t_max);
     quick_space(&q, x, &e->ray, r8_set(0), r8_set(0));
-    if (x->kind == PRODUCT_MOVED) {
-        const struct leaf *l = &p->w->leaf[o->first_leaf + x->moved];
-        own = local_ray(l, &e->ray);
-        quick_moved(&q, x, l, &e->ray, &own);
-    }
-    quick_bounded(&q);
-    bits = product_leaves(e, &q, false, o, &own, bits);
-    if (bits)
-        bits &= quick_solids_end(&q, r8_load(p->t));
+    bits = quick_parts(e, x, o->first_leaf, bits, &q, &v, own);
     if (!bits)
         return 0;
-    product_leaves(e, &q, true, o, &own, bits);
+    q.doubt = m8_or(q.doubt, quick_begins(&q, &v));
     struct real8 t, at;
     unsigned doubt;
-    const unsigned found = quick_first(&q, bits, &t, &at, &doubt);
+    const unsigned found = quick_first(&q, &v, bits, &t, &at, &doubt);
     const unsigned won = take_leaves(e, found, t, at, object);
     return doubt ? won | product_exact(e, doubt, object) : won;
 }

@@ -9,8 +9,8 @@
 struct sponge {
     const struct accel_large *large;
     uint32_t first_leaf;
-    struct real8 in, out;    // the crossing reached; where the solid ends
-    struct real8 in_e, at;   // its error; which it is, as in take_leaves, -1: t_min
+    struct real8 in, out;  // the crossing reached; where the solid ends
+    struct real8 in_e, at; // its error; which it is, as in take_leaves, -1: t_min
     struct span8 solid[STAB_SOLIDS];
     unsigned unsure;
 };
@@ -34,8 +34,10 @@ static unsigned sponge_solids(struct eight *e, struct sponge *v, unsigned bits)
     for (uint32_t i = 0; i < v->large->required_count; i++) {
         const uint32_t leaf = v->large->required[i];
         struct mask8 odd;
+        struct ray8 own;
+        const struct leaf *l = &w->leaf[leaf];
         const struct span8 x =
-            leaf_span(e, &w->leaf[leaf], w->accel->leaf_shape[leaf], &odd);
+            leaf_span(e, l, w->accel->leaf_shape[leaf], leaf_ray(l, &e->ray, &own), &odd);
         v->solid[i] = x;
         v->unsure |= bits & m8_bits(odd);
         bits &= m8_bits(m8_and(x.met, r8_lt(e->t_min, r8_add(x.out, x.out_e))));
@@ -62,8 +64,8 @@ enum { SPONGE_APART = 16 }; // points further apart than this share of the tree 
 
 // The box around the points reached by `bits`, grown as in stab.c; false: it is so large
 // that the lanes had better look around one by one.
-LANES_INLINE bool sponge_look(const struct eight *e, const struct sponge *v, unsigned bits,
-                              struct sponge_box *box)
+LANES_INLINE bool sponge_look(const struct eight *e, const struct sponge *v,
+                              unsigned bits, struct sponge_box *box)
 {
     const struct bvh8 *tree = &v->large->leaves;
     const double extent =
@@ -88,7 +90,8 @@ LANES_INLINE bool sponge_look(const struct eight *e, const struct sponge *v, uns
             }
         box->lo[a] = (float)lo[0];
         box->hi[a] = (float)hi[0];
-        const double side = vec3_axis(tree->bounds.max, a) - vec3_axis(tree->bounds.min, a);
+        const double side =
+            vec3_axis(tree->bounds.max, a) - vec3_axis(tree->bounds.min, a);
         size = hi[0] - lo[0] > size ? hi[0] - lo[0] : size;
         whole = side > whole ? side : whole;
     }
