@@ -82,6 +82,19 @@ static bool merge_along(struct radiosity *r, bool along_v)
     return r->emitter_count < before;
 }
 
+// Whether the light of all is looked at by shafts first: where nothing can come between
+// no ray is sent. With many emitters or objects something mostly can.
+static void find_shafts(struct radiosity *r)
+{
+    enum { TESTS_MOST = 128 };
+    const struct patches *p = r->patches;
+    r->shafts = p->shaft && r->emitter_count * p->job->world->object_count <= TESTS_MOST;
+    for (uint32_t i = 0; i < r->emitter_count && r->shafts; i++) {
+        r->shafts = is_polygon(&r->emitter[i].e);
+        r->emitter[i].shaft = patches_shaft(p, &r->emitter[i].e, &r->emitter[i].at);
+    }
+}
+
 void emitters_find(struct radiosity *r)
 {
     const struct patches *p = r->patches;
@@ -93,13 +106,16 @@ void emitters_find(struct radiosity *r)
     r->emitter = solver_alloc(count, sizeof *r->emitter);
     for (uint32_t i = 0; i < p->element_count; i++)
         if (rgb_max(p->element[i].emission) > 0)
-            r->emitter[r->emitter_count++] = (struct emitter){
-                p->element[i], p->cell[p->element_cell[i] / 2],
-                (int)(p->element_cell[i] & 1), polygon_radius(&p->element[i])};
+            r->emitter[r->emitter_count++] =
+                (struct emitter){.e = p->element[i],
+                                 .at = p->cell[p->element_cell[i] / 2],
+                                 .side = (int)(p->element_cell[i] & 1),
+                                 .radius = polygon_radius(&p->element[i])};
     while (merge_along(r, false) | merge_along(r, true))
         ;
     if (r->emitter_count > EMITTERS_MOST)
         r->emitter_count = 0;
+    find_shafts(r);
 }
 
 // ---- their light -------------------------------------------------------------------
@@ -138,21 +154,33 @@ static void look_at(struct looks *l, struct vec3 o, struct vec3 to,
     l->rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
 }
 
+// Point k of Sobol's first EMITTER_RAYS in two dimensions, moved by a digital shift: as
+// well spread for that many as any scrambling, and cheap.
+static void net_point(uint32_t k, const uint32_t shift[2], double out[2])
+{
+    static const uint8_t x[EMITTER_RAYS] = {0, 8, 4, 12, 2, 10, 6, 14,
+                                            1, 9, 5, 13, 3, 11, 7, 15};
+    static const uint8_t y[EMITTER_RAYS] = {0,  8, 12, 4,  10, 2,  6, 14,
+                                            15, 7, 3,  11, 5,  13, 9, 1};
+    out[0] = ((uint32_t)x[k] << 28 ^ shift[0]) * 0x1p-32;
+    out[1] = ((uint32_t)y[k] << 28 ^ shift[1]) * 0x1p-32;
+}
+
 // A point of an emitter; where it does not exist another one is drawn.
 static bool emitter_point(const struct radiosity *r, struct tracer *t,
-                          const struct emitter *x, uint32_t k, uint32_t hash,
+                          const struct emitter *x, uint32_t k, const uint32_t shift[2],
                           struct element_point *out)
 {
     enum { TRIES = 16 };
     double s[4];
-    sobol_point(k, hash, s);
+    net_point(k, shift, s);
     for (uint32_t again = 1;; again++) {
         if (patch_cell_point(r->patches, t->scratch, &x->at, x->side, x->e.partial, s[0],
                              s[1], out))
             return true;
         if (again == TRIES)
             return false;
-        random_point(k, sequence_seed(hash, again), s);
+        random_point(k, sequence_seed(shift[0], again), s);
     }
 }
 
@@ -190,11 +218,35 @@ static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3
     return polygons;
 }
 
+// The same with its colour, of polygons, where nothing can hide any of it. False: it may.
+static bool all_open(const struct radiosity *r, uint32_t element, struct vec3 o,
+                     const double *up_to, struct rgb *light)
+{
+    const struct patches *p = r->patches;
+    struct shaft at = {.centre = o};
+    double before = 0;
+    *light = rgb(0, 0, 0);
+    if (!r->shafts)
+        return false;
+    if (element != ELEMENT_NONE && shaft_holds(&p->shaft[element], o))
+        at.hollow = p->shaft[element].hollow;
+    for (uint32_t i = 0; i < r->emitter_count; before = up_to[i++]) {
+        const struct rgb e = r->emitter[i].e.emission;
+        if (up_to[i] <= before)
+            continue;
+        if (shafts_may_hide(p, &at, &r->emitter[i].shaft))
+            return false;
+        const double given = (up_to[i] - before) / (double)rgb_max(e);
+        *light = rgb_add(*light, rgb_scale((float)given, e));
+    }
+    return true;
+}
+
 // Irradiance of the emitting elements at a point: shadow rays to points of their true
 // surfaces, elements drawn by what they give. Of polygons the points say what part of
 // Lambert's sum is open; of other elements they are the integral.
 struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer *t,
-                          struct vec3 o, struct vec3 n, uint32_t hash)
+                          struct vec3 o, struct vec3 n, uint32_t element, uint32_t hash)
 {
     // Of a point relative to the mean: nearer than an element's size it has no bound.
     static const double weight_most = 8;
@@ -204,10 +256,12 @@ struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer 
     const struct element_point here = {o, n, 0};
     struct rgb open = {0, 0, 0}, other = {0, 0, 0};
     uint8_t hidden[EMITTER_RAYS];
-    if (sum <= 0)
+    if (sum <= 0 || all_open(r, element, o, up_to, &open))
         return open;
+    open = rgb(0, 0, 0);
     struct looks *const l = state;
     random_point(0, hash, s);
+    const uint32_t shift[2] = {sequence_seed(hash, 1), sequence_seed(hash, 2)};
     l->rays->count = 0;
     for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
         const double at = (k + s[0]) / EMITTER_RAYS * sum;
@@ -215,7 +269,7 @@ struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer 
             i++;
         const struct element *e = &r->emitter[i].e;
         struct element_point to;
-        if (!emitter_point(r, t, &r->emitter[i], k, hash, &to))
+        if (!emitter_point(r, t, &r->emitter[i], k, shift, &to))
             continue;
         const double share = up_to[i] - (i ? up_to[i - 1] : 0);
         const double most = rgb_max(e->emission);

@@ -131,6 +131,13 @@ void patches_enclosure(struct patches *p);
 void patches_neighbours(struct patches *p);
 void patches_shafts(struct patches *p);
 bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b);
+// The same for what is no element of the list; not beyond SHAFT_OBJECTS objects.
+struct shaft patches_shaft(const struct patches *p, const struct element *e,
+                           const struct cell *c);
+bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+                     const struct shaft *b);
+// Whether a point lies in the box, up to rounding.
+bool shaft_holds(const struct shaft *s, struct vec3 at);
 // Drops elements that no light can reach on its way to the camera.
 void patches_prune(struct patches *p);
 

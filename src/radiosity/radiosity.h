@@ -41,7 +41,8 @@ struct emitter {
     struct element e;
     struct cell at;
     int side;
-    double radius; // of an element by itself
+    double radius;      // of an element by itself
+    struct shaft shaft; // where radiosity.shafts
 };
 
 struct radiosity {
@@ -52,6 +53,7 @@ struct radiosity {
     struct radiosity_report report;
     struct emitter *emitter; // whose light is found per pixel
     uint32_t emitter_count;
+    bool shafts;        // theirs are known
     double (*shown)[3]; // irradiance for the picture, without what emitters give it
     uint64_t key;       // of the scene as elements and lamps see it
 };
@@ -87,9 +89,9 @@ void lamps_gather(const struct patches *p, uint32_t points, int threads,
 void emitters_find(struct radiosity *r);
 void *emitters_begin(const void *data);
 void emitters_end(void *state);
-// Irradiance of the emitters at a point, of normal n.
+// Irradiance of the emitters at a point, of normal n, on an element or ELEMENT_NONE.
 struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer *t,
-                          struct vec3 o, struct vec3 n, uint32_t hash);
+                          struct vec3 o, struct vec3 n, uint32_t element, uint32_t hash);
 uint64_t radiosity_key(const struct radiosity *r);
 // One solution on the given elements; false: it does not fit, or no memory.
 bool radiosity_level(struct radiosity *r, char *error, size_t error_size);

@@ -33,14 +33,13 @@ static bool inside_closed(const struct leaf *l, struct vec3 p)
     return l->ops->inside(l->shape, transform_inverse_point(l->transform, p));
 }
 
-static void element_shaft(struct patches *p, uint32_t i)
+struct shaft patches_shaft(const struct patches *p, const struct element *e,
+                           const struct cell *c)
 {
     const struct world *w = p->job->world;
-    const struct element *e = &p->element[i];
-    const struct cell *c = &p->cell[p->element_cell[i] / 2];
     const struct chart *chart = &p->chart[c->chart];
     const struct leaf *own = &w->leaf[chart->leaf];
-    struct shaft *s = &p->shaft[i];
+    struct shaft s = {.hollow = 0};
     struct aabb box = aabb_empty();
     for (uint32_t k = 0; k < e->corner_count; k++)
         box = aabb_add(box, e->corner[k]);
@@ -57,8 +56,8 @@ static void element_shaft(struct patches *p, uint32_t i)
         box.min = vec3_sub(box.min, vec3(bulge, bulge, bulge));
         box.max = vec3_add(box.max, vec3(bulge, bulge, bulge));
     }
-    s->centre = vec3_scale(.5, vec3_add(box.min, box.max));
-    s->half = vec3_scale(.5, vec3_sub(box.max, box.min));
+    s.centre = vec3_scale(.5, vec3_add(box.min, box.max));
+    s.half = vec3_scale(.5, vec3_sub(box.max, box.min));
     for (uint32_t o = 0; o < w->object_count; o++) {
         const struct leaf *l = hollow_of(w, &w->object[o]);
         if (!l)
@@ -67,15 +66,17 @@ static void element_shaft(struct patches *p, uint32_t i)
         for (uint32_t k = 0; l != own && within && k < e->corner_count; k++)
             within = inside_closed(l, e->corner[k]);
         if (within && (l == own || inside_closed(l, e->centre)))
-            s->hollow |= (uint64_t)1 << o;
+            s.hollow |= (uint64_t)1 << o;
     }
+    return s;
 }
 
 static void shafts(void *user, void *state, uint32_t begin, uint32_t end)
 {
+    struct patches *p = user;
     (void)state;
     for (uint32_t i = begin; i < end; i++)
-        element_shaft(user, i);
+        p->shaft[i] = patches_shaft(p, &p->element[i], &p->cell[p->element_cell[i] / 2]);
 }
 
 void patches_shafts(struct patches *p)
@@ -124,17 +125,34 @@ static bool sweeps_into(const struct shaft *a, const struct shaft *b,
     return true;
 }
 
-bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
+bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+                     const struct shaft *b)
 {
     const struct world *w = p->job->world;
-    if (!p->shaft)
-        return true;
-    const uint64_t free = p->shaft[a].hollow & p->shaft[b].hollow;
+    const uint64_t free = a->hollow & b->hollow;
     for (uint32_t o = 0; o < w->object_count; o++) {
         if ((free >> o) & 1 || (w->object[o].flags & OBJECT_NO_RADIOSITY))
             continue;
-        if (sweeps_into(&p->shaft[a], &p->shaft[b], &w->object[o].bounds))
+        if (sweeps_into(a, b, &w->object[o].bounds))
             return true;
     }
     return false;
+}
+
+bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
+{
+    return !p->shaft || shafts_may_hide(p, &p->shaft[a], &p->shaft[b]);
+}
+
+bool shaft_holds(const struct shaft *s, struct vec3 at)
+{
+    static const double rounding = 1e-9; // of the coordinates, as above
+    const struct vec3 off = vec3_sub(at, s->centre);
+    for (int k = 0; k < 3; k++) {
+        const double pad =
+            rounding * (fabs(vec3_axis(at, k)) + fabs(vec3_axis(s->centre, k)));
+        if (fabs(vec3_axis(off, k)) > vec3_axis(s->half, k) + pad)
+            return false;
+    }
+    return true;
 }
