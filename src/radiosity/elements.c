@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "radiosity/polygon.h"
+#include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 #include "trace/tracer.h"
 
@@ -59,17 +60,25 @@ void cell_split(struct patches *p, uint32_t index)
 }
 
 // ---- walls on cells ------------------------------------------------------------------
-bool anchor_sees(const struct patches *p, struct trace_scratch *scratch, uint32_t anchor,
-                 int side, struct vec3 at)
+// The way from an anchor to above a point of its cell. False: it sees all of that side.
+static bool anchor_way(const struct patches *p, uint32_t anchor, int side, struct vec3 at,
+                       struct ray *out)
 {
     const struct anchor *a = &p->anchor[anchor];
     const struct vec3 n = a->n[side];
     if (vec3_dot(n, n) == 0)
-        return true;
+        return false;
     const struct vec3 to = vec3_mad(at, vec3_dot(vec3_sub(a->o[side], at), n), n);
-    const struct ray_query q = {{a->o[side], vec3_sub(to, a->o[side]), 0, 1},
-                                OBJECT_NO_RADIOSITY};
-    return !trace_occluded_1(p->job->world, scratch, &q);
+    *out = (struct ray){a->o[side], vec3_sub(to, a->o[side]), 0, 1};
+    return true;
+}
+
+bool anchor_sees(const struct patches *p, struct trace_scratch *scratch, uint32_t anchor,
+                 int side, struct vec3 at)
+{
+    struct ray_query q = {.hidden_by = OBJECT_NO_RADIOSITY};
+    return !anchor_way(p, anchor, side, at, &q.ray) ||
+           !trace_occluded_1(p->job->world, scratch, &q);
 }
 
 // Two cells in the place of one: what the anchor sees, and the rest.
@@ -130,102 +139,185 @@ static void points_add(struct points *x, struct vec3 at, double u, double v)
     x->at[x->count++] = at;
 }
 
+// What a thread keeps: rays go together. Points as they were found, in order.
+struct sampler {
+    struct tracer *t;
+    struct ray_batch *rays;
+    struct hit_batch *hits;
+    uint32_t of[POINTS_MOST]; // the point of each ray
+    uint32_t count;           // of points
+    double uv[POINTS_MOST][2];
+    bool exists[POINTS_MOST];
+    struct element_point at[POINTS_MOST];
+    struct ray ray[POINTS_MOST];
+    struct hit hit[POINTS_MOST];
+};
+
+// A ray of point `of`.
+static void put_ray(struct sampler *s, const struct ray *ray, uint32_t of)
+{
+    const uint32_t k = s->rays->count;
+    ray_put_from(s->rays, ray->o, ray->d, ray->t_max);
+    s->rays->hidden_by[k] = OBJECT_NO_RADIOSITY;
+    s->of[k] = of;
+}
+
+// Of the points found on a part of a cell, those on the other side of the wall are out.
+static void keep_part(const struct patches *p, struct sampler *s, const struct cell *c,
+                      int side)
+{
+    uint8_t hidden[POINTS_MOST];
+    struct ray way;
+    s->rays->count = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (s->exists[i] && anchor_way(p, c->anchor, side, s->at[i].p, &way))
+            put_ray(s, &way, i);
+        else
+            s->exists[i] = s->exists[i] && !c->twin;
+    }
+    trace_occluded(p->job->world, s->t->scratch, s->rays, hidden);
+    for (uint32_t k = 0; k < s->rays->count; k++)
+        s->exists[s->of[k]] = hidden[k] == c->twin;
+}
+
+// Looks for the points of uv; the same as patch_point() of each.
+static void probe(const struct patches *p, struct sampler *s, const struct cell *c,
+                  int side)
+{
+    s->rays->count = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->exists[i] =
+            patch_aim(p, c, side, s->uv[i][0], s->uv[i][1], &s->at[i], &s->ray[i]);
+        if (s->exists[i])
+            put_ray(s, &s->ray[i], i);
+    }
+    trace_closest(p->job->world, s->t->scratch, s->rays, s->hits);
+    for (uint32_t k = 0; k < s->rays->count; k++) {
+        const uint32_t i = s->of[k];
+        s->hit[i] = hit_batch_at(s->hits, k);
+        s->exists[i] = patch_met(p, c, &s->ray[i], &s->hit[i], &s->at[i]);
+    }
+    if (c->anchor)
+        keep_part(p, s, c, side);
+}
+
 // Whether the ways from the middle to the other points, just above the cell, are not all
 // free: then a wall stands on it, and light would get from one side to the other.
-static void find_crossed(const struct patches *p, struct tracer *t,
+static void find_crossed(const struct patches *p, struct sampler *s,
                          const struct points *x, struct found *f)
 {
     static const double above = 1e-3; // of the cell's size
     const struct vec3 n = vec3_normalize(f->normal), middle = x->at[x->middle];
+    uint8_t hidden[LOOKS];
     double top = 0;
     for (uint32_t k = 0; k < x->count; k++)
         top = fmax(top, vec3_dot(vec3_sub(x->at[k], middle), n));
     f->anchor = vec3_mad(middle, top + above * sqrt(f->area), n);
     const uint32_t step = x->count / LOOKS + 1;
-    for (uint32_t k = 0; k < x->count && !f->crossed; k += step) {
+    s->rays->count = 0;
+    for (uint32_t k = 0; k < x->count; k += step) {
         const struct vec3 to =
             vec3_mad(x->at[k], vec3_dot(vec3_sub(f->anchor, x->at[k]), n), n);
-        const struct ray_query q = {{f->anchor, vec3_sub(to, f->anchor), 0, 1},
-                                    OBJECT_NO_RADIOSITY};
-        f->crossed = trace_occluded_1(p->job->world, t->scratch, &q);
+        const struct ray way = {f->anchor, vec3_sub(to, f->anchor), 0, 1};
+        put_ray(s, &way, k);
     }
+    trace_occluded(p->job->world, s->t->scratch, s->rays, hidden);
+    for (uint32_t k = 0; k < s->rays->count; k++)
+        f->crossed = f->crossed || hidden[k];
 }
 
 // What cuts a cell mostly cuts a corner or an edge.
-static void sample_rim(const struct patches *p, struct tracer *t, const struct cell *c,
+static void sample_rim(const struct patches *p, struct sampler *s, const struct cell *c,
                        int side, struct found *f, struct points *x)
 {
     static const double in = 1e-3, out = 1 - 1e-3;
     static const double rim[RIM][2] = {{in, in}, {out, in}, {out, out}, {in, out},
                                        {.5, in}, {out, .5}, {.5, out},  {in, .5}};
-    const struct patch_probe probe = {t->scratch, p};
-    struct element_point at;
-    struct hit hit;
-    struct ray ray;
+    s->count = RIM;
+    memcpy(s->uv, rim, sizeof rim);
+    probe(p, s, c, side);
     for (int k = 0; k < RIM; k++) {
-        if (patch_point(&probe, c, side, rim[k][0], rim[k][1], &at, &hit, &ray))
-            points_add(x, at.p, rim[k][0], rim[k][1]);
+        if (s->exists[k])
+            points_add(x, s->at[k].p, rim[k][0], rim[k][1]);
         else
             f->tried++;
     }
 }
 
-static void sample_cell(const struct patches *p, struct tracer *t, uint32_t index,
+// n x n points of a cell's square.
+static void put_points(struct sampler *s, uint32_t index, int n)
+{
+    s->count = (uint32_t)(n * n);
+    for (int i = 0; i < n * n; i++) {
+        s->uv[i][0] = (i % n + .5) / n;
+        s->uv[i][1] = (i / n + .5) / n;
+        if (n == SAMPLES_PART) {
+            // A grid sees an edge along it no better than by a whole row.
+            double x4[4];
+            sobol_point((uint32_t)i, index, x4);
+            s->uv[i][0] = x4[0];
+            s->uv[i][1] = x4[1];
+        }
+    }
+}
+
+static void sample_cell(const struct patches *p, struct sampler *s, uint32_t index,
                         int side, int n, struct found *f)
 {
     const struct cell *c = &p->cell[index];
     const struct chart *chart = &p->chart[c->chart];
     const struct leaf *l = &p->job->world->leaf[chart->leaf];
-    const struct patch_probe probe = {t->scratch, p};
     struct points x;
     x.count = 0;
     *f = (struct found){.tried = (uint32_t)(n * n)};
-    for (int i = 0; i < n * n; i++) {
-        double u = (i % n + .5) / n, v = (i / n + .5) / n;
-        if (n == SAMPLES_PART) {
-            // A grid sees an edge along it no better than by a whole row.
-            double x4[4];
-            sobol_point((uint32_t)i, index, x4);
-            u = x4[0];
-            v = x4[1];
-        }
-        struct element_point at;
-        struct hit hit;
-        struct ray ray;
+    put_points(s, index, n);
+    probe(p, s, c, side);
+    for (uint32_t i = 0; i < s->count; i++) {
+        const double u = s->uv[i][0], v = s->uv[i][1];
         struct rgb reflectance, emission;
-        if (!patch_point(&probe, c, side, u, v, &at, &hit, &ray))
+        if (!s->exists[i])
             continue;
         const double area = chart_density(chart, l, c->u + u * c->du, c->v + v * c->dv,
                                           1e-3 * c->du, 1e-3 * c->dv) *
                             c->du * c->dv / (n * n);
-        patch_colour(t, &ray, &hit, &reflectance, &emission);
+        patch_colour(s->t, &s->ray[i], &s->hit[i], &reflectance, &emission);
         f->area += area;
         f->reflectance = rgb_add(f->reflectance, rgb_scale((float)area, reflectance));
         f->emission = rgb_add(f->emission, rgb_scale((float)area, emission));
-        f->normal = vec3_mad(f->normal, area, at.normal);
-        f->centre = vec3_mad(f->centre, area, at.p);
+        f->normal = vec3_mad(f->normal, area, s->at[i].normal);
+        f->centre = vec3_mad(f->centre, area, s->at[i].p);
         f->members++;
-        points_add(&x, at.p, u, v);
+        points_add(&x, s->at[i].p, u, v);
     }
     if (f->members == f->tried || f->members == 0)
-        sample_rim(p, t, c, side, f, &x);
+        sample_rim(p, s, c, side, f, &x);
     f->rim = f->members == 0 && x.count;
     if (f->members == 0)
         return;
     if (!c->anchor && x.count > 1)
-        find_crossed(p, t, &x, f);
+        find_crossed(p, s, &x, f);
 }
 
 static void *sampling_begin(void *user)
 {
-    const struct sampling *s = user;
-    return tracer_new(s->p->job);
+    const struct sampling *of = user;
+    struct sampler *s = malloc(sizeof *s);
+    if (!s)
+        abort();
+    s->t = tracer_new(of->p->job);
+    s->rays = ray_batch_new(POINTS_MOST);
+    s->hits = hit_batch_new(POINTS_MOST);
+    return s;
 }
 
 static void sampling_end(void *user, void *state)
 {
+    struct sampler *s = state;
     (void)user;
-    tracer_free(state);
+    tracer_free(s->t);
+    ray_batch_free(s->rays);
+    hit_batch_free(s->hits);
+    free(s);
 }
 
 static void sampling_work(void *user, void *state, uint32_t begin, uint32_t end)

@@ -34,11 +34,9 @@ static bool in_room(const struct patches *p, struct vec3 at)
     return true;
 }
 
-bool patch_point(const struct patch_probe *probe, const struct cell *c, int side,
-                 double u, double v, struct element_point *out, struct hit *hit,
-                 struct ray *ray)
+bool patch_aim(const struct patches *p, const struct cell *c, int side, double u,
+               double v, struct element_point *out, struct ray *ray)
 {
-    const struct patches *p = probe->p;
     const struct chart *chart = &p->chart[c->chart];
     const struct leaf *l = &p->job->world->leaf[chart->leaf];
     struct vec3 n;
@@ -47,19 +45,35 @@ bool patch_point(const struct patch_probe *probe, const struct cell *c, int side
     out->normal = l->inverted != (side == 1) ? vec3_neg(n) : n;
     const double height = probe_height * p->size + 1e-9 * vec3_max_abs(out->p);
     const struct vec3 from = vec3_mad(out->p, height, out->normal);
-    const struct ray_query q = {{from, vec3_neg(out->normal), 0, 2 * height},
-                                OBJECT_NO_RADIOSITY};
-    if (!in_room(p, from))
-        return false;
-    *hit = trace_closest_1(p->job->world, probe->scratch, &q);
-    if (hit->b.t == INFINITY || hit->b.leaf != chart->leaf)
-        return false;
-    *ray = q.ray;
+    *ray = (struct ray){from, vec3_neg(out->normal), 0, 2 * height};
+    return in_room(p, from);
+}
+
+bool patch_met(const struct patches *p, const struct cell *c, const struct ray *ray,
+               const struct hit *hit, struct element_point *out)
+{
     struct interaction at;
+    if (hit->b.t == INFINITY || hit->b.leaf != p->chart[c->chart].leaf)
+        return false;
     trace_interaction(p->job->world, ray, hit, &at);
     out->p = at.p;
     out->error = 2 * at.error;
-    return !c->anchor || anchor_sees(p, probe->scratch, c->anchor, side, at.p) != c->twin;
+    return true;
+}
+
+bool patch_point(const struct patch_probe *probe, const struct cell *c, int side,
+                 double u, double v, struct element_point *out, struct hit *hit,
+                 struct ray *ray)
+{
+    const struct patches *p = probe->p;
+    struct ray_query q = {.hidden_by = OBJECT_NO_RADIOSITY};
+    if (!patch_aim(p, c, side, u, v, out, &q.ray))
+        return false;
+    *hit = trace_closest_1(p->job->world, probe->scratch, &q);
+    *ray = q.ray;
+    return patch_met(p, c, ray, hit, out) &&
+           (!c->anchor ||
+            anchor_sees(p, probe->scratch, c->anchor, side, out->p) != c->twin);
 }
 
 // ---- rooms -------------------------------------------------------------------------

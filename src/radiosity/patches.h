@@ -112,6 +112,12 @@ struct patch_probe {
 bool patch_point(const struct patch_probe *probe, const struct cell *c, int side,
                  double u, double v, struct element_point *out, struct hit *hit,
                  struct ray *ray);
+// Its two halves: the ray that looks for the point, and the point where that was met.
+// Which side of a wall on the cell it lies on is not asked.
+bool patch_aim(const struct patches *p, const struct cell *c, int side, double u,
+               double v, struct element_point *out, struct ray *ray);
+bool patch_met(const struct patches *p, const struct cell *c, const struct ray *ray,
+               const struct hit *hit, struct element_point *out);
 // Room for more cells, at the end of the list; pointers to others are void.
 struct cell *cells_add(struct patches *p, uint32_t count);
 // Whether the anchor sees a point of its cell.
