@@ -94,7 +94,8 @@ void patches_shafts(struct patches *p)
     parallel_run(&run, p->element_count);
 }
 
-// Cuts [t0, t1] down to where a + t (b - a) < 0; false: nowhere.
+// Cuts [t0, t1] down to where a + t (b - a) < 0, to nothing or less where another cut
+// left none of it; false: that is nowhere in 0 to 1.
 static bool clip(double a, double b, double *t0, double *t1)
 {
     if (a >= 0 && b >= 0)
@@ -103,7 +104,7 @@ static bool clip(double a, double b, double *t0, double *t1)
         *t0 = fmax(*t0, a / (a - b));
     else if (b >= 0)
         *t1 = fmin(*t1, a / (a - b));
-    return *t0 < *t1;
+    return true;
 }
 
 // Whether the box between the boxes of both elements, moved from one to the other, runs
@@ -116,10 +117,16 @@ static bool sweeps_into(const struct shaft *a, const struct shaft *b,
         const double ca = vec3_axis(a->centre, k), cb = vec3_axis(b->centre, k);
         const double ha = vec3_axis(a->half, k), hb = vec3_axis(b->half, k);
         const double low = vec3_axis(o->min, k), high = vec3_axis(o->max, k);
-        // Bounds are padded; what only touches does not hide.
+        // Bounds are padded; what only touches, all the way, does not hide.
         const double pad = 1e-9 * (fabs(low) + fabs(high) + fabs(ca) + fabs(cb));
-        if (!clip(ca - ha - high + pad, cb - hb - high + pad, &t0, &t1) ||
-            !clip(low + pad - ca - ha, low + pad - cb - hb, &t0, &t1))
+        double k0 = 0, k1 = 1;
+        if (!clip(ca - ha - high + pad, cb - hb - high + pad, &k0, &k1) ||
+            !clip(low + pad - ca - ha, low + pad - cb - hb, &k0, &k1))
+            return false;
+        // Nothing flat goes through something flat but at one time.
+        t0 = fmax(t0, fmin(k0, k1));
+        t1 = fmin(t1, fmax(k0, k1));
+        if (t0 > t1)
             return false;
     }
     return true;
