@@ -2,6 +2,7 @@
 #define TRACE_PACKET_H
 
 #include "trace/accel.h"
+#include "trace/photon_search.h"
 #include "trace/scratch.h"
 
 // One ray on its way through the world. The nearest hit so far is kept; among equal
@@ -15,7 +16,7 @@ struct search {
     double dd;       // d.d
     double t;        // of the nearest; INFINITY: none
     uint32_t object; // UINT32_MAX: none
-    bool known; // b is filled; else the boundary is still to be made
+    bool known;      // b is filled; else the boundary is still to be made
     struct boundary b;
 };
 
@@ -43,8 +44,8 @@ struct packet {
     uint32_t first;
     double t[8]; // as in search, when the lane has no search of its own yet
     struct tree_lanes top;
-    uint32_t object[8]; // UINT32_MAX: none
-    uint32_t leaf[8];   // of an unknown boundary
+    uint32_t object[8];                // UINT32_MAX: none
+    uint32_t leaf[8];                  // of an unknown boundary
     double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where
     uint8_t crossing[8];               // `whole`
     unsigned alive, searching, whole;
@@ -107,6 +108,7 @@ struct packet_kernels {
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
     const struct shape_kernels *shapes;
+    photon_search_fn *photons;
 };
 
 extern const struct packet_kernels packet_kernels_base, packet_kernels_avx2,

@@ -412,4 +412,5 @@ static void crossings(const struct world *w, struct trace_scratch *s,
 }
 
 const struct packet_kernels OF_ISA(packet_kernels_) = {
-    ISA_TEXT, trace_closest8, trace_occluded8, crossings, walk, &OF_ISA(shape_kernels_)};
+    ISA_TEXT, trace_closest8, trace_occluded8, crossings,
+    walk,     &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};

@@ -6,6 +6,7 @@
 
 #include "math/color.h"
 #include "math/vec.h"
+#include "trace/photon_search.h"
 
 // Light that came to a point by way of mirrors and glass.
 struct photon {
@@ -13,38 +14,44 @@ struct photon {
     struct rgb energy;
 };
 
-// Photons as a balanced kd-tree (Jensen 2001, 7.3): the middle of a range splits it, on the
-// axis along which the range is widest.
-enum { PHOTONS_MOST = 1 << 26 }; // of a map, 2.4 GB: bounds what a spacing of next to
-                                 // nothing can do
+enum {
+    PHOTONS_MOST = 1 << 26
+}; // of a map, 3.7 GB with its tree: bounds what a spacing
+    // of next to nothing can do
 
+// Photons in the order of a kd-tree (Jensen 2001, 7.3) whose ranges are halved, on the axis
+// along which they are widest, down to eight.
 struct photon_map {
     struct photon *photon;
-    uint8_t *axis; // of each, once the tree is made
-    struct photon_box *box; // of larger ranges, likewise
     uint32_t count, capacity;
+    struct photon_tree tree; // once it is made
+    photon_search_fn *search;
     bool full;           // there was no room for more
     double radius, step; // to gather in; what it grows by where there are too few
 };
 
+// Room for what a search finds.
 struct photon_near {
-    double distance2; // as the search measures it
-    uint32_t photon;
+    uint32_t most, *photon;
+    double *distance2;
 };
+
+struct photon_near *photon_near_new(uint32_t most);
+void photon_near_free(struct photon_near *near);
 
 void photon_add(struct photon_map *m, const struct photon *p);
 // Adds all of another map, in its order.
 void photon_map_append(struct photon_map *m, const struct photon_map *from);
 void photon_map_end(struct photon_map *m);
-// Makes the tree; the order of the photons changes.
-void photon_map_build(struct photon_map *m);
+// Makes the tree, for a search; the order of the photons changes.
+void photon_map_build(struct photon_map *m, photon_search_fn *search);
 
-// At most `most` photons within `radius` of p, the nearest ones, into near; returns how many.
-// With a normal (not zero) a photon off its plane counts as farther (spec/lighting.md 11.5).
-// *reach: the radius that holds them: of the farthest when there are `most`.
+// At most near->most photons within `radius` of p, the nearest ones, into near->photon, in an
+// order that depends on the map and p alone; returns how many. With a normal (not zero) a
+// photon off its plane counts as farther (spec/lighting.md 11.5). *reach: the radius that
+// holds them: of the farthest when there are `most`.
 uint32_t photons_near(const struct photon_map *m, struct vec3 p, struct vec3 normal,
-                      double radius, uint32_t most, struct photon_near *near,
-                      double *reach);
+                      double radius, struct photon_near *near, double *reach);
 
 // What gathering wants (spec/lighting.md 11.1).
 struct photon_gather {

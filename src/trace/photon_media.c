@@ -102,7 +102,7 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
             photons_gather(&photons->media, &photons->gather, p, none, near, &reach);
         struct vec3 sum = {0, 0, 0};
         for (uint32_t i = 0; i < n; i++) {
-            const struct photon *x = &photons->media.photon[near[i].photon];
+            const struct photon *x = &photons->media.photon[near->photon[i]];
             const struct vec3 from = {(double)x->from[0], (double)x->from[1],
                                       (double)x->from[2]};
             sum = vec3_mad(sum, media_phase(m->mix, vec3_dot(from, m->way->d)),

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "trace/packet.h"
 #include "trace/photon_volley.h"
 
 static const double pi = 3.14159265358979323846;
@@ -295,11 +296,11 @@ static double spacing_of(const struct job *job)
 
 // ---- the whole -----------------------------------------------------------------------
 
-static void map_finish(struct photon_map *m, const struct photon_settings *p, int which,
+static void map_finish(struct photon_map *m, const struct job *job, int which,
                        uint32_t max)
 {
-    const double *radius = &p->radius[2 * which];
-    photon_map_build(m);
+    const double *radius = &job->scene->settings.photons.radius[2 * which];
+    photon_map_build(m, job->world->accel->kernels->photons);
     if (radius[0] > 0) {
         m->radius = radius[0];
     } else if (m->count) {
@@ -338,8 +339,8 @@ struct photons *photons_shoot(const struct job *job, const volatile bool *cancel
     p->gather.expand_increase = settings->expand_increase;
     p->gather.expand_min =
         (uint32_t)(settings->expand_min > 0 ? settings->expand_min : 0);
-    map_finish(&p->surface, settings, 0, p->gather.max);
-    map_finish(&p->media, settings, 1, p->gather.max);
+    map_finish(&p->surface, job, 0, p->gather.max);
+    map_finish(&p->media, job, 1, p->gather.max);
     return p;
 }
 

@@ -37,7 +37,7 @@ void shade_photons(struct shading *s)
     struct rgb sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++)
         sum = rgb_add(sum,
-                      photon_lit(s, &m->photon[s->t->near_photons[i].photon], side_test));
+                      photon_lit(s, &m->photon[s->t->near_photons->photon[i]], side_test));
     if (reach > 0)
         tracer_add(s->t, rgb_mul(s->path->through,
                                  rgb_scale((float)(1 / (pi * reach * reach)), sum)));

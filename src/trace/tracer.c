@@ -40,8 +40,7 @@ struct tracer *tracer_new(const struct job *job)
         t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
     media_init(t);
     if (job->photons)
-        t->near_photons =
-            must_calloc(job->photons->gather.max, sizeof *t->near_photons);
+        t->near_photons = photon_near_new(job->photons->gather.max);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
     else if (job->quick_camera)
@@ -62,7 +61,7 @@ void tracer_free(struct tracer *t)
     shadow_end(t);
     simple_end(t);
     media_end(t);
-    free(t->near_photons);
+    photon_near_free(t->near_photons);
     free(t->eye_inside);
     paint_end(t);
     hit_batch_free(t->hit);

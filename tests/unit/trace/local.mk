@@ -20,3 +20,7 @@ check_PROGRAMS += test_packet
 test_packet_SOURCES = %D%/test_packet.c
 test_packet_CPPFLAGS = $(test_cppflags)
 test_packet_LDADD = $(test_ldadd)
+check_PROGRAMS += test_photon_map
+test_photon_map_SOURCES = %D%/test_photon_map.c
+test_photon_map_CPPFLAGS = $(test_cppflags)
+test_photon_map_LDADD = $(test_ldadd)

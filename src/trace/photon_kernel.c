@@ -1,0 +1,222 @@
+// The search for the nearest photons, compiled once per instruction set. Nearer boxes come
+// first, and what is found waits unsorted until there is too much of it: then the nearest
+// are told from the others by bisecting the distance. All instruction sets find the same
+// photons in the same order.
+#include "math/isa.h"
+#include "math/lanes_vec.h"
+#include "trace/photon_search.h"
+
+static const double flatness = 16;
+
+LANES_INLINE struct real8 load(const float *p) { return r8_of_floats(f8_load(p)); }
+
+LANES_INLINE unsigned first_bits(uint32_t n) { return n >= 8 ? 255 : (1u << n) - 1; }
+
+// ---- the nearest so far --------------------------------------------------------------
+
+// Appends the lanes of `bits`, in their order; eight places behind the last are written.
+LANES_INLINE uint32_t append(double *distance2, uint32_t *photon, uint32_t count,
+                             unsigned bits, const double *d, const uint32_t *id)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    const __mmask8 m = (__mmask8)bits;
+    _mm512_storeu_pd(distance2 + count, _mm512_maskz_compress_pd(m, _mm512_loadu_pd(d)));
+    _mm256_storeu_si256(
+        (void *)(photon + count),
+        _mm256_maskz_compress_epi32(m, _mm256_loadu_si256((const void *)id)));
+    return count + (uint32_t)__builtin_popcount(bits);
+#else
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        distance2[count] = d[i];
+        photon[count++] = id[i];
+    }
+    return count;
+#endif
+}
+
+static uint32_t within(const struct photon_search *s, double d)
+{
+    const struct real8 limit = r8_set(d);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < s->count; i += 8)
+        n += (uint32_t)__builtin_popcount(
+            m8_bits(r8_le(r8_load(s->distance2 + i), limit)));
+    return n;
+}
+
+// The last places of the last eight are INFINITY, which no photon is.
+static void pad(struct photon_search *s)
+{
+    for (uint32_t i = s->count; i % 8; i++)
+        s->distance2[i] = INFINITY;
+}
+
+static double farthest(const struct photon_search *s)
+{
+    struct real8 far = r8_set(0);
+    double d[8];
+    for (uint32_t i = 0; i < s->count; i += 8) {
+        const struct real8 v = r8_load(s->distance2 + i);
+        far = r8_max(r8_select(r8_lt(v, r8_set(INFINITY)), v, far), far);
+    }
+    r8_store(d, far);
+    for (int i = 1; i < 8; i++)
+        d[0] = d[i] > d[0] ? d[i] : d[0];
+    return d[0];
+}
+
+// Keeps those not beyond d, but of those at d only the first `equal`.
+static void keep(struct photon_search *s, double d, uint32_t equal)
+{
+    const struct real8 limit = r8_set(d);
+    const uint32_t count = s->count;
+    s->count = 0;
+    for (uint32_t i = 0; i < count; i += 8) {
+        const struct real8 v = r8_load(s->distance2 + i);
+        unsigned in = m8_bits(r8_le(v, limit)) & first_bits(count - i);
+        double own[8];
+        uint32_t id[8];
+        r8_store(own, v);
+        for (int k = 0; k < 8; k++)
+            id[k] = s->photon[i + (uint32_t)k];
+        for (unsigned same = in & m8_bits(r8_eq(v, limit)); same; same &= same - 1) {
+            if (equal)
+                equal--;
+            else
+                in &= ~(same & -same);
+        }
+        s->count = append(s->distance2, s->photon, s->count, in, own, id);
+    }
+}
+
+// Leaves the nearest where there are more than wanted.
+static void nearest(struct photon_search *s)
+{
+    pad(s);
+    double high = farthest(s), low = -high; // not below what is wanted, and below it
+    uint32_t below = 0, n = s->count;       // how many are within these
+    while (n > s->most) {
+        const double middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high))
+            break; // what lies between is at `high`
+        const uint32_t k = within(s, middle);
+        if (k < s->most) {
+            low = middle;
+            below = k;
+        } else {
+            high = middle;
+            n = k;
+        }
+    }
+    if (n < s->count || n > s->most) {
+        keep(s, high, n > s->most ? s->most - below : UINT32_MAX);
+        pad(s);
+    }
+    s->limit2 = farthest(s);
+}
+
+// ---- the tree ------------------------------------------------------------------------
+
+static void leaf(struct photon_search *s, uint32_t at)
+{
+    const struct photon_leaf *l = &s->tree->leaf[at];
+    const struct real8 x = r8_sub(load(l->p[0]), r8_set(s->p[0])),
+                       y = r8_sub(load(l->p[1]), r8_set(s->p[1])),
+                       z = r8_sub(load(l->p[2]), r8_set(s->p[2]));
+    struct real8 d2 = r8_add(r8_add(r8_mul(x, x), r8_mul(y, y)), r8_mul(z, z));
+    if (s->flat) {
+        // A disc rather than a ball: what lies off the plane is farther, the more the
+        // farther (spec/lighting.md 11.5).
+        const struct real8 off =
+            r8_abs(r8_add(r8_add(r8_mul(x, r8_set(s->n[0])), r8_mul(y, r8_set(s->n[1]))),
+                          r8_mul(z, r8_set(s->n[2]))));
+        d2 = r8_mul(d2, r8_add(r8_set(1), r8_mul(r8_set(flatness), off)));
+    }
+    const unsigned in = m8_bits(r8_le(d2, r8_set(s->limit2)));
+    if (!in)
+        return;
+    double d[8];
+    uint32_t id[8];
+    r8_store(d, d2);
+    for (uint32_t i = 0; i < 8; i++)
+        id[i] = 8 * at + i;
+    const bool full = s->count >= s->most;
+    s->count = append(s->distance2, s->photon, s->count, in, d, id);
+    if (s->count >= (full ? 2 * s->most : s->most))
+        nearest(s);
+}
+
+// No photon of a box is nearer than this.
+LANES_INLINE struct real8 box_distance2(const struct photon_search *s,
+                                        const struct photon_node *b)
+{
+    static const double rounding = 0x1p-40; // more than the operations here lose
+    const struct real8 zero = r8_set(0), half = r8_set(.5);
+    struct real8 d2 = zero, middle = zero, across = zero, size = zero;
+    for (int a = 0; a < 3; a++) {
+        const struct real8 p = r8_set(s->p[a]);
+        const struct real8 low = r8_sub(load(b->low[a]), p),
+                           high = r8_sub(load(b->high[a]), p);
+        // Rounding keeps order: without a normal this needs no slack.
+        const struct real8 out = r8_max(low, r8_max(r8_neg(high), zero));
+        d2 = r8_add(d2, r8_mul(out, out));
+        if (s->flat) {
+            const struct real8 n = r8_set(s->n[a]), m = r8_abs(n);
+            middle = r8_add(middle, r8_mul(r8_mul(n, r8_add(low, high)), half));
+            across = r8_add(across, r8_mul(r8_mul(m, r8_sub(high, low)), half));
+            size = r8_add(size, r8_mul(m, r8_max(r8_abs(low), r8_abs(high))));
+        }
+    }
+    if (!s->flat)
+        return d2;
+    const struct real8 off =
+        r8_sub(r8_sub(r8_abs(middle), across), r8_mul(r8_set(rounding), size));
+    return r8_mul(
+        r8_mul(d2, r8_add(r8_set(1), r8_mul(r8_set(flatness), r8_max(off, zero)))),
+        r8_set(1 - rounding));
+}
+
+struct entry {
+    double d2;
+    uint32_t level, at; // a leaf's is UINT32_MAX
+};
+
+// Puts the children of a node on the stack, the nearest on top.
+static int children(const struct photon_search *s, struct entry e, struct entry *stack,
+                    int top)
+{
+    const struct real8 d2 = box_distance2(s, &s->tree->level[e.level][e.at]);
+    unsigned in = m8_bits(r8_le(d2, r8_set(s->limit2)));
+    double d[8];
+    r8_store(d, d2);
+    const int first = top;
+    for (; in; in &= in - 1) {
+        const int i = __builtin_ctz(in);
+        int k = top++;
+        for (; k > first && stack[k - 1].d2 < d[i]; k--)
+            stack[k] = stack[k - 1];
+        stack[k] = (struct entry){d[i], e.level - 1, 8 * e.at + (uint32_t)i};
+    }
+    return top;
+}
+
+void OF_ISA(photon_search_)(struct photon_search *s)
+{
+    struct entry stack[8 * PHOTON_LEVELS];
+    int top = 0;
+    s->count = 0;
+    if (s->tree->levels)
+        stack[top++] = (struct entry){0, s->tree->levels - 1, 0};
+    while (top) {
+        const struct entry e = stack[--top];
+        if (e.d2 > s->limit2)
+            continue;
+        if (e.level == UINT32_MAX)
+            leaf(s, e.at);
+        else
+            top = children(s, e, stack, top);
+    }
+    if (s->count > s->most)
+        nearest(s);
+}
