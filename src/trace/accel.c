@@ -212,6 +212,42 @@ static bool is_carved(const struct world *w, const struct accel *accel,
     return solids == 1 && (closed || !shown);
 }
 
+// Whether packets know all that the sweep takes the bounds of a leaf's crossings for.
+static bool has_known_bounds(const struct leaf *l, unsigned shape)
+{
+    return packet_is_product_shape(shape) ||
+           (l->transform->identity && shape >= PACKET_SPHERE && shape <= PACKET_TRIANGLE);
+}
+
+// PACKET_CLIPPED, PACKET_CLIPPED_PRODUCT, or PACKET_NONE: neither.
+static enum packet_shape clipped_shape(const struct world *w, const struct accel *accel,
+                                       const struct world_object *o)
+{
+    uint32_t clips = 0, shown = 0;
+    bool known = true, product = true;
+    if (!has_intersections_only(w, o))
+        return PACKET_NONE;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[i];
+        const unsigned shape = accel->leaf_shape[i];
+        if (!l->drawn) {
+            if (l->inverted || !packet_is_product_shape(shape))
+                return PACKET_NONE;
+            clips++;
+            continue;
+        }
+        if (w->surface[l->surface].opaque != o->opaque)
+            return PACKET_NONE;
+        shown++;
+        known = known && has_known_bounds(l, shape);
+        product = product && packet_is_product_shape(shape);
+    }
+    if (clips && shown == 1 && known)
+        return PACKET_CLIPPED;
+    return clips && product && shown <= PRODUCT_LEAVES ? PACKET_CLIPPED_PRODUCT
+                                                       : PACKET_NONE;
+}
+
 static bool is_sponge(const struct world *w, const struct world_object *o)
 {
     uint32_t solids = 0;
@@ -241,6 +277,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = PACKET_PRODUCT;
         else if (is_carved(w, accel, o))
             accel->object_shape[i] = PACKET_CARVED;
+        else
+            accel->object_shape[i] = (uint8_t)clipped_shape(w, accel, o);
     }
 }
 

@@ -2,6 +2,7 @@
 // flags choose the width in math/lanes.h. All give the same bits.
 #include "math/isa.h"
 #include "trace/packet.h"
+#include "trace/packet_clip.h"
 #include "trace/packet_lanes.h"
 #include "trace/packet_list.h"
 #include "trace/packet_mesh.h"
@@ -28,6 +29,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         return 0;
     if (shape == PACKET_PRODUCT)
         return product(e, bits, object);
+    if (shape == PACKET_CLIPPED || shape == PACKET_CLIPPED_PRODUCT)
+        return clipped(e, bits, object, shape == PACKET_CLIPPED_PRODUCT);
     if (shape == PACKET_MESH)
         return mesh8(e, bits, object);
     if (shape == PACKET_LANES)

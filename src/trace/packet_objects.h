@@ -278,15 +278,15 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
     return won;
 }
 
-// The spans of the leaves that are complements, or of those that are not; returns the lanes
-// that can still meet the object.
+// The spans of the drawn leaves that are complements, or of those that are not; returns the
+// lanes that can still meet the object.
 static unsigned exact_leaves(struct eight *e, struct product *x, bool complements,
                              const struct world_object *o, unsigned bits)
 {
     const struct world *w = e->p->w;
     for (uint32_t i = 0; i < o->leaf_count && bits; i++) {
         const struct leaf *l = &w->leaf[o->first_leaf + i];
-        if (l->inverted != complements)
+        if (l->inverted != complements || !l->drawn)
             continue;
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
         struct mask8 odd;

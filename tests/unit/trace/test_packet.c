@@ -518,6 +518,42 @@ static struct object *drilled(struct maker *m, uint32_t n, double off)
     return o;
 }
 
+static void clip_by_solids(struct maker *m, struct object *o, double off)
+{
+    const uint32_t n = 1 + (uint32_t)(2.5 * chance(m));
+    const struct object **clip = arena_new_array(m->a, const struct object *, n);
+    for (uint32_t i = 0; i < n; i++) {
+        const double r = 1 + between(m, 0, 1) + off * chance(m);
+        clip[i] = random_solid(m, somewhere(m, .75), r, off, i % 2);
+    }
+    o->clip = clip;
+    o->clip_count = n;
+}
+
+// Lone shapes and products that solids clip, with faces that coincide, almost coincide or
+// are apart.
+static void clipped(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9, .01};
+    for (uint64_t k = 0; k < 16; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 300 + k, .grid = k % 2 == 0};
+        for (int i = 0; i < 20; i++) {
+            const double apart = off[k / 2 % 4];
+            struct object *o = i % 2 ? random_product(&m, apart) : random_shape(&m);
+            clip_by_solids(&m, o, apart);
+            struct transform t = transform_rotate(vec3(0, 0, m.grid ? 90 : 25));
+            if (i % 3 == 0)
+                object_transform(m.a, o, &t);
+            t = transform_translate(somewhere(&m, 2));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 static void large_products(void **state)
 {
     (void)state;
@@ -663,6 +699,7 @@ int main(void)
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(clear_products),
+        cmocka_unit_test(clipped),
         cmocka_unit_test(large_products),
         cmocka_unit_test(sponges),
         cmocka_unit_test(meshes),
