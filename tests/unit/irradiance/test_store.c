@@ -7,7 +7,7 @@
 #include "irradiance/store.h"
 #include "trace/packet.h"
 
-enum { SAMPLES = 400, POINTS = 2000 };
+enum { SAMPLES = 1000, POINTS = 2000 };
 
 static uint64_t random_state;
 
@@ -32,8 +32,8 @@ static struct vec3 some_normal(void)
 
 static struct cache_sample some_sample(double bound)
 {
-    struct cache_sample s = {.p = some_point(0.7), .n = some_normal()};
-    s.radius = exp(between(-4, 0));
+    struct cache_sample s = {.p = some_point(0.5), .n = some_normal()};
+    s.radius = exp(between(-2, 0));
     s.nearest = between(0, 1) < 0.1 ? INFINITY : s.radius * between(0.1, 1);
     s.to = s.nearest < INFINITY ? vec3_normalize(some_point(1)) : vec3(0, 0, 0);
     s.quality = between(0, 1) < 0.2 ? 1 : between(0, 1);
@@ -49,7 +49,7 @@ static struct cache_point some_place(const struct cache_sample *s, double bound)
                              .depth = s->depth,
                              .smooth = between(0, 1) < 0.5,
                              .enough = INFINITY};
-    at.p = vec3_add(s->p, some_point(between(0, 1) < 0.1 ? 1e-7 : s->radius));
+    at.p = vec3_add(s->p, some_point(between(0, 1) < 0.1 ? 1e-7 : 0.3 * s->radius));
     at.n = some_normal();
     return at;
 }
