@@ -156,22 +156,48 @@ static unsigned ray_key(const struct path *p)
            (unsigned)(p->d.z < 0) << 2 | (unsigned)(p->flags & PATH_REFLECTED) << 3;
 }
 
-static void wave_put(struct tracer *t)
+enum { PARTS = 64, KEYS = 16, FINE_KEYS = KEYS * PARTS };
+
+// A part of the ray's octant: eight by eight of them, along a curve without far leaps.
+static unsigned fine_key(const struct path *p)
 {
-    enum { KEYS = 16 };
-    struct wavefront *w = &t->wave;
-    struct ray_batch *b = t->rays;
-    uint16_t begin[KEYS + 1] = {0};
-    uint8_t key[BATCH_SIZE];
-    for (uint32_t i = 0; i < w->count; i++) {
-        key[i] = (uint8_t)ray_key(&w->path[w->order[i]]);
-        begin[key[i] + 1]++;
-    }
-    for (int i = 1; i < KEYS; i++)
-        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
+    static const unsigned char spread[8] = {0, 1, 4, 5, 16, 17, 20, 21};
+    const double x = fabs(p->d.x), y = fabs(p->d.y), z = fabs(p->d.z);
+    const double scale = 7.999 / (x + y + z);
+    return ray_key(p) * PARTS + spread[(int)(x * scale)] + 2u * spread[(int)(y * scale)];
+}
+
+// Where each ray of the wave stands in the batch.
+static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
+{
+    const struct wavefront *w = &t->wave;
+    const struct job *job = t->job;
+    // Elsewhere the order of hits counts, or rays come together.
+    const bool fine = job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
+    const unsigned keys = fine ? FINE_KEYS : KEYS;
+    uint16_t begin[FINE_KEYS + 1];
+    uint16_t key[BATCH_SIZE];
+    memset(begin, 0, (keys + 1) * sizeof *begin);
     for (uint32_t i = 0; i < w->count; i++) {
         const struct path *p = &w->path[w->order[i]];
-        const uint32_t k = begin[key[i]]++;
+        key[i] = (uint16_t)(fine ? fine_key(p) : ray_key(p));
+        begin[key[i] + 1]++;
+    }
+    for (unsigned i = 1; i < keys; i++)
+        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
+    for (uint32_t i = 0; i < w->count; i++)
+        place[i] = begin[key[i]]++;
+}
+
+static void wave_put(struct tracer *t)
+{
+    struct wavefront *w = &t->wave;
+    struct ray_batch *b = t->rays;
+    uint16_t place[BATCH_SIZE];
+    wave_sort(t, place);
+    for (uint32_t i = 0; i < w->count; i++) {
+        const struct path *p = &w->path[w->order[i]];
+        const uint32_t k = place[i];
         b->o[0][k] = p->o.x;
         b->o[1][k] = p->o.y;
         b->o[2][k] = p->o.z;
