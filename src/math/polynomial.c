@@ -92,6 +92,15 @@ UNROLLED double root_between(const double *c, const double *d, int degree, doubl
     return t;
 }
 
+double polynomial_root_between(const double *c, int degree, double lo, double hi,
+                               bool rising)
+{
+    double d[POLYNOMIAL_DEGREE_MAX + 1] = {0};
+    for (int i = 0; i < degree; i++)
+        d[i] = (i + 1) * c[i + 1];
+    return root_between(c, d, degree, lo, hi, 0.5 * (lo + hi), rising, 0);
+}
+
 // The coefficients in the Bernstein basis on [lo, hi], whose polygon follows the graph:
 // the roots are at most as many as its sign changes, and as many but for an even number
 // (Farouki & Rajan 1987). Returns the changes; -1: a sign is not clear of rounding.

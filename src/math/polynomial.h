@@ -1,6 +1,8 @@
 #ifndef MATH_POLYNOMIAL_H
 #define MATH_POLYNOMIAL_H
 
+#include <stdbool.h>
+
 // Real roots of a polynomial of any degree on an interval, by isolation: between two
 // neighbouring roots of the derivative a polynomial is monotone and crosses zero at
 // most once, where its sign changes. So nothing is missed, and roots come ordered with
@@ -29,6 +31,10 @@ int polynomial_sign_changes(const double *coefficient, int degree, double lo, do
 // knows of: to first order where it is simple, to second at a double root.
 double polynomial_root_error(const double *coefficient, int degree, double t,
                              double error);
+
+// The one root between lo and hi, where the sign changes from - to + if it is rising.
+double polynomial_root_between(const double *coefficient, int degree, double lo, double hi,
+                               bool rising);
 
 double polynomial_value(const double *coefficient, int degree, double t);
 

@@ -15,13 +15,6 @@
 
 static size_t term_count(int n) { return (size_t)((n + 1) * (n + 2) * (n + 3) / 6); }
 
-// A polynomial in the ray's parameter, ascending powers; degree -1: zero. What lies behind
-// the degree is not set.
-struct line_poly {
-    int degree;
-    double c[POLYNOMIAL_DEGREE_MAX + 1];
-};
-
 // p = p * (o + d t)
 static void times_line(struct line_poly *p, double o, double d)
 {
@@ -58,9 +51,8 @@ static void times_power(struct line_poly *p, double o, double d, int power)
         times_line(p, o, d);
 }
 
-// The polynomial along o + t d, as nested Horner schemes in x, y and z.
-static void along(const struct poly *s, struct vec3 o, struct vec3 d,
-                  struct line_poly *out)
+// As nested Horner schemes in x, y and z.
+void poly_along(const struct poly *s, struct vec3 o, struct vec3 d, struct line_poly *out)
 {
     struct line_poly in_y, in_z;
     int x = s->order;
@@ -111,8 +103,7 @@ static double value_at(const struct poly *s, struct vec3 p)
     return sum;
 }
 
-// The sum of the terms' sizes with coordinates of these sizes.
-static double magnitude_at(const struct poly *s, struct vec3 size)
+double poly_magnitude(const struct poly *s, struct vec3 size)
 {
     double sum = 0;
     for (uint32_t i = 0; i < s->rows; i++) {
@@ -131,8 +122,8 @@ static double lost_at(const struct poly *s, struct vec3 o, struct vec3 u, double
 {
     const double a = fabs(t);
     return 4 * s->order * ROUNDOFF *
-           magnitude_at(s, vec3(fabs(o.x) + a * fabs(u.x), fabs(o.y) + a * fabs(u.y),
-                                fabs(o.z) + a * fabs(u.z)));
+           poly_magnitude(s, vec3(fabs(o.x) + a * fabs(u.x), fabs(o.y) + a * fabs(u.y),
+                                  fabs(o.z) + a * fabs(u.z)));
 }
 
 static struct aabb bounds(const void *shape) { return ((const struct poly *)shape)->box; }
@@ -157,6 +148,26 @@ static bool in_box(const struct aabb *box, struct vec3 o, struct vec3 u, double 
     return *lo < *hi;
 }
 
+// Up to this order one expansion, about o, is as exact as need be on all of a line.
+enum { LOW_ORDER = 7 };
+
+static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double lo,
+                    double hi, struct polynomial_root *root)
+{
+    struct line_poly p;
+    poly_along(s, o, u, &p);
+    const double far = polynomial_root_bound(p.c, p.degree);
+    lo = fmax(lo, -far);
+    hi = fmin(hi, far);
+    if (s->order > LOW_ORDER)
+        return lo < hi ? poly_line_roots(s, o, u, lo, hi, root) : 0;
+    const int n = polynomial_roots(p.c, p.degree, lo, hi, 4 * s->order, root);
+    for (int i = 0; i < n; i++)
+        root[i].dt +=
+            polynomial_root_error(p.c, p.degree, root[i].t, lost_at(s, o, u, root[i].t));
+    return n;
+}
+
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct poly *s = shape;
@@ -169,17 +180,10 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     double lo = -HUGE_VAL, hi = HUGE_VAL;
     if ((s->compact && !in_box(&s->box, o, u, &lo, &hi)) || boundary_list_gives_up(out))
         return;
-    struct line_poly p;
-    along(s, o, u, &p);
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
-    const double far = polynomial_root_bound(p.c, p.degree);
-    const int n = polynomial_roots(p.c, p.degree, fmax(lo, -far), fmin(hi, far),
-                                   4 * s->order, root);
+    const int n = roots_on(s, o, u, lo, hi, root);
     for (int i = 0; i < n; i++) {
-        const double lost = lost_at(s, o, u, root[i].t);
-        const double dt = root[i].dt +
-                          polynomial_root_error(p.c, p.degree, root[i].t, lost) +
-                          0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
+        const double dt = root[i].dt + 0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
         boundary_list_add(out, (root[i].t + to_nearest) / length, dt / length,
                           root[i].rising ? CROSS_EXIT : CROSS_ENTER, 0);
     }
@@ -205,7 +209,7 @@ static struct vec3 gradient(const struct poly *s, struct vec3 p)
     double g[3];
     for (int i = 0; i < 3; i++) {
         struct line_poly line;
-        along(s, p, axis[i], &line);
+        poly_along(s, p, axis[i], &line);
         g[i] = line.degree > 0 ? line.c[1] : 0;
     }
     return vec3(g[0], g[1], g[2]);

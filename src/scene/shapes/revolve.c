@@ -338,6 +338,21 @@ static inline __attribute__((always_inline)) void meeting(const struct line *l,
         f[k] -= dy * dy * s->r2[k];
 }
 
+// How far two roots that rounding may have parted, or put at a joint, are off: q s^2 is then
+// within the rounding of the polynomial, and all lies within the cylinder around the segment.
+static double unsharpened(const struct line *l, const struct revolve_segment *s, double t,
+                          double speed)
+{
+    const double h = fmax(fabs(s->low), fabs(s->high)) + fabs(l->y),
+                 dy = fabs(l->ray->d.y);
+    const double noise = GAMMA(64) * (l->q * h * h + dy * dy * (l->shifted_p + s->most2));
+    const double least = 2 * FLAT * l->size / speed;
+    if (dy > sqrt(l->q)) // steep: the square root is of the roundoff alone
+        return least;
+    const double within = fabs(t - l->nearest) + sqrt(s->most2 / l->q);
+    return fmax(least, fmin(sqrt(noise / l->q) / dy, within));
+}
+
 static void sloped_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
@@ -361,8 +376,8 @@ static void sloped_segment(const struct line *l, uint32_t i)
         double t = l->shift + polynomial_value(h, s->h_degree, at) / dy;
         const double speed = sqrt(l->q + dy * dy);
         double dt = l->dt / fabs(dy) * speed;
-        if (!sharpen(l, s, &t, &dt, &at)) // two roots that rounding may have parted
-            dt += 2 * FLAT * l->size / speed;
+        if (!sharpen(l, s, &t, &dt, &at))
+            dt += unsharpened(l, s, t, speed);
         add(l, t, dt, REVOLVE_SEGMENT + i, at);
     }
 }
