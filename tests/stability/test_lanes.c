@@ -420,6 +420,62 @@ static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
         }
 }
 
+// A ray that begins at a crossing meets the next one, or that where rounding puts it behind the
+// start; not what lies before it alone.
+static void assert_goes_on(const struct leaf *leaf, struct ray r,
+                           const struct boundary_list *all, const char *text)
+{
+    const double close = 1e-6;
+    struct boundary_list first = {.first_only = true};
+    for (uint32_t i = 0; i + 1 < all->count; i++) {
+        const struct boundary *b = &all->at[i], *next = b + 1;
+        if (next->t - b->t < close || !next->drawn ||
+            (i + 2 < all->count && next[1].t - next->t < close))
+            continue;
+        bool found = false;
+        r.t_min = b->t;
+        first.count = 0;
+        leaf->ops->intersect(leaf->shape, &r, &first);
+        for (uint32_t k = 0; k < first.count; k++)
+            found |= first.at[k].t > r.t_min;
+        if (!found)
+            fail_msg(
+                "%s: nothing at %.17g behind %.17g, from <%.17g, %.17g, %.17g> along "
+                "<%.17g, %.17g, %.17g>",
+                text, next->t, b->t, r.o.x, r.o.y, r.o.z, r.d.x, r.d.y, r.d.z);
+    }
+    boundary_list_free(&first);
+}
+
+static void one_line_goes_on_from_a_crossing(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *const *text;
+        int count;
+    } lists[] = {{shapes, SHAPES}, {turned, TURNED}, {same_hits, SAME_HITS}};
+    uint64_t s = 91;
+    for (int n = 0; n < 3; n++)
+        for (int i = 0; i < lists[n].count; i++) {
+            struct loaded l;
+            struct boundary_list all = {0};
+            load(&l, "%s", lists[n].text[i]);
+            const struct leaf *leaf = &l.world->leaf[0];
+            for (int k = 0; k < PACKETS; k++) {
+                struct shape_rays rays;
+                random_rays(&s, false, &rays);
+                struct ray r = lane(&rays, 0);
+                r.t_min = -HUGE_VAL;
+                r.t_max = HUGE_VAL;
+                all.count = 0;
+                leaf->ops->intersect(leaf->shape, &r, &all);
+                assert_goes_on(leaf, r, &all, lists[n].text[i]);
+            }
+            boundary_list_free(&all);
+            unload(&l);
+        }
+}
+
 // Of which simple solids cut something off, or clip it (trace/carve.h).
 #define BLOB                                                                             \
     "blob { threshold .5 sphere { <-.4, 0, 0>, .8, 1 } sphere { <.4, .2, 0>, .7, 1 } "   \
@@ -612,6 +668,7 @@ int main(void)
         cmocka_unit_test(eight_rays_meet_what_is_turned),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
+        cmocka_unit_test(one_line_goes_on_from_a_crossing),
         cmocka_unit_test(boxes_hold_bounded_polynomials),
         cmocka_unit_test(high_orders_are_met_where_they_are),
         cmocka_unit_test(carved_shapes_are_as_the_sweep_has_them),

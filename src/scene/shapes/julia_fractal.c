@@ -15,15 +15,16 @@
 #include "scene/shapes/julia.h"
 
 static const char *const function_word[] = {
-    "sqr", "cube", "exp", "reciprocal", "sin", "asin", "sinh", "asinh", "cos", "acos",
-    "cosh", "acosh", "tan", "atan", "tanh", "atanh", "ln", "pwr"};
+    "sqr",  "cube", "exp",   "reciprocal", "sin",  "asin", "sinh",  "asinh", "cos",
+    "acos", "cosh", "acosh", "tan",        "atan", "tanh", "atanh", "ln",    "pwr"};
 
 enum { FUNCTIONS = sizeof function_word / sizeof function_word[0] };
 
 static bool read_slice(struct julia *j, struct args *args)
 {
     double v[4];
-    if (!args_vec4(args, "slice", v) || !args_float(args, "distance of the slice", &j->distance))
+    if (!args_vec4(args, "slice", v) ||
+        !args_float(args, "distance of the slice", &j->distance))
         return false;
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]);
     if (!(length > 1e-5) || !(fabs(v[3]) > 1e-10)) {
@@ -208,15 +209,18 @@ uint32_t julia_normal(const struct julia *j, struct vec3 o, struct vec3 d, doubl
     return (uint32_t)julia_escape(j, vec3_mad(o, outer, d), d, NULL, &norm);
 }
 
-static void add(const struct march *m, double inner, double outer, bool exits, double error,
-                struct boundary_list *out)
+// Returns its t on the ray.
+static double add(const struct march *m, double inner, double outer, bool exits,
+                  double error, struct boundary_list *out)
 {
-    boundary_list_add(out, (inner + m->shift) / m->length, error / m->length,
-                      exits ? CROSS_EXIT : CROSS_ENTER,
+    const double t = (inner + m->shift) / m->length;
+    boundary_list_add(out, t, error / m->length, exits ? CROSS_EXIT : CROSS_ENTER,
                       julia_normal(m->j, m->o, m->d, inner, outer, exits));
+    return t;
 }
 
-// Crossings with t > ray->t_min, up to `limit` of them. The ball is left at its surface.
+// Crossings from ray->t_min on, up to the `limit`th beyond it: one at the start itself may lie
+// before it by rounding. The ball is left at its surface.
 static void march(const struct julia *j, const struct ray *ray, uint32_t limit,
                   struct boundary_list *out)
 {
@@ -245,8 +249,9 @@ static void march(const struct julia *j, const struct ray *ray, uint32_t limit,
         if (now.in != here.in) {
             double lo = t, hi = next;
             narrow(&m, &lo, &hi, here, now, 0.25 * error);
-            add(&m, here.in ? lo : hi, here.in ? hi : lo, here.in, error, out);
-            limit--;
+            const double at =
+                add(&m, here.in ? lo : hi, here.in ? hi : lo, here.in, error, out);
+            limit -= at > ray->t_min;
         }
         here = now;
         t = next;
