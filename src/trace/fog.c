@@ -1,7 +1,38 @@
+#include "base/arena.h"
 #include "math/elementary.h"
+#include "math/quick.h"
 #include "scene/noise.h"
 #include "trace/media.h"
+#include "trace/shade_kernel.h"
 #include "trace/sky.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+
+void bows_init(struct job *job, struct arena *a)
+{
+    static const double pi = 3.14159265358979323846, margin = 1e-9;
+    const struct scene *s = job->scene;
+    struct bow *bow = arena_new_array(a, struct bow, s->rainbow_count);
+    for (uint32_t i = 0; i < s->rainbow_count; i++) {
+        const struct rainbow *r = s->rainbow[i];
+        const struct vec3 axis = vec3_normalize(r->direction);
+        const struct vec3 right = vec3_normalize(vec3_cross(r->up, axis));
+        bow[i] = (struct bow){r,           axis,
+                              right,       vec3_normalize(vec3_cross(axis, right)),
+                              .least = -1, .most = 2};
+        // Jitter moves an angle by so much of the width.
+        const double wide = r->width * degree, off = fabs(r->jitter * wide);
+        if (!(wide > 0))
+            continue;
+        const double first = r->angle * degree - off,
+                     last = r->angle * degree + wide + off;
+        if (first > 0 && first < pi)
+            bow[i].most = det_cos(first) + margin;
+        if (last > 0 && last < pi)
+            bow[i].least = det_cos(last) - margin;
+    }
+    job->bow = bow;
+}
 
 // The mean density of a ground fog between two heights, in units of its scale: the
 // density is 1 below 0 and 1/(h^2+1) above, so its integral is an arc tangent.
@@ -10,22 +41,20 @@ static double ground_density(double h1, double h2)
     static const double equal = 1e-10;
     if (h1 <= 0 && h2 <= 0)
         return 1;
-    if (h1 <= 0)
-        return (det_atan(h2) - h1) / (h2 - h1);
-    if (h2 <= 0)
-        return (det_atan(h1) - h2) / (h1 - h2);
-    if (fabs(h1 - h2) < equal)
+    if (h1 > 0 && h2 > 0 && fabs(h1 - h2) < equal)
         return 1 / (h1 * h1 + 1);
-    return (det_atan(h1) - det_atan(h2)) / (h1 - h2);
+    const double a1 = h1 > 0 ? quick_atan2(h1, 1) : h1;
+    const double a2 = h2 > 0 ? quick_atan2(h2, 1) : h2;
+    return (a1 - a2) / (h1 - h2);
 }
 
 // How much turbulence thins a fog at the middle of the way through it.
 static double fog_swirl(const struct job *job, const struct fog *f, struct vec3 middle)
 {
     const struct turbulence *t = &f->turbulence;
-    const double v = noise_turbulence(vec3_mul(middle, t->amount), (double)t->lambda,
-                                      (double)t->omega, t->octaves,
-                                      job->scene->settings.noise_generator);
+    const double v =
+        noise_turbulence(vec3_mul(middle, t->amount), (double)t->lambda, (double)t->omega,
+                         t->octaves, job->scene->settings.noise_generator);
     return fmin(1, v * f->turb_depth);
 }
 
@@ -35,7 +64,7 @@ static float fog_clear(const struct job *job, const struct fog *f, struct vec3 o
 {
     double way = s / f->distance;
     if (f->has_turbulence)
-        way *= 1 - det_exp(-way) * fog_swirl(job, f, vec3_mad(o, s / 2, d));
+        way *= 1 - det_exp_single(-way) * fog_swirl(job, f, vec3_mad(o, s / 2, d));
     if (f->type == FOG_GROUND && f->alt != 0) {
         const double h1 = (vec3_dot(o, f->up) - f->offset) / f->alt;
         const double h2 = (vec3_dot(vec3_mad(o, s, d), f->up) - f->offset) / f->alt;
@@ -66,6 +95,7 @@ struct rgb air_filter(struct tracer *t, struct vec3 o, struct vec3 d, double s)
     return pass;
 }
 
+// What the fogs add and let pass: the kernels' `fogs` is the same for eight rays.
 static void fogs_apply(struct tracer *t, struct path *path, double s)
 {
     struct rgb pass = {1, 1, 1}, glow = {0, 0, 0};
@@ -83,19 +113,18 @@ static void fogs_apply(struct tracer *t, struct path *path, double s)
 }
 
 // The colour of the bow at the angle of d and how much of it the sky lets through.
-static bool rainbow_at(const struct rainbow *r, const struct path *path, double s,
+static bool rainbow_at(const struct bow *bow, const struct path *path, double s,
                        struct rgbft *color, double *keep)
 {
-    static const double degree = 3.14159265358979323846 / 180;
-    const struct vec3 axis = vec3_normalize(r->direction);
-    const struct vec3 right = vec3_normalize(vec3_cross(r->up, axis));
-    const struct vec3 up = vec3_normalize(vec3_cross(axis, right));
-    const double along = vec3_dot(axis, path->d);
-    const double x = vec3_dot(path->d, right), y = vec3_dot(path->d, up);
+    const struct rainbow *r = bow->rainbow;
+    const double along = vec3_dot(bow->axis, path->d);
+    if (!(along >= fmax(0, bow->least) && along <= bow->most) || !r->colors)
+        return false;
+    const double x = vec3_dot(path->d, bow->right), y = vec3_dot(path->d, bow->up);
     const double l = sqrt(x * x + y * y);
     const double around = l > 0 ? fabs(det_acos(fmax(-1, fmin(1, y / l)))) : 0;
     const double arc = r->arc_angle * degree / 2, falloff = r->falloff_angle * degree / 2;
-    if (along < 0 || around > arc || !r->colors)
+    if (around > arc)
         return false;
     double index = (det_acos(fmin(1, along)) - r->angle * degree) / (r->width * degree);
     if (r->jitter != 0)
@@ -128,7 +157,7 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
     for (uint32_t i = 0; i < t->job->scene->rainbow_count; i++) {
         struct rgbft c;
         double keep;
-        if (!rainbow_at(t->job->scene->rainbow[i], path, s, &c, &keep))
+        if (!rainbow_at(&t->job->bow[i], path, s, &c, &keep))
             continue;
         const float k = (float)keep, f = (float)(c.filter * (1 - keep));
         pass = rgb_add(pass, rgb(k * ((1 - f) + f * c.r), k * ((1 - f) + f * c.g),
@@ -145,15 +174,41 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
     path->through_t *= pass_t;
 }
 
-void air_apply(struct tracer *t, struct path *path, double s, uint32_t group)
+static void air_apply(struct tracer *t, struct path *path, double s, uint32_t group,
+                      bool fogs)
 {
     const struct scene *scene = t->job->scene;
-    if (!t->job->has_air || !inside_hollow(path->inside))
-        return;
-    if (scene->fog_count)
+    if (fogs)
         fogs_apply(t, path, s);
     if (t->job->has_air_media)
         media_air_apply(t, path, s, group);
     if (scene->rainbow_count)
         rainbows_apply(t, path, s);
+}
+
+void air_wave(struct tracer *t)
+{
+    const struct job *job = t->job;
+    struct wavefront *w = &t->wave;
+    for (uint32_t i = 0; i < w->count && !w->path; i++)
+        w->through_t[i] = 1;
+    const bool fogs = job->scene->fog_count && job->general;
+    if (job->scene->fog_count && !fogs)
+        job->kernels->fogs(t);
+    if (!fogs && !job->has_air_media && !job->scene->rainbow_count)
+        return;
+    for (uint32_t k = 0; k < w->count; k++) {
+        struct path p = wave_path(t, t->slot = w->slot[k]);
+        const bool hit = t->hit->t[k] < INFINITY;
+        if (!inside_hollow(p.inside))
+            continue;
+        const struct world *world = job->world;
+        const uint32_t group =
+            hit ? world->surface[world->leaf[t->hit->leaf[k]].surface].light_group : 0;
+        air_apply(t, &p, hit ? t->hit->t[k] : air_far, group, fogs);
+        w->through[0][t->slot] = p.through.r;
+        w->through[1][t->slot] = p.through.g;
+        w->through[2][t->slot] = p.through.b;
+        w->through_t[t->slot] = p.through_t;
+    }
 }

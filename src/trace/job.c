@@ -83,7 +83,7 @@ static void sky_init(struct job *job)
     const struct scene *s = job->scene;
     job->has_air =
         job->atmosphere && (s->fog_count || s->rainbow_count || job->has_air_media);
-    job->even_sky = !s->sky && !job->has_air;
+    job->even_sky = !s->sky;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
 }
@@ -185,6 +185,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
                       (settings->purpose == RENDER_PICTURE ||
                        (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface));
     sky_init(job);
+    bows_init(job, a);
     sky_compile(job, a);
     pass_init(job, a);
     simple_compile(job, a);

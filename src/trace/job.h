@@ -21,6 +21,7 @@ struct even_pass {
     struct rgb pass;
 };
 
+struct bow;
 struct media_threshold;
 struct photons;
 struct surface_kernels;
@@ -53,6 +54,7 @@ struct job {
     // background never shows as alpha.
     unsigned hidden_by[2]; // of rays: [1] once they were mirrored
     bool has_air; // fog, rainbows or media that fill the scene
+    const struct bow *bow; // its rainbows (trace/sky.h)
     bool even_sky;
     struct rgb sky[2];
     float sky_clear[2];

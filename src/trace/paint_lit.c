@@ -27,7 +27,7 @@ bool paint_lights_texture(const struct job *job, const struct texture *x)
 
 bool paint_lights_surface(const struct job *job, const struct surface *s)
 {
-    return !job->settings.indirect.data && !job->has_air && !job->has_media &&
+    return !job->settings.indirect.data && !job->has_air_media && !job->has_media &&
            !(job->shoots && (!s->photons || s->photons->collect)) &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }

@@ -7,19 +7,6 @@
 #include "trace/sky.h"
 #include "trace/subsurface.h"
 
-// How far a ray that hits nothing goes, as fog and rainbow see it (spec/lighting.md 0).
-static const double far_away = 2e10;
-
-void shade_miss(struct tracer *t, const struct path *path)
-{
-    struct path p = *path;
-    air_apply(t, &p, far_away, 0);
-    float clear;
-    const struct rgb c = sky_color(t->job, p.d, (p.flags & PATH_REFLECTED) != 0, &clear);
-    tracer_add(t, rgb_mul(p.through, c));
-    t->wave.t[t->slot] += p.through_t * clear;
-}
-
 static struct layer *layer_new(struct shading *s)
 {
     if (s->layer_count == s->layer_capacity) {
@@ -144,12 +131,10 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
                    uint32_t part_count)
 {
     struct path here = *path;
-    if (t->job->has_air || t->job->has_media) {
+    if (t->job->has_media) {
         const struct world *w = t->job->world;
-        const uint32_t group = w->surface[w->leaf[hit->b.leaf].surface].light_group;
-        air_apply(t, &here, hit->b.t, group);
-        if (t->job->has_media)
-            media_apply(t, &here, hit->b.t, group);
+        media_apply(t, &here, hit->b.t,
+                    w->surface[w->leaf[hit->b.leaf].surface].light_group);
     }
     if (!(here.flags & PATH_CONTINUED))
         here.level++;

@@ -4,6 +4,7 @@
 #include "trace/shade_kernel.h"
 
 #include "math/isa.h"
+#include "trace/shade_air.h"
 #include "trace/shade_bounce.h"
 #include "trace/shade_camera.h"
 #include "trace/shade_color.h"
@@ -358,5 +359,5 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 }
 
 const struct shade_kernels OF_ISA(shade_kernels_) = {
-    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, exps, meets,
+    ISA_TEXT, &OF_ISA(surface_kernels_), camera, place, own, light, bounce, sums, exps, meets, fogs,
     points, texture_space, world_normals, sheet_pass, own_sheets, light_sheets};

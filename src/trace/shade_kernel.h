@@ -37,6 +37,8 @@ struct shade_kernels {
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);
+    // What the fogs of the scene do to the rays of the wave (trace/sky.h).
+    void (*fogs)(struct tracer *t);
     // ---- painted hits (trace/paint.h)
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,

@@ -260,8 +260,7 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
     }
 }
 
-// Whether fog and media that fill the scene dim the light.
-static bool air_counts(const struct job *job, uint32_t lamp)
+bool air_counts(const struct job *job, uint32_t lamp)
 {
     const struct light *light = job->lamp[lamp].light;
     return light->media_attenuation && light->media_interaction && job->atmosphere &&

@@ -56,7 +56,8 @@ bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct light *l = list->lamp[i]->light;
         if (!list->lamp[i]->inert &&
-            (l->projected_through || (l->area && job->area_lights && job->shadows)))
+            (l->projected_through || (l->area && job->area_lights && job->shadows) ||
+             air_counts(job, list->lamp[i]->index)))
             return false;
     }
     return true;
@@ -185,7 +186,7 @@ void simple_compile(struct job *job, struct arena *a)
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
     job->quick_camera =
         !general && !collects && !camera_has_lens(c) && c->kind != CAMERA_MESH;
-    if (general || collects || job->has_air || !job->lights || !job->pigments ||
+    if (general || collects || job->has_air_media || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =

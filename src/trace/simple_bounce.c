@@ -191,7 +191,7 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
         b.exponent[0][i] = b.exponent[1][i] = b.exponent[2][i] = 0;
         if (!(g->live >> i & 1))
             continue;
-        if (wave->path) {
+        if (wave->path && !t->job->has_air) {
             from[i] = &wave->path[wave->order[g->slot[i]]];
         } else {
             camera[i] = wave_path(t, g->slot[i]);

@@ -102,7 +102,7 @@ void sky_compile(struct job *job, struct arena *a)
 {
     const struct sky_sphere *sky = job->scene->sky;
     struct pigment_compiler compiler = {.arena = a};
-    if (!sky || job->has_air || job->general || sky->count > SKY_PIGMENTS)
+    if (!sky || job->general || sky->count > SKY_PIGMENTS)
         return;
     const struct pigment_tape **tape =
         arena_new_array(a, const struct pigment_tape *, sky->count + 1);

@@ -14,10 +14,19 @@ void sky_compile(struct job *job, struct arena *a);
 void sky_colors(const struct job *job, const double d[3][8], uint32_t count,
                 const bool opaque[8], struct rgb out[8], float t[8]);
 
-// What lies between the camera side and a point at distance s of the ray: adds the
-// light of fogs, media and rainbows to the sum, and filters what the path brings from there
-// on (spec/lighting.md 9.2, 9.3, 10). group: the light group of what lies there, or 0.
-void air_apply(struct tracer *t, struct path *path, double s, uint32_t group);
+// How far a ray that hits nothing goes, as fog and rainbow see it (spec/lighting.md 0).
+static const double air_far = 2e10;
+// What lies between the beginnings of the wave's rays and what they hit: adds the light of
+// fogs, media and rainbows, and filters what the rays bring from there on (spec/lighting.md
+// 9.2, 9.3, 10). Fogs of eight rays at a time by the kernels' `fogs`.
+void air_wave(struct tracer *t);
+// A rainbow as rays see it.
+struct bow {
+    const struct rainbow *rainbow;
+    struct vec3 axis, right, up;
+    double least, most; // cosines of the angles from the axis at which it may be seen
+};
+void bows_init(struct job *job, struct arena *a);
 // The factor by which fogs and media that fill the scene filter light along a way.
 struct rgb air_filter(struct tracer *t, struct vec3 o, struct vec3 d, double s);
 

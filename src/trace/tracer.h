@@ -200,7 +200,6 @@ const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *posit
 // Adds what a hit sends towards the camera; rays that go on are appended to the wave's
 // next. The slot is the tracer's.
 void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit);
-void shade_miss(struct tracer *t, const struct path *path);
 
 // The ray of a slot of the wave, and the interiors it is inside.
 struct path wave_path(const struct tracer *t, uint32_t slot);
@@ -218,6 +217,8 @@ void path_emit(struct tracer *t, const struct path *path);
 void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
                 float exponent);
 
+// Whether fog and media that fill the scene dim the light of a lamp.
+bool air_counts(const struct job *job, uint32_t lamp);
 void shadow_init(struct tracer *t);
 void shadow_end(struct tracer *t);
 void shadow_add(struct tracer *t, const struct shadow_request *r);

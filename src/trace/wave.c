@@ -128,14 +128,20 @@ static void powers_run(struct tracer *t)
 struct path wave_path(const struct tracer *t, uint32_t slot)
 {
     const struct wavefront *w = &t->wave;
-    if (w->path)
-        return w->path[w->order[slot]];
+    if (w->path) {
+        struct path p = w->path[w->order[slot]];
+        if (t->job->has_air) {
+            p.through = rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
+            p.through_t = w->through_t[slot];
+        }
+        return p;
+    }
     return (struct path){
         .o = {t->rays->o[0][slot], t->rays->o[1][slot], t->rays->o[2][slot]},
         .d = {t->rays->d[0][slot], t->rays->d[1][slot], t->rays->d[2][slot]},
         .inside = wave_inside(t, slot),
-        .through = {1, 1, 1},
-        .through_t = 1,
+        .through = {w->through[0][slot], w->through[1][slot], w->through[2][slot]},
+        .through_t = t->job->has_air ? w->through_t[slot] : 1,
         .weight = 1,
         .sample = slot,
         .hash = tracer_position_hash(w->position[slot])};
@@ -238,7 +244,7 @@ static void emitted_sort(struct path_queue *q, uint32_t first)
 static void miss_add(struct tracer *t, uint32_t slot, struct rgb c, float clear)
 {
     struct wavefront *w = &t->wave;
-    const float through_t = w->path ? w->through_t[slot] : 1;
+    const float through_t = w->path || t->job->has_air ? w->through_t[slot] : 1;
     t->slot = slot;
     tracer_add(
         t,
@@ -283,11 +289,6 @@ static void missed(struct tracer *t, uint32_t k)
     const struct job *job = t->job;
     struct wavefront *w = &t->wave;
     t->slot = w->slot[k];
-    if (job->has_air) {
-        const struct path p = wave_path(t, t->slot);
-        shade_miss(t, &p);
-        return;
-    }
     const bool opaque = t->rays->hidden_by[k] & OBJECT_NO_REFLECTION;
     struct rgb c = job->sky[opaque];
     float clear = job->sky_clear[opaque];
@@ -353,6 +354,8 @@ static void wave_trace(struct tracer *t)
     trace_closest(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
+    if (t->job->has_air)
+        air_wave(t);
     for (uint32_t k = 0, end; k < w->count; k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
