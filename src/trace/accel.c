@@ -154,7 +154,7 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
 
 static bool has_intersections_only(const struct world *w, const struct world_object *o)
 {
-    if (!o->is_csg || o->bound_count)
+    if (!o->is_csg)
         return false;
     for (uint32_t i = o->root; i < o->root + o->node_count; i++)
         if (w->node[i].op != NODE_LEAF && w->node[i].op != NODE_INTERSECTION)
@@ -269,7 +269,7 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
         accel->leaf_shape[i] = (uint8_t)shape_of_leaf(&w->leaf[i]);
     for (uint32_t i = 0; i < w->object_count; i++) {
         const struct world_object *o = &w->object[i];
-        if (!o->is_csg && !o->bound_count && w->leaf[o->first_leaf].drawn)
+        if (!o->is_csg && w->leaf[o->first_leaf].drawn)
             accel->object_shape[i] = accel->leaf_shape[o->first_leaf];
         else if (is_intersection(w, o) && is_sponge(w, o))
             accel->object_shape[i] = PACKET_SPONGE;

@@ -53,7 +53,7 @@ LANES_INLINE struct real8 swept_error(const struct eight *e, const struct leaf *
 {
     if (l->transform->identity)
         return dt;
-    const struct ray8 own = local_ray(l, &e->ray);
+    const struct ray8 own = local_ray(l->transform, &e->ray);
     return moved8(l, &e->ray, &own, t, dt);
 }
 

@@ -2,6 +2,7 @@
 // flags choose the width in math/lanes.h. All give the same bits.
 #include "math/isa.h"
 #include "trace/packet.h"
+#include "trace/packet_bound.h"
 #include "trace/packet_clip.h"
 #include "trace/packet_lanes.h"
 #include "trace/packet_list.h"
@@ -25,6 +26,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     if (shape == PACKET_NONE)
         return packet_try_object(p, bits, object);
     bits = seeing(p, o->flags, bits);
+    if (o->bound_count)
+        bits = within_bounds(e, bits, o);
     if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
         return 0;
     if (shape == PACKET_PRODUCT)

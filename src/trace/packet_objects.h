@@ -61,11 +61,11 @@ LANES_INLINE struct real8 transformed(struct vec8 v, const struct mat3 *m, int j
         r8_mul(v.z, r8_set(m->m[2][j])));
 }
 
-// The rays in a leaf's own space, as transform_inverse_ray.
-static struct ray8 local_ray(const struct leaf *l, const struct ray8 *ray)
+// The rays in the space before a transform, as transform_inverse_ray.
+static struct ray8 local_ray(const struct transform *t, const struct ray8 *ray)
 {
-    const struct mat3 *m = &l->transform->inverse;
-    const struct vec8 o = v8_sub(ray->o, V8_SET(l->transform->offset));
+    const struct mat3 *m = &t->inverse;
+    const struct vec8 o = v8_sub(ray->o, V8_SET(t->offset));
     return ray8_of(
         (struct vec8){transformed(o, m, 0), transformed(o, m, 1), transformed(o, m, 2)},
         (struct vec8){transformed(ray->d, m, 0), transformed(ray->d, m, 1),
@@ -78,7 +78,7 @@ LANES_INLINE const struct ray8 *leaf_ray(const struct leaf *l, const struct ray8
 {
     if (l->transform->identity)
         return ray;
-    *own = local_ray(l, ray);
+    *own = local_ray(l->transform, ray);
     return own;
 }
 
@@ -199,11 +199,12 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     return take(e, bits, t, object, leaf);
 }
 
-// The lanes that meet the box before their nearest hit, as box_meets.
-LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
+// The lanes that meet the box on t_min to `far`, as box_meets.
+LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
+                                   struct real8 far)
 {
     const struct real8 grow = r8_set(1 + 2 * GAMMA(3));
-    struct real8 near = e->t_min, far = r8_min(e->t_max, r8_load(e->p->t));
+    struct real8 near = e->t_min;
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 o = a == 0 ? e->ray.o.x : a == 1 ? e->ray.o.y : e->ray.o.z;
@@ -217,6 +218,12 @@ LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
         far = r8_min(r8_mul(r8_select(back, t0, t1), grow), far);
     }
     return m8_bits(r8_le(near, far));
+}
+
+// The lanes that meet the box before their nearest hit.
+LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
+{
+    return box_lanes_to(e, b, r8_min(e->t_max, r8_load(e->p->t)));
 }
 
 // The lines' spans in a convex shape, with their errors; odd: lanes for the sweep.
@@ -358,7 +365,7 @@ LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_prod
     }
     for (uint32_t k = 0; k < x->spaces && bits; k++) {
         const struct leaf *l = &e->p->w->leaf[first_leaf + x->space[k]];
-        own[k] = local_ray(l, &e->ray);
+        own[k] = local_ray(l->transform, &e->ray);
         quick_moved(q, x, l, &e->ray, &own[k]);
     }
     for (; i < x->solids && bits; i++) {

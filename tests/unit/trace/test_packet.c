@@ -530,6 +530,30 @@ static void clip_by_solids(struct maker *m, struct object *o, double off)
     o->clip_count = n;
 }
 
+// Bounds that are smaller than the object cull: what packets keep is what one ray keeps.
+static void bounded(void **state)
+{
+    (void)state;
+    for (uint64_t k = 0; k < 8; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 400 + k, .alone = true};
+        for (int i = 0; i < 24; i++) {
+            struct object *o = i % 2 ? random_product(&m, 0) : random_shape(&m);
+            const struct object **bound = arena_new_array(m.a, const struct object *, 1);
+            bound[0] = random_solid(&m, somewhere(&m, .5), .3 + chance(&m), .5, i % 2);
+            o->bound = bound;
+            o->bound_count = 1;
+            struct transform t = transform_rotate(vec3(10 * (i % 5), 0, 25));
+            if (i % 3 == 0)
+                object_transform(m.a, o, &t);
+            t = transform_translate(somewhere(&m, 2));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 // Lone shapes and products that solids clip, with faces that coincide, almost coincide or
 // are apart.
 static void clipped(void **state)
@@ -699,6 +723,7 @@ int main(void)
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(clear_products),
+        cmocka_unit_test(bounded),
         cmocka_unit_test(clipped),
         cmocka_unit_test(large_products),
         cmocka_unit_test(sponges),
