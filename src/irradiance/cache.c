@@ -34,6 +34,7 @@ struct indirect irradiance_cache_indirect(const struct irradiance_cache *c)
         .begin = gather_begin,
         .end = gather_end,
         .irradiance = gather_irradiance,
+        .known = gather_known,
         .least = (float)c->settings->adc_bailout,
         .layer_normals = c->settings->normal,
         .both_sides = true,

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "trace/scratch.h"
@@ -354,4 +355,33 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
     }
     tell_quality(l, q, mean.weight);
     return shown(c->settings, &mean);
+}
+
+unsigned gather_known(const void *cache, void *state, const struct indirect_eight *q,
+                      struct rgb out[8])
+{
+    const struct irradiance_cache *c = cache;
+    const struct gather_level *l = state;
+    const double least = enough(l->owner, l->depth);
+    struct cache_points at = {
+        .lanes = q->lanes, .depth = l->depth, .smooth = l->owner->final && l->depth == 0};
+    struct cache_means mean = {0};
+    unsigned known = 0;
+    if (l->owner->fresh || !c->store.count)
+        return 0;
+    memcpy(at.p, q->p, sizeof at.p);
+    memcpy(at.n, q->n, sizeof at.n);
+    for (int i = 0; i < 8; i++)
+        at.error_bound[i] = error_bound(l->owner, l->depth, q->weight[i]);
+    store_means(&c->store, &at, &mean);
+    for (unsigned lanes = q->lanes; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        if (mean.weight[i] < least)
+            continue;
+        const struct cache_mean m = {
+            mean.weight[i], {mean.light[0][i], mean.light[1][i], mean.light[2][i]}};
+        out[i] = shown(c->settings, &m);
+        known |= 1u << i;
+    }
+    return known;
 }

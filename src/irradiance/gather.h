@@ -13,7 +13,7 @@ struct irradiance_cache {
     struct vec3 eye;
     struct job scout;               // the camera's rays, before the picture
     struct job gather, gather_last; // of every depth but the last, and of that
-    const volatile bool *cancel; // when set, no further sample is taken; NULL: never
+    const volatile bool *cancel;    // when set, no further sample is taken; NULL: never
     uint32_t depths;
     struct store store;
     struct vec3 *direction; // about y, cosine-weighted
@@ -56,6 +56,8 @@ uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth);
 // The functions of struct indirect; the state is a gather_level.
 void *gather_begin(const void *cache);
 void gather_end(void *state);
+unsigned gather_known(const void *cache, void *state, const struct indirect_eight *q,
+                      struct rgb out[8]);
 struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                              const struct indirect_query *q);
 

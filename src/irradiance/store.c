@@ -215,3 +215,64 @@ void store_mean(const struct store *s, const struct cache_point *at,
             return;
     }
 }
+
+// One of eight points.
+static void mean_alone(const struct store *s, const struct cache_cell *c,
+                       const struct cache_points *at, int i, struct cache_means *mean)
+{
+    const struct cache_point point = {vec3(at->p[0][i], at->p[1][i], at->p[2][i]),
+                                      vec3(at->n[0][i], at->n[1][i], at->n[2][i]),
+                                      at->error_bound[i],
+                                      at->depth,
+                                      at->smooth,
+                                      INFINITY};
+    struct cache_mean m = {mean->weight[i],
+                           {mean->light[0][i], mean->light[1][i], mean->light[2][i]}};
+    s->kernels->mean(s->sample, s->filed + c->first, c->count, &point, &m);
+    mean->weight[i] = m.weight;
+    for (int k = 0; k < 3; k++)
+        mean->light[k][i] = m.light[k];
+}
+
+// The lanes among `left` whose points are in the cell of lane i.
+static unsigned lanes_in(int32_t (*place)[3], unsigned left, int i)
+{
+    unsigned same = 0;
+    for (; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        if (memcmp(place[k], place[i], sizeof *place) == 0)
+            same |= 1u << k;
+    }
+    return same;
+}
+
+void store_means(const struct store *s, const struct cache_points *at,
+                 struct cache_means *mean)
+{
+    enum { FEW = 2 }; // points that are better off alone
+    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth]; size++) {
+        const double scale = ldexp(1, -size);
+        int32_t place[8][3];
+        for (int i = 0; i < 8; i++)
+            for (int k = 0; k < 3; k++)
+                place[i][k] = place_of(at->p[k][i], scale);
+        for (unsigned left = at->lanes, same; left; left &= ~same) {
+            const int i = __builtin_ctz(left);
+            same = lanes_in(place, left, i);
+            const struct cache_cell key = {
+                .place = {place[i][0], place[i][1], place[i][2]},
+                .size = (int16_t)size,
+                .depth = (uint16_t)at->depth};
+            const struct cache_cell *c = cell_slot(s, &key);
+            if (!c->count)
+                continue;
+            if (__builtin_popcount(same) > FEW) {
+                s->kernels->means(s->sample, s->filed + c->first, c->count, at, same,
+                                  mean);
+                continue;
+            }
+            for (unsigned k = same; k; k &= k - 1)
+                mean_alone(s, c, at, __builtin_ctz(k), mean);
+        }
+    }
+}

@@ -68,6 +68,18 @@ struct cache_mean {
 };
 void store_mean(const struct store *s, const struct cache_point *at,
                 struct cache_mean *mean);
+// The same of eight points at once; those that are not `lanes` are left alone.
+struct cache_points {
+    double p[3][8], n[3][8], error_bound[8];
+    unsigned lanes;
+    uint32_t depth;
+    bool smooth;
+};
+struct cache_means {
+    double weight[8], light[3][8];
+};
+void store_means(const struct store *s, const struct cache_points *at,
+                 struct cache_means *mean);
 // Weight of one sample; 0: it says nothing here. This is the rule that the kernels follow.
 double cache_weight(const struct cache_sample *s, const struct cache_point *at);
 

@@ -4,6 +4,7 @@
 
 #include "math/isa.h"
 #include "math/lanes.h"
+#include "math/lanes_vec.h"
 
 // What is asked for, in every lane.
 struct asked {
@@ -19,12 +20,10 @@ static void rows_of(const struct cache_sample *sample, const uint32_t *k, uint32
         row[i] = sample[k[i < count ? i : 0]].row;
 }
 
-// Which of eight samples may count: neither too far nor turned too much.
-LANES_INLINE unsigned may_count(const struct asked *a, const double *const row[8])
+// Which samples may count: those that are neither too far nor turned too much.
+LANES_INLINE unsigned may_count(const struct asked *a, const struct real8 r[4],
+                                const struct real8 q[4])
 {
-    struct real8 r[4], q[4];
-    r8_load_rows(row, 0, r);
-    r8_load_rows(row, 4, q);
     const struct vec8 d = v8_sub(a->p, (struct vec8){r[0], r[1], r[2]});
     const struct real8 limit = r8_mul(r[3], a->bound);
     const struct real8 turned =
@@ -59,14 +58,11 @@ LANES_INLINE struct vec8 middle_of(struct vec8 a, struct vec8 b)
     return (struct vec8){r8_div(m.x, by), r8_div(m.y, by), r8_div(m.z, by)};
 }
 
-// cache_weight of eight samples.
-LANES_INLINE struct real8 weights(const struct asked *a, const double *const row[8])
+// cache_weight of the samples whose rows are r, q and s.
+LANES_INLINE struct real8 weights(const struct asked *a, const struct real8 r[4],
+                                  const struct real8 q[4], const struct real8 s[4])
 {
     const struct real8 nought = r8_set(0), one = r8_set(1), two = r8_set(2);
-    struct real8 r[4], q[4], s[4];
-    r8_load_rows(row, 0, r);
-    r8_load_rows(row, 4, q);
-    r8_load_rows(row, 8, s);
     const struct vec8 n = {q[0], q[1], q[2]}, to = {s[0], s[1], s[2]};
     const struct vec8 d = v8_sub(a->p, (struct vec8){r[0], r[1], r[2]});
     const struct real8 turned = r8_abs(r8_sub(one, v8_dot(a->n, n)));
@@ -100,8 +96,12 @@ static bool add(const struct cache_sample *sample, const uint32_t *k, uint32_t c
 {
     const double *row[8];
     double weight[8];
+    struct real8 r[4], q[4], x[4];
     rows_of(sample, k, count, row);
-    r8_store(weight, weights(a, row));
+    r8_load_rows(row, 0, r);
+    r8_load_rows(row, 4, q);
+    r8_load_rows(row, 8, x);
+    r8_store(weight, weights(a, r, q, x));
     for (uint32_t i = 0; i < count; i++) {
         const double w = weight[i];
         const struct rgb *light = &sample[k[i]].light;
@@ -126,9 +126,12 @@ static bool mean_of(const struct cache_sample *sample, const uint32_t *filed,
     uint32_t some[16], waiting = 0;
     for (uint32_t end = count, n; end; end -= n) {
         const double *row[8];
+        struct real8 r[4], q[4];
         n = end < 8 ? end : 8;
         rows_of(sample, filed + end - n, n, row);
-        unsigned good = may_count(&a, row) & ((1u << n) - 1);
+        r8_load_rows(row, 0, r);
+        r8_load_rows(row, 4, q);
+        unsigned good = may_count(&a, r, q) & ((1u << n) - 1);
         while (good) { // the last first
             const int i = 31 - __builtin_clz(good);
             good ^= 1u << i;
@@ -145,4 +148,43 @@ static bool mean_of(const struct cache_sample *sample, const uint32_t *filed,
     return !waiting || add(sample, some, waiting, &a, at->enough, mean);
 }
 
-const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, mean_of};
+LANES_INLINE void set_row(const double *row, struct real8 r[4])
+{
+    for (int i = 0; i < 4; i++)
+        r[i] = r8_set(row[i]);
+}
+
+static void means_of(const struct cache_sample *sample, const uint32_t *filed,
+                     uint32_t count, const struct cache_points *at, unsigned lanes,
+                     struct cache_means *mean)
+{
+    const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
+    const struct asked a = {v8_load(at->p), v8_load(at->n), bound, r8_mul(bound, bound),
+                            at->smooth};
+    const struct mask8 wanted = m8_of(lanes);
+    struct real8 weight = r8_load(mean->weight);
+    struct vec8 light = v8_load((const double(*)[8])mean->light);
+    for (uint32_t i = count; i-- > 0;) {
+        const struct cache_sample *x = &sample[filed[i]];
+        struct real8 r[4], q[4], s[4];
+        set_row(x->row, r);
+        set_row(x->row + 4, q);
+        if (!(may_count(&a, r, q) & lanes))
+            continue;
+        set_row(x->row + 8, s);
+        const struct real8 w = weights(&a, r, q, s);
+        const struct mask8 on = m8_and(wanted, r8_lt(nought, w));
+        const struct real8 c[3] = {r8_set((double)x->light.r), r8_set((double)x->light.g),
+                                   r8_set((double)x->light.b)};
+        weight = r8_select(on, r8_add(weight, w), weight);
+        light.x = r8_select(on, r8_add(light.x, r8_mul(w, c[0])), light.x);
+        light.y = r8_select(on, r8_add(light.y, r8_mul(w, c[1])), light.y);
+        light.z = r8_select(on, r8_add(light.z, r8_mul(w, c[2])), light.z);
+    }
+    r8_store(mean->weight, weight);
+    r8_store(mean->light[0], light.x);
+    r8_store(mean->light[1], light.y);
+    r8_store(mean->light[2], light.z);
+}
+
+const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, mean_of, means_of};

@@ -23,6 +23,13 @@ struct indirect_query {
     uint16_t level;              // of the ray, this hit counted
 };
 
+// Eight hits of which not more need be known; p, n and weight are those of a query.
+struct indirect_eight {
+    double p[3][8], n[3][8];
+    float weight[8];
+    unsigned lanes; // which of them ask
+};
+
 // Light that reaches surfaces by way of others, worked out before the picture.
 struct indirect {
     const void *data; // NULL: there is none
@@ -33,6 +40,10 @@ struct indirect {
     // with the tracer's scratch.
     struct rgb (*irradiance)(const void *data, void *state, struct tracer *t,
                              const struct indirect_query *q);
+    // The same for eight hits, where it is known without a ray; returns the lanes that it has
+    // answered. May be NULL.
+    unsigned (*known)(const void *data, void *state, const struct indirect_eight *q,
+                      struct rgb out[8]);
     float least;        // of a layer's matt share that is worth asking
     bool layer_normals; // ask with the normal of the first layer, not the surface's
     bool both_sides;    // ask for light from behind as well, where finishes use it

@@ -7,8 +7,8 @@
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
-#include "trace/packet.h"
 #include "trace/media.h"
+#include "trace/packet.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 
@@ -93,14 +93,13 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
-        s->parts || s->cutaway ||
-        (job->shoots && (!s->photons || s->photons->collect)))
+        s->parts || s->cutaway || (job->shoots && (!s->photons || s->photons->collect)))
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
     return normal_is_simple(job, l) && !(dispersion && pigment_is_clear(l->pigment)) &&
-           f->irid == 0 && !(f->has_subsurface && job->subsurface) &&
-           f->crand <= 0 && f->reflection_exponent == 1 &&
+           f->irid == 0 && !(f->has_subsurface && job->subsurface) && f->crand <= 0 &&
+           f->reflection_exponent == 1 &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
 
@@ -235,8 +234,8 @@ void simple_init(struct tracer *t)
     t->class_seen = malloc(BATCH_SIZE * sizeof *t->class_seen);
     t->run = malloc(BATCH_SIZE * sizeof *t->run);
     t->class_ray = malloc(BATCH_SIZE * sizeof *t->class_ray);
-    if (!t->group || !t->class_head || !t->class_tail || !t->class_seen ||
-        !t->run || !t->class_ray)
+    if (!t->group || !t->class_head || !t->class_tail || !t->class_seen || !t->run ||
+        !t->class_ray)
         abort();
     for (uint32_t i = 0; i < classes; i++)
         t->class_head[i] = END;
@@ -255,8 +254,7 @@ void simple_end(struct tracer *t)
 bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
 {
     const struct job *job = t->job;
-    if (!job->simple ||
-        (job->has_media && media_inside(wave_inside(t, t->wave.slot[k]))))
+    if (!job->simple || (job->has_media && media_inside(wave_inside(t, t->wave.slot[k]))))
         return false;
     const uint32_t class = job->simple[job->world->leaf[t->hit->leaf[k]].surface].class;
     if (class == SIMPLE_NONE)
@@ -273,16 +271,31 @@ bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
     return true;
 }
 
-// Light by way of other surfaces on a lane, of one side, as shade_indirect.
-static void add_indirect(struct tracer *t, const struct simple_class *c,
-                         const struct simple_group *g, int i, bool back)
+// How much a lane shows of light by way of other surfaces on one side; black: it does not ask.
+static struct rgb matt_of(const struct tracer *t, const struct simple_class *c,
+                          const struct simple_group *g, int i, bool back)
 {
-    const struct indirect *indirect = &t->job->settings.indirect;
     const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
     const struct rgb color =
         rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
-    if (!(rgb_grey(rgb(1, 1, 1)) * matt > indirect->least) || rgb_max(color) <= 0)
-        return;
+    if (!(rgb_grey(rgb(1, 1, 1)) * matt > t->job->settings.indirect.least) ||
+        rgb_max(color) <= 0)
+        return rgb(0, 0, 0);
+    return color;
+}
+
+static void add_lane(struct tracer *t, const struct simple_group *g, int i,
+                     struct rgb light)
+{
+    t->slot = g->slot[i];
+    tracer_add(t,
+               rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
+}
+
+// Light by way of other surfaces on a lane, of one side, as shade_indirect.
+static void add_indirect(struct tracer *t, const struct simple_group *g, int i,
+                         struct rgb matt, bool back)
+{
     const uint32_t k = g->ray[i];
     const struct ray_batch *b = t->rays;
     const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
@@ -295,20 +308,69 @@ static void add_indirect(struct tracer *t, const struct simple_class *c,
         path.level++;
     const struct indirect_hit hit = {&ray, &met, &at,
                                      vec3(g->n[0][i], g->n[1][i], g->n[2][i]), &path};
-    const struct rgb light = indirect_light(t, &hit, back);
-    t->slot = g->slot[i];
-    tracer_add(t, rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]),
-                          rgb_mul(color, light)));
+    add_lane(t, g, i, rgb_mul(matt, indirect_light(t, &hit, back)));
+}
+
+// Whether g->n is what a query of the lane asks with.
+static bool asks_with_n(const struct tracer *t, const struct simple_group *g, int i)
+{
+    const struct world *w = t->job->world;
+    const uint32_t surface = w->leaf[t->hit->leaf[g->ray[i]]].surface;
+    return t->job->settings.indirect.layer_normals || !t->job->simple[surface].normal;
+}
+
+// Adds the light of those of `lanes` for which it is known; returns all others.
+static unsigned add_known(struct tracer *t, const struct simple_group *g, unsigned lanes,
+                          const struct rgb matt[8], bool back)
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    const struct wavefront *w = &t->wave;
+    struct indirect_eight q = {.lanes = 0};
+    struct rgb light[8];
+    for (int i = 0; i < 8; i++) {
+        if (lanes >> i & 1 && asks_with_n(t, g, i))
+            q.lanes |= 1u << i;
+        q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
+        for (int k = 0; k < 3; k++) {
+            q.p[k][i] = g->p[k][i];
+            q.n[k][i] = back ? -g->n[k][i] : g->n[k][i];
+        }
+    }
+    if (!q.lanes)
+        return lanes;
+    const unsigned known = indirect->known(indirect->data, t->indirect, &q, light);
+    for (unsigned bits = known; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        add_lane(t, g, i, rgb_mul(matt[i], light[i]));
+    }
+    return lanes & ~known;
+}
+
+static void side_indirect(struct tracer *t, const struct simple_class *c,
+                          const struct simple_group *g, bool back)
+{
+    struct rgb matt[8];
+    unsigned lanes = 0;
+    for (unsigned live = g->live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        matt[i] = matt_of(t, c, g, i, back);
+        if (rgb_max(matt[i]) > 0)
+            lanes |= 1u << i;
+    }
+    if (lanes && t->job->settings.indirect.known)
+        lanes = add_known(t, g, lanes, matt, back);
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        add_indirect(t, g, i, matt[i], back);
+    }
 }
 
 static void group_indirect(struct tracer *t, const struct simple_class *c,
                            const struct simple_group *g)
 {
-    for (unsigned live = g->live; live; live &= live - 1) {
-        add_indirect(t, c, g, __builtin_ctz(live), false);
-        if (t->job->settings.indirect.both_sides)
-            add_indirect(t, c, g, __builtin_ctz(live), true);
-    }
+    side_indirect(t, c, g, false);
+    if (t->job->settings.indirect.both_sides)
+        side_indirect(t, c, g, true);
 }
 
 // An image does not reach there.

@@ -179,7 +179,8 @@ static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
     const struct wavefront *w = &t->wave;
     const struct job *job = t->job;
     // Elsewhere the order of hits counts, or rays come together.
-    const bool fine = job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
+    const bool fine =
+        job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
     const unsigned keys = fine ? FINE_KEYS : KEYS;
     uint16_t begin[FINE_KEYS + 1];
     uint16_t key[BATCH_SIZE];

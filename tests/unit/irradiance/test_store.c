@@ -139,9 +139,62 @@ static void test_sum_of_many(void **state)
         store_free(&s[k]);
 }
 
+// Eight points at once, some in one cell, hear what each alone hears.
+static void test_eight_points(void **state)
+{
+    const double bound = 0.8;
+    struct store s;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct cache_sample sample[SAMPLES];
+        uint32_t heard = 0;
+        random_state = 3;
+        store_init(&s, isa_present(isas[k]) ? isas[k] : isas[0]);
+        for (int i = 0; i < SAMPLES; i++) {
+            sample[i] = some_sample(bound);
+            store_add(&s, &sample[i]);
+        }
+        for (int i = 0; i < POINTS; i++) {
+            struct cache_points at = {.lanes = (unsigned)between(0, 256)};
+            struct cache_means got = {0};
+            const struct cache_point first = some_place(&sample[i % SAMPLES], bound);
+            const double spread = between(0, 1) < 0.5 ? 0.01 : 0.5;
+            at.depth = first.depth;
+            at.smooth = first.smooth;
+            for (int j = 0; j < 8; j++) {
+                const struct vec3 p = vec3_add(first.p, some_point(spread));
+                const struct vec3 n = some_normal();
+                at.p[0][j] = p.x, at.p[1][j] = p.y, at.p[2][j] = p.z;
+                at.n[0][j] = n.x, at.n[1][j] = n.y, at.n[2][j] = n.z;
+                at.error_bound[j] = bound * between(0.3, 1);
+            }
+            store_means(&s, &at, &got);
+            for (int j = 0; j < 8; j++) {
+                const struct cache_point alone = {
+                    vec3(at.p[0][j], at.p[1][j], at.p[2][j]),
+                    vec3(at.n[0][j], at.n[1][j], at.n[2][j]),
+                    at.error_bound[j],
+                    at.depth,
+                    at.smooth,
+                    INFINITY};
+                struct cache_mean want = {0};
+                if (at.lanes >> j & 1)
+                    store_mean(&s, &alone, &want);
+                assert_true(got.weight[j] == want.weight);
+                for (int a = 0; a < 3; a++)
+                    assert_true(got.light[a][j] == want.light[a]);
+                heard += want.weight > 0;
+            }
+        }
+        assert_true(heard > POINTS);
+        store_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_weight_of_one),
-                                       cmocka_unit_test(test_sum_of_many)};
+                                       cmocka_unit_test(test_sum_of_many),
+                                       cmocka_unit_test(test_eight_points)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
