@@ -4,7 +4,7 @@ liblambert_a_SOURCES += \
 	%D%/stab.c %D%/sweep.c %D%/world.c %D%/world.h
 liblambert_a_SOURCES += \
 	%D%/antialias.c %D%/antialias.h %D%/area.c %D%/area.h %D%/fog.c \
-	%D%/indirect.h %D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
+	%D%/indirect.h %D%/indirect_lanes.c %D%/indirect_lanes.h %D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/media.c %D%/media.h \
 	%D%/media_light.c %D%/media_lit.c %D%/media_lit.h %D%/media_march.c %D%/media_march.h \
 	%D%/media_mix.c %D%/media_mix.h %D%/photon_flight.h %D%/photon_media.c %D%/photon_map.c %D%/photon_map.h %D%/photon_path.c %D%/photon_path.h %D%/photon_volley.c %D%/photon_volley.h %D%/carve.c %D%/carve.h \

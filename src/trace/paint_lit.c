@@ -1,6 +1,7 @@
 // Light of painted hits, eight at a time, with the bits of trace/shade.c: what the layers give
 // off, what lamps bring, and the rays that go on.
 #include "scene/effects.h"
+#include "trace/indirect_lanes.h"
 #include "trace/paint.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
@@ -27,7 +28,10 @@ bool paint_lights_texture(const struct job *job, const struct texture *x)
 
 bool paint_lights_surface(const struct job *job, const struct surface *s)
 {
-    return !job->settings.indirect.data && !job->has_air_media && !job->has_media &&
+    // Where light by way of others is collected, the order of hits counts.
+    const bool collects =
+        job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
+    return !collects && !job->has_air_media && !job->has_media &&
            !(job->shoots && (!s->photons || s->photons->collect)) &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
@@ -122,6 +126,38 @@ static void lane_go_on(struct tracer *t, const struct paint_group *g, int i)
 
 // ---- light ------------------------------------------------------------------------------
 
+// The layers of one lane, as shade_plain collects them.
+static void lane_layers(const struct tracer *t, const struct paint_group *g, int i,
+                        struct shading *s)
+{
+    s->layer = s->few;
+    s->layer_count = 0;
+    for (uint32_t k = 0; k < g->sheet_count; k++)
+        if (sheets_of(t, g)[k].lanes >> i & 1)
+            lane_layer(t, &sheets_of(t, g)[k], i, &s->few[s->layer_count++]);
+}
+
+// As shade_indirect.
+static void group_indirect(struct tracer *t, const struct paint_group *g)
+{
+    struct indirect_side side[2] = {{.back = false}, {.back = true}};
+    const int sides = t->job->settings.indirect.both_sides ? 2 : 1;
+    for (unsigned live = g->hits.live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        struct shading s;
+        s.t = t;
+        lane_layers(t, g, i, &s);
+        for (int k = 0; k < sides; k++) {
+            const struct layer *first;
+            const struct rgb matt = matt_part(&s, side[k].back, &first);
+            if (first)
+                indirect_side_add(&side[k], i, matt, first->n);
+        }
+    }
+    for (int k = 0; k < sides; k++)
+        indirect_side_light(t, &g->hits, &side[k]);
+}
+
 void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
 {
     const struct shade_kernels *kernels = t->job->kernels;
@@ -133,6 +169,8 @@ void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
         kernels->own_sheets(t, &g[i]);
         for (unsigned lanes = going_on(t, &g[i]); lanes; lanes &= lanes - 1)
             lane_go_on(t, &g[i], __builtin_ctz(lanes));
+        if (t->job->lights && t->job->settings.indirect.data)
+            group_indirect(t, &g[i]);
     }
     for (uint32_t i = 0; i < lamps->count; i++)
         if (!lamps->lamp[i]->inert)

@@ -76,9 +76,7 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
     s->go_on(s, &r);
 }
 
-// The matt part of all layers that is worth asking for, and the first such layer.
-static struct rgb matt_part(const struct shading *s, bool back,
-                            const struct layer **first)
+struct rgb matt_part(const struct shading *s, bool back, const struct layer **first)
 {
     struct rgb sum = {0, 0, 0};
     *first = NULL;
@@ -108,8 +106,8 @@ struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool b
         n = vec3_neg(n);
     }
     const struct path *p = h->path;
-    const struct indirect_query q = {h->ray,    h->hit,  at,        n,       side, p->weight,
-                                     p->inside, p->hash, p->sample, p->level};
+    const struct indirect_query q = {h->ray,    h->hit,    at,      n,         side,
+                                     p->weight, p->inside, p->hash, p->sample, p->level};
     return indirect->irradiance(indirect->data, t->indirect, t, &q);
 }
 

@@ -44,6 +44,8 @@ struct indirect_hit {
     struct vec3 n;
     const struct path *path;
 };
+// The matt part of all layers that is worth asking for, and the first such layer.
+struct rgb matt_part(const struct shading *s, bool back, const struct layer **first);
 struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool back);
 // What all layers send to the eye of light of colour 1 from `to`; lamp: NULL for photons.
 struct rgb layers_lit(const struct shading *s, const struct lamp *lamp, struct vec3 to,

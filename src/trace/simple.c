@@ -7,6 +7,7 @@
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
+#include "trace/indirect_lanes.h"
 #include "trace/media.h"
 #include "trace/packet.h"
 #include "trace/shade.h"
@@ -271,98 +272,24 @@ bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
     return true;
 }
 
-// How much a lane shows of light by way of other surfaces on one side; black: it does not ask.
-static struct rgb matt_of(const struct tracer *t, const struct simple_class *c,
-                          const struct simple_group *g, int i, bool back)
-{
-    const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
-    const struct rgb color =
-        rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
-    if (!(rgb_grey(rgb(1, 1, 1)) * matt > t->job->settings.indirect.least) ||
-        rgb_max(color) <= 0)
-        return rgb(0, 0, 0);
-    return color;
-}
-
-static void add_lane(struct tracer *t, const struct simple_group *g, int i,
-                     struct rgb light)
-{
-    t->slot = g->slot[i];
-    tracer_add(t,
-               rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
-}
-
-// Light by way of other surfaces on a lane, of one side, as shade_indirect.
-static void add_indirect(struct tracer *t, const struct simple_group *g, int i,
-                         struct rgb matt, bool back)
-{
-    const uint32_t k = g->ray[i];
-    const struct ray_batch *b = t->rays;
-    const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
-                            vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
-    const struct hit met = hit_batch_at(t->hit, k);
-    struct interaction at;
-    trace_interaction(t->job->world, &ray, &met, &at);
-    struct path path = wave_path(t, g->slot[i]);
-    if (!(path.flags & PATH_CONTINUED))
-        path.level++;
-    const struct indirect_hit hit = {&ray, &met, &at,
-                                     vec3(g->n[0][i], g->n[1][i], g->n[2][i]), &path};
-    add_lane(t, g, i, rgb_mul(matt, indirect_light(t, &hit, back)));
-}
-
-// Whether g->n is what a query of the lane asks with.
-static bool asks_with_n(const struct tracer *t, const struct simple_group *g, int i)
-{
-    const struct world *w = t->job->world;
-    const uint32_t surface = w->leaf[t->hit->leaf[g->ray[i]]].surface;
-    return t->job->settings.indirect.layer_normals || !t->job->simple[surface].normal;
-}
-
-// Adds the light of those of `lanes` for which it is known; returns all others.
-static unsigned add_known(struct tracer *t, const struct simple_group *g, unsigned lanes,
-                          const struct rgb matt[8], bool back)
-{
-    const struct indirect *indirect = &t->job->settings.indirect;
-    const struct wavefront *w = &t->wave;
-    struct indirect_eight q = {.lanes = 0};
-    struct rgb light[8];
-    for (int i = 0; i < 8; i++) {
-        if (lanes >> i & 1 && asks_with_n(t, g, i))
-            q.lanes |= 1u << i;
-        q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
-        for (int k = 0; k < 3; k++) {
-            q.p[k][i] = g->p[k][i];
-            q.n[k][i] = back ? -g->n[k][i] : g->n[k][i];
-        }
-    }
-    if (!q.lanes)
-        return lanes;
-    const unsigned known = indirect->known(indirect->data, t->indirect, &q, light);
-    for (unsigned bits = known; bits; bits &= bits - 1) {
-        const int i = __builtin_ctz(bits);
-        add_lane(t, g, i, rgb_mul(matt[i], light[i]));
-    }
-    return lanes & ~known;
-}
-
+// Light by way of other surfaces on one side of a group, as shade_indirect.
 static void side_indirect(struct tracer *t, const struct simple_class *c,
                           const struct simple_group *g, bool back)
 {
-    struct rgb matt[8];
-    unsigned lanes = 0;
+    const struct world *w = t->job->world;
+    struct indirect_side side = {.back = back};
     for (unsigned live = g->live; live; live &= live - 1) {
         const int i = __builtin_ctz(live);
-        matt[i] = matt_of(t, c, g, i, back);
-        if (rgb_max(matt[i]) > 0)
-            lanes |= 1u << i;
+        const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
+        const struct rgb color =
+            rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
+        if (!(rgb_grey(rgb(1, 1, 1)) * matt > t->job->settings.indirect.least))
+            continue;
+        indirect_side_add(&side, i, color, vec3(g->n[0][i], g->n[1][i], g->n[2][i]));
+        if (t->job->simple[w->leaf[t->hit->leaf[g->ray[i]]].surface].normal)
+            side.perturbed |= 1u << i;
     }
-    if (lanes && t->job->settings.indirect.known)
-        lanes = add_known(t, g, lanes, matt, back);
-    for (; lanes; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
-        add_indirect(t, g, i, matt[i], back);
-    }
+    indirect_side_light(t, g, &side);
 }
 
 static void group_indirect(struct tracer *t, const struct simple_class *c,

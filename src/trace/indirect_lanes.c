@@ -1,0 +1,65 @@
+#include "trace/indirect_lanes.h"
+
+#include "trace/shade.h"
+
+static void add(struct tracer *t, const struct simple_group *g, int i, struct rgb light)
+{
+    t->slot = g->slot[i];
+    tracer_add(t,
+               rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
+}
+
+static void ask_alone(struct tracer *t, const struct simple_group *g,
+                      const struct indirect_side *side, int i)
+{
+    const uint32_t k = g->ray[i];
+    const struct ray_batch *b = t->rays;
+    const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
+                            vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
+    const struct hit met = hit_batch_at(t->hit, k);
+    struct interaction at;
+    trace_interaction(t->job->world, &ray, &met, &at);
+    struct path path = wave_path(t, g->slot[i]);
+    if (!(path.flags & PATH_CONTINUED))
+        path.level++;
+    const struct indirect_hit hit = {
+        &ray, &met, &at, vec3(side->n[0][i], side->n[1][i], side->n[2][i]), &path};
+    add(t, g, i, rgb_mul(side->matt[i], indirect_light(t, &hit, side->back)));
+}
+
+// Adds the light of the lanes for which it is known; returns all others.
+static unsigned add_known(struct tracer *t, const struct simple_group *g,
+                          const struct indirect_side *side)
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    const struct wavefront *w = &t->wave;
+    const bool layers = indirect->layer_normals;
+    struct indirect_eight q = {.lanes = side->lanes & ~(layers ? 0 : side->perturbed)};
+    struct rgb light[8];
+    if (!q.lanes)
+        return side->lanes;
+    for (int i = 0; i < 8; i++) {
+        q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
+        for (int k = 0; k < 3; k++) {
+            const double n = layers ? side->n[k][i] : g->n[k][i];
+            q.p[k][i] = g->p[k][i];
+            q.n[k][i] = side->back ? -n : n;
+        }
+    }
+    const unsigned known = indirect->known(indirect->data, t->indirect, &q, light);
+    for (unsigned bits = known; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        add(t, g, i, rgb_mul(side->matt[i], light[i]));
+    }
+    return side->lanes & ~known;
+}
+
+void indirect_side_light(struct tracer *t, const struct simple_group *g,
+                         const struct indirect_side *side)
+{
+    unsigned lanes = side->lanes;
+    if (lanes && t->job->settings.indirect.known)
+        lanes = add_known(t, g, side);
+    for (; lanes; lanes &= lanes - 1)
+        ask_alone(t, g, side, __builtin_ctz(lanes));
+}

@@ -1,0 +1,31 @@
+#ifndef TRACE_INDIRECT_LANES_H
+#define TRACE_INDIRECT_LANES_H
+
+#include "trace/simple.h"
+
+// Light by way of other surfaces for a group of eight hits, with the bits of shade_indirect.
+
+// What asks on one side of a group's hits.
+struct indirect_side {
+    bool back;
+    unsigned lanes;
+    unsigned perturbed; // lanes where the group's n is not the surface's own
+    struct rgb matt[8]; // what the lanes show of the light
+    double n[3][8];     // of the first matt layer, towards the ray
+};
+
+// A lane whose matt part is not black.
+static inline void indirect_side_add(struct indirect_side *s, int i, struct rgb matt,
+                                     struct vec3 n)
+{
+    if (rgb_max(matt) <= 0)
+        return;
+    s->lanes |= 1u << i;
+    s->matt[i] = matt;
+    s->n[0][i] = n.x, s->n[1][i] = n.y, s->n[2][i] = n.z;
+}
+// Adds the light to the slots.
+void indirect_side_light(struct tracer *t, const struct simple_group *g,
+                         const struct indirect_side *side);
+
+#endif
