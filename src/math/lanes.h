@@ -413,6 +413,27 @@ LANES_2(float8, float8, f8_mul, F2, Q_MUL)
 LANES_2(float8, float8, f8_min, F2, Q_MIN)
 LANES_2(float8, float8, f8_max, F2, Q_MAX)
 
+// The least and the largest of the lanes.
+LANES_INLINE void f8_range(struct float8 x, float *least, float *largest)
+{
+#if defined(__AVX__) || defined(__AVX2__)
+    const __m128 p = _mm256_castps256_ps128(x.a), q = _mm256_extractf128_ps(x.a, 1);
+    __m128 lo = _mm_min_ps(p, q), hi = _mm_max_ps(p, q);
+    lo = _mm_min_ps(lo, _mm_movehl_ps(lo, lo));
+    hi = _mm_max_ps(hi, _mm_movehl_ps(hi, hi));
+    *least = _mm_cvtss_f32(_mm_min_ss(lo, _mm_movehdup_ps(lo)));
+    *largest = _mm_cvtss_f32(_mm_max_ss(hi, _mm_movehdup_ps(hi)));
+#else
+    float v[8];
+    f8_store(v, x);
+    *least = *largest = v[0];
+    for (int i = 1; i < 8; i++) {
+        *least = v[i] < *least ? v[i] : *least;
+        *largest = v[i] > *largest ? v[i] : *largest;
+    }
+#endif
+}
+
 LANES_INLINE void r8_store_floats(float *p, struct real8 x)
 {
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)

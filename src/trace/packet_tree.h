@@ -57,9 +57,8 @@ LANES_INLINE uint32_t push_children(const struct bvh8_node *n, const struct bvh8
 // The ray of one lane.
 static inline struct bvh8_ray tree_lane(const struct tree_lanes *l, int lane)
 {
-    struct bvh8_ray r = {.t_far = l->t_far[lane],
-                         .t_begin = l->t_begin[lane],
-                         .scale = l->scale[lane]};
+    struct bvh8_ray r = {
+        .t_far = l->t_far[lane], .t_begin = l->t_begin[lane], .scale = l->scale[lane]};
     for (int a = 0; a < 3; a++) {
         r.o[a] = l->o[a][lane];
         r.inverse[a] = l->inverse[a][lane];
@@ -80,9 +79,37 @@ struct tree8 {
     struct float8 o[3], inverse[3], far;
     int negative[3];
     bool mixed; // the directions' signs differ between lanes
+    // Where they do not: of the lanes' origins the one that meets a near side first, and a
+    // far side last, and the range of `inverse`.
+    float o_near[3], o_far[3], slowest[3], fastest[3];
 };
 
 static const float never = 3e38f;
+
+LANES_INLINE void tree8_ranges(struct tree8 *v, unsigned lanes)
+{
+    float o[3][8], inverse[3][8];
+    const int some = __builtin_ctz(lanes);
+    if (lanes != 255) {
+        for (int a = 0; a < 3; a++) {
+            f8_store(o[a], v->o[a]);
+            f8_store(inverse[a], v->inverse[a]);
+            for (unsigned m = lanes ^ 255; m; m &= m - 1) {
+                o[a][__builtin_ctz(m)] = o[a][some];
+                inverse[a][__builtin_ctz(m)] = inverse[a][some];
+            }
+        }
+    }
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        float lo, hi;
+        f8_range(lanes == 255 ? v->o[a] : f8_load(o[a]), &lo, &hi);
+        v->o_near[a] = v->negative[a] ? lo : hi;
+        v->o_far[a] = v->negative[a] ? hi : lo;
+        f8_range(lanes == 255 ? v->inverse[a] : f8_load(inverse[a]), &v->slowest[a],
+                 &v->fastest[a]);
+    }
+}
 
 LANES_INLINE struct tree8 tree8_of(const struct tree_lanes *l, unsigned lanes)
 {
@@ -97,7 +124,36 @@ LANES_INLINE struct tree8 tree8_of(const struct tree_lanes *l, unsigned lanes)
     }
     if (v.mixed)
         v.negative[0] = v.negative[1] = v.negative[2] = 0;
+    else
+        tree8_ranges(&v, lanes);
     return v;
+}
+
+// The children whose boxes some lane may meet; rounding keeps order, so that what
+// child_meets has of any lane lies within. Not for mixed directions.
+LANES_INLINE unsigned node_candidates(const struct bvh8_node *n, const struct tree8 *v)
+{
+    struct float8 near = f8_set(0), far = f8_set(never);
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++) {
+        const struct float8 p =
+            f8_sub(f8_load(n->box[a + v->negative[a]]), f8_set(v->o_near[a]));
+        const struct float8 q =
+            f8_sub(f8_load(n->box[a + 3 - v->negative[a]]), f8_set(v->o_far[a]));
+        const struct float8 s = f8_set(v->slowest[a]), f = f8_set(v->fastest[a]);
+        near = f8_max(f8_min(f8_mul(p, s), f8_mul(p, f)), near);
+        far = f8_min(f8_max(f8_mul(q, s), f8_mul(q, f)), far);
+    }
+    return f8_le(near, f8_mul(far, f8_set(BVH8_SLACK)));
+}
+
+// The children that are there.
+LANES_INLINE unsigned node_children(const struct bvh8_node *n)
+{
+    unsigned bits = 0;
+    for (int k = 0; k < 8 && n->child[k] != BVH8_EMPTY; k++)
+        bits |= 1u << k;
+    return bits;
 }
 
 LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct tree8 *v,
@@ -106,8 +162,8 @@ LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct
     struct float8 near = f8_set(0), far = v->far;
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
-        const struct float8 p = f8_mul(
-            f8_sub(f8_set(n->box[a + v->negative[a]][k]), v->o[a]), v->inverse[a]);
+        const struct float8 p =
+            f8_mul(f8_sub(f8_set(n->box[a + v->negative[a]][k]), v->o[a]), v->inverse[a]);
         const struct float8 q = f8_mul(
             f8_sub(f8_set(n->box[a + 3 - v->negative[a]][k]), v->o[a]), v->inverse[a]);
         near = f8_max(v->mixed ? f8_min(p, q) : p, near);
@@ -126,7 +182,9 @@ LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tre
                                      uint32_t *met_lanes)
 {
     const uint32_t base = depth;
-    for (int k = 0; k < 8 && n->child[k] != BVH8_EMPTY; k++) {
+    unsigned some = v->mixed ? node_children(n) : node_candidates(n, v);
+    for (; some; some &= some - 1) {
+        const int k = __builtin_ctz(some);
         float near[8];
         const unsigned met = child_meets(n, k, v, near);
         if (!met)
@@ -164,8 +222,8 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
         t_min = r8_select(flat, t_min, r8_max(t_min, r8_min(t0, t1)));
         t_max = r8_select(flat, t_max, r8_min(t_max, r8_max(t0, t1)));
         out = m8_or(out, m8_and(flat, m8_or(r8_lt(at, lo), r8_lt(hi, at))));
-        const struct real8 most = r8_select(r8_lt(by, r8_set(0)), r8_set(-0x1p60),
-                                            r8_set(0x1p60));
+        const struct real8 most =
+            r8_select(r8_lt(by, r8_set(0)), r8_set(-0x1p60), r8_set(0x1p60));
         const struct real8 slow = r8_select(flat, most, r8_mul(largest, inv));
         r8_store_floats(l->inverse[a], slow);
         real = m8_and(real, r8_le(r8_abs(slow), r8_set(never)));
@@ -175,17 +233,18 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
     real = m8_and(real, r8_le(r8_abs(begin.x), r8_set(never)));
     real = m8_and(real, r8_le(r8_abs(begin.y), r8_set(never)));
     real = m8_and(real, r8_le(r8_abs(begin.z), r8_set(never)));
-    const unsigned in = lanes & m8_bits(m8_without(m8_and(real, r8_le(t_min, t_max)), out));
+    const unsigned in =
+        lanes & m8_bits(m8_without(m8_and(real, r8_le(t_min, t_max)), out));
     r8_store_floats(l->o[0], begin.x);
     r8_store_floats(l->o[1], begin.y);
     r8_store_floats(l->o[2], begin.z);
     r8_store(l->t_begin, t_min);
     r8_store(l->scale, largest);
     const struct real8 far = r8_mul(r8_sub(t_max, t_min), largest);
-    r8_store_floats(l->t_far, r8_select(m8_of(in),
-                                        r8_min(r8_mul(far, r8_set(BVH8_SLACK)),
-                                               r8_set(1e30)),
-                                        r8_set(-1)));
+    r8_store_floats(l->t_far,
+                    r8_select(m8_of(in),
+                              r8_min(r8_mul(far, r8_set(BVH8_SLACK)), r8_set(1e30)),
+                              r8_set(-1)));
     return in;
 }
 
