@@ -27,7 +27,7 @@ const struct radiosity_options radiosity_defaults = {
     .lamp_rays = 4,
 };
 
-enum { DENSE_MOST = 500 }; // elements up to which `auto` stores the matrix
+enum { DENSE_MOST = 100 }; // elements up to which `auto` stores the matrix
 static const double gib = 1073741824.0;
 
 static double memory_limit(const struct radiosity_options *s)
