@@ -148,6 +148,8 @@ static void polygons_from_a_point(void **state)
     assert_near(lambert_polygon(o, up, t16b, 4), 0.217575206107758307, 1e-15);
     const struct vec3 t17[] = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}};
     assert_near(lambert_polygon(o, up, t17, 4), 0.554126423979571987, 1e-15);
+    const struct vec3 t17b[] = {{-.5, -.5, 1}, {-.5, .5, 1}, {.5, .5, 1}, {.5, -.5, 1}};
+    assert_near(lambert_polygon(o, up, t17b, 4), 0.239456470460773539, 1e-15);
     // T18: a rectangle in the plane x = 1, from the horizon up.
     const struct vec3 t18[] = {{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}};
     assert_near(lambert_polygon(o, up, t18, 4), 0.0557341970025535016, 1e-15);

@@ -327,7 +327,11 @@ static void continuous_cube(void **state)
     static const struct {
         uint32_t n;
         double floor, ceiling; // per cent of the reflected part
-    } levels[] = {{1, -12.9, 6.2}, {2, -5.1, 1.4}, {4, -1.64, .36}, {8, -.50, .092}};
+        double walls;          // at most
+    } levels[] = {{1, -12.9, 6.2, .41},
+                  {2, -5.1, 1.4, .41},
+                  {4, -1.64, .36, .16},
+                  {8, -.50, .092, .06}};
     for (size_t k = 0; k < sizeof levels / sizeof levels[0]; k++) {
         const uint32_t n = levels[k].n;
         struct mesh *m = mesh_cube(n);
@@ -338,17 +342,21 @@ static void continuous_cube(void **state)
         struct form_factor_settings ff = form_factor_defaults;
         ff.tolerance = 1e-5;
         struct solved r = solve(m, &ff, &settings, true);
-        double floor = 0, ceiling = 0;
+        double floor = 0, ceiling = 0, wall = 0;
         for (uint32_t i = 0; i < n * n; i++) {
             floor += (r.s.b[i][0] - 1) / (n * n);
             ceiling += r.s.b[n * n + i][0] / (n * n);
         }
-        print_message("%u: floor %.3f %%, ceiling %.3f %%\n", n,
-                      100 * (floor / .1043616 - 1), 100 * (ceiling / .1712160 - 1));
+        for (uint32_t i = 2 * n * n; i < m->e.count; i++)
+            wall += r.s.b[i][0] / (4 * n * n);
+        print_message("%u: floor %.3f %%, ceiling %.3f %%, walls %.3f %%\n", n,
+                      100 * (floor / .1043616 - 1), 100 * (ceiling / .1712160 - 1),
+                      100 * (wall / .1811056 - 1));
         assert_near(100 * (floor / .1043616 - 1), levels[k].floor,
                     .05 + .01 * fabs(levels[k].floor));
         assert_near(100 * (ceiling / .1712160 - 1), levels[k].ceiling,
                     .02 + .02 * fabs(levels[k].ceiling));
+        assert_true(fabs(100 * (wall / .1811056 - 1)) < levels[k].walls);
         solved_free(&r);
     }
 }

@@ -153,6 +153,11 @@ static const struct factor_case cases[] = {
                             "2*z, 1" A_ "} box { <-2, -2, -1>, <2, 2, 1>" B_
                             "} } M(.75, 0) }",
      ANY, ANY, 2 * 0.207106781186547524, 4 * PI, 0.012, 160},
+    {"T26 side to itself",
+     CAMERA("<.1, .2, .3>") "difference { box { -3, 3 } intersection { cylinder { -2*z, "
+                            "2*z, 1" A_ "} box { <-2, -2, -1>, <2, 2, 1>" C_
+                            "} } M(.75, 0) }",
+     ANY, ANY, 0.585786437626904951, 4 * PI, 0.012, 160},
     {"T28 base to dome",
      CAMERA("<.1, .2, .3>") "difference { box { -3, 3 } intersection { sphere { 0, 1" B_
                             "} box { <-2, -2, 0>, 2" A_ "} } M(.75, 0) }",
@@ -160,6 +165,10 @@ static const struct factor_case cases[] = {
     {"T28 dome to base",
      CAMERA("<.1, .2, .3>") "difference { box { -3, 3 } intersection { sphere { 0, 1" A_
                             "} box { <-2, -2, 0>, 2" B_ "} } M(.75, 0) }",
+     ANY, ANY, .5, 2 * PI, 0.012, 160},
+    {"T28 dome to itself",
+     CAMERA("<.1, .2, .3>") "difference { box { -3, 3 } intersection { sphere { 0, 1" A_
+                            "} box { <-2, -2, 0>, 2" C_ "} } M(.75, 0) }",
      ANY, ANY, .5, 2 * PI, 0.012, 160},
     // The receiver is long enough for what lies beyond it to be 5e-4.
     {"T30 cylinders side by side",
