@@ -7,7 +7,7 @@
 #include "radiosity/polygon.h"
 #include "trace/tracer.h"
 
-const struct patch_settings patch_defaults = {.count = 6500, .samples = 3, .depth = 2};
+const struct patch_settings patch_defaults = {.count = 8000, .samples = 3, .depth = 2};
 
 // How far above the surface, relative to the cell, a probing ray starts.
 static const double probe_height = 1e-5;

@@ -10,7 +10,7 @@
 #include "radiosity/sequence.h"
 
 const struct radiosity_options radiosity_defaults = {
-    .patches = {.count = 6500, .samples = 3, .depth = 2},
+    .patches = {.count = 8000, .samples = 3, .depth = 2},
     .factors = {.method = "analytic",
                 .points = 3,
                 .tolerance = 1e-3,

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "radiosity/factor_nodes.h"
+#include "radiosity/polygon.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 
@@ -25,6 +26,7 @@ void gather_init(struct gather *g, const struct radiosity_system *s,
         .s = s, .settings = settings, .seed = sequence_seed(settings->seed, 2 + half)};
     g->emitter = solver_alloc(n, sizeof *g->emitter);
     g->up_to = solver_alloc(n, sizeof *g->up_to);
+    g->radius = solver_alloc(n, sizeof *g->radius);
     g->rays = solver_alloc(n, sizeof *g->rays);
     for (uint32_t i = 0; i < n; i++) {
         const struct element *e = &s->e->element[i];
@@ -36,6 +38,7 @@ void gather_init(struct gather *g, const struct radiosity_system *s,
         glowing += e->area;
         g->power += e->area * (own[0] + own[1] + own[2]);
         g->up_to[g->emitter_count] = g->power;
+        g->radius[g->emitter_count] = polygon_radius(e);
         g->emitter[g->emitter_count++] = i;
     }
     g->direct = glowing < few * area;
@@ -45,6 +48,7 @@ void gather_free(struct gather *g)
 {
     free(g->emitter);
     free(g->up_to);
+    free(g->radius);
     free(g->rays);
 }
 
@@ -127,16 +131,61 @@ static void around(void *user, void *state, uint32_t from, uint32_t to)
 }
 
 // ---- what emitters give ------------------------------------------------------------
-static uint32_t emitter_at(const struct gather *g, double power)
+// Emitters that looks are drawn from: up to LOCAL_MOST by about what they give to where
+// one looks from, more by their power.
+enum { LOCAL_MOST = 256 };
+struct drawing {
+    const double *up_to;
+    double total, local[LOCAL_MOST];
+};
+
+// Where one looks from: a flat element or one point, or, curved, with any normal.
+struct looker {
+    struct vec3 o, n;
+    double radius;
+    bool curved;
+};
+
+// About what emitter k gives there, and more than nothing where any point of it gives any
+// point there anything: cosines are the greatest there are.
+static double may_give(const struct gather *g, uint32_t k, const struct looker *at)
+{
+    static const double blur = .3; // of the sizes: how near points of both are
+    const struct element *e = &g->s->e->element[g->emitter[k]];
+    const double power = g->up_to[k] - (k ? g->up_to[k - 1] : 0);
+    const double size = blur * (g->radius[k] + at->radius);
+    const struct vec3 d = vec3_sub(e->centre, at->o);
+    const double d2 = vec3_dot(d, d) + size * size, r = sqrt(d2);
+    const double here = at->curved ? r : vec3_dot(d, at->n) + g->radius[k];
+    const double there = e->curved ? r : at->radius - vec3_dot(d, e->normal);
+    return here > 0 && there > 0 ? power * fmin(here, r) * fmin(there, r) / (d2 * d2) : 0;
+}
+
+static void drawing_init(struct drawing *w, const struct gather *g,
+                         const struct looker *at)
+{
+    w->up_to = g->up_to;
+    w->total = g->power;
+    if (g->emitter_count > LOCAL_MOST)
+        return;
+    w->up_to = w->local;
+    w->total = 0;
+    for (uint32_t k = 0; k < g->emitter_count; k++)
+        w->local[k] = w->total += may_give(g, k, at);
+}
+
+static uint32_t emitter_at(const struct gather *g, const struct drawing *w, double x,
+                           double *chance)
 {
     uint32_t low = 0, high = g->emitter_count - 1;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (g->up_to[middle] > power)
+        if (w->up_to[middle] > x * w->total)
             high = middle;
         else
             low = middle + 1;
     }
+    *chance = (w->up_to[low] - (low ? w->up_to[low - 1] : 0)) / w->total;
     return low;
 }
 
@@ -165,13 +214,18 @@ static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
     s->rays->count = 0;
     for (uint32_t i = from; i < to; i++) {
         const uint32_t seed = sequence_seed(i, ~g->seed);
+        const struct element *const here = &g->s->e->element[i];
+        const struct looker self = {here->centre, here->normal, polygon_radius(here),
+                                    here->curved};
         double offset[4];
+        struct drawing w;
         random_point(g->first, seed, offset);
-        for (uint32_t k = 0; k < g->count; k++) {
+        drawing_init(&w, g, &self);
+        for (uint32_t k = 0; k < g->count && w.total > 0; k++) {
             struct element_point at, of;
-            double x[4], own[3];
-            const uint32_t n = emitter_at(g, (k + offset[0]) / g->count * g->power);
-            const uint32_t e = g->emitter[n];
+            double x[4], own[3], chance;
+            const uint32_t e =
+                g->emitter[emitter_at(g, &w, (k + offset[0]) / g->count, &chance)];
             if (e == i || !point_of(s, i, seed, g->first + k, x, &at))
                 continue;
             const double seen = factor_from_point(s, &at, e);
@@ -179,7 +233,6 @@ static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
             if (seen <= 0 ||
                 !point_of(s, e, sequence_seed(seed, g->first + k), 0, y, &of))
                 continue;
-            const double chance = (g->up_to[n] - (n ? g->up_to[n - 1] : 0)) / g->power;
             element_emission(&g->s->e->element[e], own);
             struct look *l = &look[s->rays->count];
             l->sender = i;
@@ -225,17 +278,18 @@ static void point_emitters(const struct gather *g, struct factor_state *s,
                            double h[3])
 {
     double light[GATHER_BATCH][3], offset[4];
+    struct drawing w;
     random_point(0, seed, offset);
+    const struct looker self = {at->p, at->normal, 0, false};
+    drawing_init(&w, g, &self);
     s->rays->count = 0;
-    for (uint32_t k = 0; k < rays; k++) {
+    for (uint32_t k = 0; k < rays && w.total > 0; k++) {
         struct element_point of;
-        double y[4], own[3];
-        const uint32_t n = emitter_at(g, (k + offset[0]) / rays * g->power);
-        const uint32_t e = g->emitter[n];
+        double y[4], own[3], chance;
+        const uint32_t e = g->emitter[emitter_at(g, &w, (k + offset[0]) / rays, &chance)];
         const double seen = factor_from_point(s, at, e);
         if (seen <= 0 || !point_of(s, e, sequence_seed(seed, k), 0, y, &of))
             continue;
-        const double chance = (g->up_to[n] - (n ? g->up_to[n - 1] : 0)) / g->power;
         element_emission(&g->s->e->element[e], own);
         for (int c = 0; c < 3; c++)
             light[s->rays->count][c] = own[c] * seen / chance / rays;

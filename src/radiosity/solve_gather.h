@@ -10,6 +10,7 @@ struct gather {
     bool direct; // emitters are looked at by themselves
     uint32_t *emitter, emitter_count;
     double *up_to, power; // of emitters up to each, and of all
+    double *radius;       // of emitters
     // Of the pass at hand:
     double (*b)[3], (*h)[3], (*h_emitted)[3];
     uint32_t first, count; // of the elements' rays
