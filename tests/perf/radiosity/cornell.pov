@@ -18,7 +18,6 @@ global_settings {
 }
 #ifdef (lambert)
 #declare lambert_gi = "radiosity";
-#declare lambert_gi_patches = 4000;
 #end
 #ifndef (Light) #declare Light = 20; #end
 #macro M(C) texture { pigment { C } finish { ambient 0 diffuse 1 } } #end

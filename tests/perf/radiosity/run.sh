@@ -108,11 +108,12 @@ pictures() { # replaces the lines of a scene in the table
     cat "$work/rest"
   } >"$out/pictures.tsv"
   pov "$s" "defaults" 35 1.8 2 5 .04
+  picture "$s" lambert "20 patches, 5e3 rays" --gi-patches=20 --gi-solver=stochastic --gi-rays=5e3
   picture "$s" lambert "100 patches, 3e4 rays" --gi-patches=100 --gi-solver=stochastic --gi-rays=3e4
   picture "$s" lambert "300 patches, 1e5 rays" --gi-patches=300 --gi-solver=stochastic --gi-rays=1e5
   pov "$s" "count 100, error_bound .5, recursion_limit 4" 100 .5 4 5 .02
-  picture "$s" lambert "1000 patches, 1e6 rays" --gi-patches=1000 --gi-rays=1e6
-  picture "$s" lambert "4000 patches, 4e6 rays" --gi-patches=4000 --gi-rays=4e6
+  picture "$s" lambert "1000 patches, 3e5 rays" --gi-patches=1000 --gi-rays=3e5
+  picture "$s" lambert "4000 patches" --gi-patches=4000
   pov "$s" "count 200, error_bound .3, recursion_limit 6, nearest_count 8" 200 .3 6 8 .02
   picture "$s" lambert "defaults"
   pov "$s" "count 400, error_bound .2, recursion_limit 8, nearest_count 10" 400 .2 8 10 .01
