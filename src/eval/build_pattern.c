@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "scene/pigment_tape.h"
+
 // Pattern keywords with their arguments and the modifiers of spec/language 4.7.
 
 static long read_int(struct args *a, const char *role, long low, long high)
@@ -191,6 +193,8 @@ static void pigment_pattern(struct args *a, struct pattern *p)
 {
     static const struct pigment bare;
     p->pigment = build_pigment(a, args_next(a), &bare);
+    struct pigment_compiler c = {.arena = a->b->arena};
+    p->tape = p->pigment ? pigment_compile(&c, p->pigment) : NULL;
 }
 
 static void set_kind(struct args *a, struct body *body, const struct pattern_ops *ops)

@@ -9,7 +9,8 @@
 #include "eval/expr.h"
 #include "eval/internal.h"
 #include "eval/spline.h"
-#include "scene/texture.h"
+#include "scene/noise_kernel.h"
+#include "scene/pigment_tape.h"
 
 enum { NAMES_MAX = TAPE_ARGUMENTS_MAX + 64, MORE_ARGUMENTS = 10000 };
 
@@ -435,18 +436,56 @@ static struct tape *expression(struct eval *e, const struct ast *parameters,
     return finish(e, body, c.b, parameters ? count_list(parameters->list) : 3, &to, 1);
 }
 
+struct function_pigment {
+    const struct pigment *pigment;
+    const struct pigment_tape *tape; // NULL: not compiled
+};
+
 // No surface is there: slopes are 0.
 static void pigment_at(const void *data, const double *in, double *out)
 {
+    const struct function_pigment *f = data;
     const struct vec3 p = vec3(in[0], in[1], in[2]);
     const struct texture_point at = {.p = p, .p_world = p, .uv = {p.x, p.y}};
     struct rgbft c = {0};
-    pigment_color(data, &at, &c);
+    pigment_color(f->pigment, &at, &c);
     out[0] = c.r;
     out[1] = c.g;
     out[2] = c.b;
     out[3] = c.filter;
     out[4] = c.transmit;
+}
+
+static void pigments_at(const struct noise_kernels *k, const void *data,
+                        const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
+{
+    static const double none[3][TAPE_LANES];
+    const struct function_pigment *f = data;
+    const struct pattern_packet packet = {in, none, none, in};
+    float c[TAPE_WIDTH_MAX][TAPE_LANES] = {{0}};
+    if (f->tape) {
+        const unsigned found = k->surface->colors(f->tape, &packet, in, 255, c);
+        for (int i = 0; i < TAPE_LANES && f->tape->channels == 3; i++)
+            c[4][i] = found >> i & 1 ? 0 : 1; // an image does not reach there
+    }
+    for (int i = 0; i < TAPE_LANES; i++) {
+        double one[TAPE_WIDTH_MAX];
+        if (!f->tape)
+            pigment_at(f, (const double[]){in[0][i], in[1][i], in[2][i]}, one);
+        for (int j = 0; j < TAPE_WIDTH_MAX; j++)
+            out[j][i] = f->tape ? (double)c[j][i] : one[j];
+    }
+}
+
+static const struct function_pigment *function_pigment(struct arena *a,
+                                                       const struct pigment *p)
+{
+    struct pigment_compiler c = {.arena = a};
+    if (!p)
+        return NULL;
+    struct function_pigment *f = arena_new_struct(a, struct function_pigment);
+    *f = (struct function_pigment){p, pigment_compile(&c, p)};
+    return f;
 }
 
 static void pattern_at(const void *data, const double *in, double *out)
@@ -456,10 +495,27 @@ static void pattern_at(const void *data, const double *in, double *out)
     out[0] = pattern_value(data, p, &none);
 }
 
-static const struct tape_extern pigment_extern = {
-    .name = "pigment", .arguments = 3, .width = 5, .value = pigment_at};
-static const struct tape_extern pattern_extern = {
-    .name = "pattern", .arguments = 3, .width = 1, .value = pattern_at};
+static void patterns_at(const struct noise_kernels *k, const void *data,
+                        const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
+{
+    static const double none[3][TAPE_LANES];
+    const struct pattern_packet packet = {in, none, none, in};
+    double at[3][TAPE_LANES];
+    memcpy(at, in, sizeof at);
+    k->surface->warp(data, at);
+    k->surface->values(data, &packet, (const double(*)[TAPE_LANES])at, 255, out[0]);
+}
+
+static const struct tape_extern pigment_extern = {.name = "pigment",
+                                                  .arguments = 3,
+                                                  .width = 5,
+                                                  .value = pigment_at,
+                                                  .values = pigments_at};
+static const struct tape_extern pattern_extern = {.name = "pattern",
+                                                  .arguments = 3,
+                                                  .width = 1,
+                                                  .value = pattern_at,
+                                                  .values = patterns_at};
 
 static struct tape *of_extern(struct eval *e, const struct ast *n,
                               const struct tape_extern *f, const void *data)
@@ -511,7 +567,7 @@ static struct tape *of_block(struct eval *e, const struct ast *body)
         return v ? of_transform(e, body, v->data) : NULL;
     case WORD_pigment:
         return of_extern(e, body, &pigment_extern,
-                         builder_function_pigment(e->builder, body));
+                         function_pigment(e->arena, builder_function_pigment(e->builder, body)));
     case WORD_pattern:
         return of_extern(e, body, &pattern_extern,
                          builder_function_pattern(e->builder, body));

@@ -10,6 +10,7 @@
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 #include "scene/pattern_lanes.h"
+#include "scene/pigment_tape.h"
 #include "scene/tape_kernel.h"
 
 #define NOISE_EDGE 1e-10
@@ -610,4 +611,5 @@ const struct noise_kernels OF_ISA(noise_kernels_) = {ISA_TEXT,
                                                      powers,
                                                      OF_ISA(noise_rings_),
                                                      OF_ISA(noise_ring_slopes_),
-                                                     &OF_ISA(tape_kernels_)};
+                                                     &OF_ISA(tape_kernels_),
+                                                     &OF_ISA(surface_kernels_)};

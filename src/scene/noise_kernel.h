@@ -25,6 +25,7 @@ typedef void noise_bounds_kernel(const double lo[3][8], const double hi[3][8],
                                  int generator, struct noise_bounds8 *out);
 noise_bounds_kernel noise_bounds_base, noise_bounds_avx2, noise_bounds_avx512;
 
+struct surface_kernels;
 struct tape_kernels; // scene/tape_kernel.h
 // The three smallest of the squares (metric 2) or sums (metric 1) of the distances from
 // points of one cell, those in `lanes`, to the random points of the cells around
@@ -70,7 +71,9 @@ struct noise_kernels {
     void (*power)(const double x[8], double y, double out[8]);
     noise_rings_kernel *rings;
     noise_ring_slopes_kernel *ring_slopes;
-    const struct tape_kernels *tapes; // functions of the same instruction set
+    // Functions and pigments of the same instruction set.
+    const struct tape_kernels *tapes;
+    const struct surface_kernels *surface; // scene/pigment_tape.h
 };
 
 extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,

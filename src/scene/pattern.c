@@ -36,6 +36,7 @@ static void forget_parameters(struct pattern *p)
     p->exterior_factor = p->interior_factor = 0;
     p->object = NULL;
     p->pigment = NULL;
+    p->tape = NULL;
     p->image = NULL;
     p->density = NULL;
     p->function = NULL;

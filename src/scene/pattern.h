@@ -11,6 +11,7 @@
 struct arena;
 struct object;
 struct pigment;
+struct pigment_tape;
 struct image_map;
 struct density_grid;
 struct pattern;
@@ -118,6 +119,7 @@ struct pattern {
     int fractal_exponent;
     const struct object *object;      // object pattern
     const struct pigment *pigment;    // pigment_pattern
+    const struct pigment_tape *tape;  // the same, compiled; NULL: its maps nest too deeply
     const struct image_map *image;    // image_pattern
     const struct density_grid *density; // density_file; interpolation in integer[0]
     // function pattern: evaluates user code at a point

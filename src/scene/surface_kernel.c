@@ -156,10 +156,29 @@ static struct pattern_context context_of(const struct pattern_packet *k, int i)
                                                 : (struct vec2){0, 0}};
 }
 
+static unsigned colors(const struct pigment_tape *t, const struct pattern_packet *packet,
+                       const double place[3][8], unsigned live, float out[5][8]);
+
+// pigment_pattern.
+static void greys(const struct pattern *p, const struct pattern_packet *packet,
+                  const double warped[3][8], unsigned live, double out[8])
+{
+    float c[5][8];
+    const unsigned found = colors(p->tape, packet, warped, live, c);
+    const struct real8 r = r8_of_floats(f8_load(c[0])), g = r8_of_floats(f8_load(c[1])),
+                       b = r8_of_floats(f8_load(c[2]));
+    const struct real8 grey =
+        r8_add(r8_add(r8_mul(r8_set(0.297), r), r8_mul(r8_set(0.589), g)),
+               r8_mul(r8_set(0.114), b));
+    r8_store(out, r8_select(m8_of(found), r8_of_floats(f8_of(grey)), r8_set(0)));
+}
+
 static void values(const struct pattern *p, const struct pattern_packet *packet,
                    const double warped[3][8], unsigned live, double out[8])
 {
-    if (p->ops->values) {
+    if (p->tape) {
+        greys(p, packet, warped, live, out);
+    } else if (p->ops->values) {
         p->ops->values(p, NOISE, warped, out);
     } else {
         for (int i = 0; i < 8; i++) {
