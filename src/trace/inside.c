@@ -48,22 +48,8 @@ const struct inside *inside_at(struct arena *a, const struct world *w, struct ve
     return list;
 }
 
-bool interior_fades_exponentially(const struct interior *i)
-{
-    static const double exponential_from = 1000; // powers at and above mean exp
-    return i->fade_power >= exponential_from;
-}
-
-double interior_fade_exponent(const struct interior *i, double s, float color)
-{
-    const double way = s / i->fade_distance;
-    return -(1 - (double)color) * way;
-}
-
 static float fade_channel(const struct interior *i, double s, float color)
 {
-    if (interior_fades_exponentially(i))
-        return (float)det_exp_single(interior_fade_exponent(i, s, color));
     const double way = s / i->fade_distance;
     return (float)(color +
                    (1 - (double)color) / (1 + det_pow_single(way, i->fade_power)));
@@ -71,6 +57,12 @@ static float fade_channel(const struct interior *i, double s, float color)
 
 struct rgb interior_fade(const struct interior *i, double s)
 {
+    if (interior_fades_exponentially(i)) {
+        double e[3];
+        interior_fade_exponents(i, s, e, 1);
+        return rgb((float)det_exp_single(e[0]), (float)det_exp_single(e[1]),
+                   (float)det_exp_single(e[2]));
+    }
     return rgb(fade_channel(i, s, i->fade_color.r), fade_channel(i, s, i->fade_color.g),
                fade_channel(i, s, i->fade_color.b));
 }

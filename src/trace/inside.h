@@ -26,9 +26,21 @@ static inline double interior_ior(const struct interior *i)
     return i->ior > 0 ? i->ior : 1;
 }
 // How light fades over a way of length s through an interior (spec/lighting.md 6.4).
-// Where fading is exponential, each channel is exp of its exponent.
-bool interior_fades_exponentially(const struct interior *i);
-double interior_fade_exponent(const struct interior *i, double s, float color);
+// Where fading is exponential, each channel is exp of its exponent, at out[0], out[step] and
+// out[2 step].
+static inline bool interior_fades_exponentially(const struct interior *i)
+{
+    static const double exponential_from = 1000; // powers at and above mean exp
+    return i->fade_power >= exponential_from;
+}
+static inline void interior_fade_exponents(const struct interior *i, double s,
+                                           double *out, int step)
+{
+    const double way = s / i->fade_distance;
+    out[0] = -(1 - (double)i->fade_color.r) * way;
+    out[step] = -(1 - (double)i->fade_color.g) * way;
+    out[2 * step] = -(1 - (double)i->fade_color.b) * way;
+}
 struct rgb interior_fade(const struct interior *i, double s);
 
 #endif

@@ -11,7 +11,7 @@
 
 enum {
     FEW = 2,        // lanes that go on one by one
-    SMALL_TREE = 8, // nodes up to which packets always pay
+    SMALL_TREE = 16, // nodes up to which packets always pay
     TOGETHER = 4    // of the lanes at the root, how many a child must hold on average
 };
 

@@ -70,6 +70,80 @@ LANES_INLINE void reflectivity8(const struct simple_class *k,
     }
 }
 
+LANES_INLINE struct float8 f8_abs(struct float8 x)
+{
+    return f8_max(x, f8_sub(f8_set(0), x));
+}
+
+// rgb_grey.
+LANES_INLINE struct float8 grey8(struct rgb8 c)
+{
+    return f8_add(f8_add(f8_mul(f8_set(0.297f), c.r), f8_mul(f8_set(0.589f), c.g)),
+                  f8_mul(f8_set(0.114f), c.b));
+}
+
+LANES_INLINE void rgb8_store(float to[3][8], struct rgb8 c)
+{
+    f8_store(to[0], c.r);
+    f8_store(to[1], c.g);
+    f8_store(to[2], c.b);
+}
+
+// What mirrored rays count (shade_mirrors of trace/shade_transmit.c).
+LANES_INLINE void mirrored_light(const struct simple_group *g, struct simple_bounce *b)
+{
+    const struct rgb8 m = rgb8_load((const float(*)[8])b->mirror);
+    const struct float8 o = f8_set(0);
+    const unsigned black = f8_le(m.r, o) & f8_le(o, m.r) & f8_le(m.g, o) & f8_le(o, m.g) &
+                           f8_le(m.b, o) & f8_le(o, m.b);
+    const struct float8 weight = f8_mul(f8_load(b->from_weight), f8_load(b->weight));
+    rgb8_store(b->mirrored, rgb8_mul(m, rgb8_load((const float(*)[8])g->through)));
+    f8_store(b->mirror_weight, weight);
+    b->mirrors = f8_le(f8_set(b->least), weight) & ~black;
+}
+
+// What rays through the surface count (shade_refract).
+LANES_INLINE void passing_light(const struct simple_class *c, const struct simple_group *g,
+                                struct simple_bounce *b)
+{
+    const struct float8 one = f8_set(1), least = f8_set(b->least);
+    struct rgb8 fade = rgb8_load((const float(*)[8])b->fade);
+    if (b->fading) {
+        struct float8 e[3];
+        for (int i = 0; i < 3; i++)
+            e[i] = f8_of(r8_exp_single(r8_load(b->exponent[i])));
+        fade = (struct rgb8){f8_select(b->fading, f8_mul(fade.r, e[0]), fade.r),
+                             f8_select(b->fading, f8_mul(fade.g, e[1]), fade.g),
+                             f8_select(b->fading, f8_mul(fade.b, e[2]), fade.b)};
+    }
+    struct rgb8 pass = rgb8_load((const float(*)[8])b->pass);
+    if (c->finish->conserve_energy) {
+        const struct rgb8 m = rgb8_load((const float(*)[8])b->mirror);
+        pass = rgb8_mul(pass, (struct rgb8){f8_min(f8_sub(one, m.r), one),
+                                            f8_min(f8_sub(one, m.g), one),
+                                            f8_min(f8_sub(one, m.b), one)});
+    }
+    const struct float8 trans = f8_min(f8_abs(grey8(pass)), one);
+    const struct float8 most =
+        f8_max(f8_max(f8_abs(pass.r), f8_abs(pass.g)), f8_abs(pass.b));
+    const struct float8 weight = f8_mul(f8_load(b->from_weight), most);
+    const struct rgb8 through = rgb8_load((const float(*)[8])g->through);
+    const struct rgb8 back = rgb8_mul(through, fade);
+    struct rgb8 on = rgb8_mul(back, pass);
+    if (b->straight) {
+        const struct rgb8 all = rgb8_mul(through, rgb8_mul(fade, pass));
+        on = (struct rgb8){f8_select(b->straight, all.r, on.r),
+                           f8_select(b->straight, all.g, on.g),
+                           f8_select(b->straight, all.b, on.b)};
+    }
+    rgb8_store(b->back, back);
+    rgb8_store(b->bent, on);
+    f8_store(b->bent_weight, weight);
+    f8_store(b->clarity, f8_mul(grey8(fade), trans));
+    b->passes = f8_le(least, trans) & ~f8_le(trans, least);
+    b->counts = f8_le(least, weight);
+}
+
 static void bounce(const struct simple_class *c, const struct simple_group *g,
                    struct simple_bounce *b)
 {
@@ -81,17 +155,17 @@ static void bounce(const struct simple_class *c, const struct simple_group *g,
     const struct vec8 back = v8_normalize(v8_mad(d, r8_mul(r8_set(-2), along), n));
     v8_store(b->mirror_d, back);
     v8_store(b->mirror_o, offset8(g, back));
+    mirrored_light(g, b);
     if (!c->clear)
         return;
+    passing_light(c, g, b);
     const struct real8 eta = r8_load(b->eta), one = r8_set(1);
     const struct real8 k =
         r8_add(one, r8_mul(r8_mul(eta, eta), r8_sub(r8_mul(cosine, cosine), one)));
     const struct real8 by = r8_sub(r8_mul(eta, cosine), r8_sqrt(k));
     const struct vec8 bent = v8_normalize(v8_mad(
         (struct vec8){r8_mul(eta, d.x), r8_mul(eta, d.y), r8_mul(eta, d.z)}, by, n));
-    b->total = m8_bits(r8_lt(k, r8_set(0)));
-    for (int i = 0; i < 3 && b->fading; i++)
-        f8_store(b->fade[i], f8_of(r8_exp_single(r8_load(b->exponent[i]))));
+    b->total = m8_bits(r8_lt(k, r8_set(0))) & ~b->straight;
     v8_store(b->bent_d, bent);
     v8_store(b->bent_o, offset8(g, bent));
 }

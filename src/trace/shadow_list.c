@@ -55,11 +55,8 @@ static void fade_way(struct shadow_list *l, struct step *s, const struct interio
         s->pass = rgb_mul(s->pass, interior_fade(x, way));
         return;
     }
-    double *e = l->exponent + l->fades;
+    interior_fade_exponents(x, way, l->exponent + l->fades, 1);
     s->fade = (uint16_t)l->fades;
-    e[0] = interior_fade_exponent(x, way, x->fade_color.r);
-    e[1] = interior_fade_exponent(x, way, x->fade_color.g);
-    e[2] = interior_fade_exponent(x, way, x->fade_color.b);
     l->fades += 3;
 }
 

@@ -53,15 +53,23 @@ struct simple_group {
 
 // Where the light of a group goes on: mirrored, and through the surface.
 struct simple_bounce {
-    double eta[8], index[8]; // asked for: ratio of ior, index of Fresnel's formula
-    double cosine[8];        // between n and the way to the eye
-    double mirror_d[3][8], mirror_o[3][8];
+    // Asked for:
+    double eta[8], index[8]; // ratio of ior, index of Fresnel's formula
+    float from_weight[8], least; // weights of the rays that came; adc_bailout
+    float pass[3][8];            // of the pigment, where the class is clear
+    float fade[3][8];            // of the way here: what exp of `exponent` is multiplied
+    double exponent[3][8];       // by in the lanes `fading`, all of it in others
+    unsigned fading, straight;   // straight: light goes on as it came
+    // Answered:
+    double cosine[8]; // between n and the way to the eye
+    double mirror_d[3][8], mirror_o[3][8], bent_d[3][8], bent_o[3][8];
     float mirror[3][8], weight[8]; // finish_reflectivity
-    double bent_d[3][8], bent_o[3][8];
-    unsigned total;  // lanes of total reflection
-    unsigned fading; // asked for: lanes whose fade is exp(exponent)
-    double exponent[3][8];
-    float fade[3][8];
+    // `through` and weight of rays that are mirrored, reflected totally, bent or straight on.
+    float mirrored[3][8], mirror_weight[8];
+    float back[3][8], bent[3][8], bent_weight[8], clarity[8]; // clarity: times through_t
+    unsigned total;          // lanes of total reflection
+    unsigned mirrors;        // lanes whose mirrored rays count
+    unsigned passes, counts; // lanes where anything passes; where it counts
 };
 
 // Whether eight points can be lit by them at a time.

@@ -9,29 +9,18 @@ static const double zero = 1e-10; // spec/lighting.md 0
 // One lane of a group.
 struct lane {
     struct tracer *t;
-    const struct simple_class *c;
     const struct simple_bounce *b;
     int i;
     const struct path *from; // as it arrives at the surface, but for
     uint16_t level, parent;  // these
     uint8_t flags;
-    struct rgb mirror;
+    uint8_t key; // of rays on the inside
 };
 
-// fminf(1, x) and the like are calls.
-static inline float at_most_1(float x) { return x < 1 ? x : 1; }
-
-static inline float most_abs(struct rgb c)
-{
-    const float r = fabsf(c.r), g = fabsf(c.g), b = fabsf(c.b);
-    const float m = r > g ? r : g;
-    return m > b ? m : b;
-}
-
-// There is room for it (path_queue_reserve). What it shows, and inside what it is, is left
-// to the caller.
+// There is room for it (path_queue_reserve).
 static inline struct path *emit(struct lane *l, const double o[3][8],
-                                const double d[3][8], uint32_t way)
+                                const double d[3][8], const float through[3][8],
+                                float weight, const struct inside *inside, uint32_t way)
 {
     struct path_queue *q = l->t->wave.next;
     struct path *p = &q->at[q->count];
@@ -41,7 +30,10 @@ static inline struct path *emit(struct lane *l, const double o[3][8],
     q->count++;
     p->o = vec3(o[0][i], o[1][i], o[2][i]);
     p->d = vec3(d[0][i], d[1][i], d[2][i]);
-    p->inside = from->inside;
+    p->inside = inside;
+    p->through = rgb(through[0][i], through[1][i], through[2][i]);
+    p->weight = weight;
+    p->key = inside ? l->key : 0;
     p->wavelength = from->wavelength;
     p->sample = from->sample;
     p->hash = hash_mix(from->hash, way);
@@ -51,91 +43,53 @@ static inline struct path *emit(struct lane *l, const double o[3][8],
     return p;
 }
 
-static inline void emit_back(struct lane *l, uint32_t way, float weight,
-                             struct rgb through)
+static inline void emit_back(struct lane *l, const float through[3][8], float weight,
+                             uint32_t way)
 {
     const struct simple_bounce *b = l->b;
     struct path *p =
-        emit(l, (const double(*)[8])b->mirror_o, (const double(*)[8])b->mirror_d, way);
+        emit(l, (const double(*)[8])b->mirror_o, (const double(*)[8])b->mirror_d, through,
+             weight, l->from->inside, way);
     p->flags |= PATH_REFLECTED;
     p->through_t = 0;
-    p->weight = weight;
-    p->through = through;
-}
-
-static void emit_mirrored(struct lane *l)
-{
-    const float weight = l->from->weight * l->b->weight[l->i];
-    const struct rgb m = l->mirror;
-    if ((m.r == 0 && m.g == 0 && m.b == 0) || !path_counts(l->t->job, l->level, weight))
-        return;
-    emit_back(l, 1, weight, rgb_mul(m, l->from->through));
 }
 
 // What passes the surface; returns false where all is reflected.
-static bool emit_passing(struct lane *l, const struct crossing_sides *sides,
-                         struct rgb fade, struct rgb filter, float trans)
-{
-    const struct simple_bounce *b = l->b;
-    const float weight = l->from->weight * most_abs(filter);
-    const bool straight = fabs(b->eta[l->i] - 1) < zero;
-    const bool total = !straight && (b->total >> l->i & 1);
-    if (!path_counts(l->t->job, l->level, weight))
-        return !total;
-    const struct rgb factor = rgb_mul(l->from->through, fade);
-    if (total) {
-        emit_back(l, 0, weight, factor);
-        return false;
-    }
-    struct path *p =
-        emit(l, (const double(*)[8])b->bent_o, (const double(*)[8])b->bent_d, 0);
-    p->inside = sides->inside;
-    p->weight = weight;
-    p->through_t = l->from->through_t * (rgb_grey(fade) * trans);
-    if (straight)
-        p->flags |= PATH_CONTINUED;
-    p->through = straight ? rgb_mul(l->from->through, rgb_mul(fade, filter))
-                          : rgb_mul(factor, filter);
-    return true;
-}
-
-static struct rgb lane_fade(const struct lane *l, const struct surface *s, double way)
+static bool emit_passing(struct lane *l, const struct inside *inside, bool level_counts)
 {
     const struct simple_bounce *b = l->b;
     const int i = l->i;
-    if (!(b->fading >> i & 1))
-        return way_fade(s->interior, l->from->inside, way);
-    return rgb_mul(rgb_gray(s->interior->old_refraction),
-                   rgb(b->fade[0][i], b->fade[1][i], b->fade[2][i]));
+    const bool total = b->total >> i & 1;
+    if (!level_counts || !(b->counts >> i & 1))
+        return !total;
+    if (total) {
+        emit_back(l, (const float(*)[8])b->back, b->bent_weight[i], 0);
+        return false;
+    }
+    struct path *p = emit(l, (const double(*)[8])b->bent_o, (const double(*)[8])b->bent_d,
+                          (const float(*)[8])b->bent, b->bent_weight[i], inside, 0);
+    p->through_t = l->from->through_t * b->clarity[i];
+    if (b->straight >> i & 1)
+        p->flags |= PATH_CONTINUED;
+    return true;
 }
 
-// Asks for the fading of the way through the interior, where exp tells it.
+// Asks for the fading of the way through the interior.
 static void ask_fade(struct simple_bounce *b, int i, const struct interior *x,
                      const struct inside *inside, double way)
 {
-    if (!(fabs(x->fade_distance) > zero) || !interior_fades_exponentially(x) ||
-        !inside_find(inside, x))
-        return;
-    b->fading |= 1u << i;
-    b->exponent[0][i] = interior_fade_exponent(x, way, x->fade_color.r);
-    b->exponent[1][i] = interior_fade_exponent(x, way, x->fade_color.g);
-    b->exponent[2][i] = interior_fade_exponent(x, way, x->fade_color.b);
-}
-
-static bool pass(struct lane *l, const struct surface *s, struct rgb pass, double way,
-                 const struct crossing_sides *sides)
-{
-    const struct job *job = l->t->job;
-    if (l->c->finish->conserve_energy) {
-        const struct rgb m = l->mirror;
-        pass = rgb_mul(pass,
-                       rgb(at_most_1(1 - m.r), at_most_1(1 - m.g), at_most_1(1 - m.b)));
+    struct rgb fade = rgb_gray(x->old_refraction);
+    if (fabs(x->fade_distance) > zero && inside_find(inside, x)) {
+        if (interior_fades_exponentially(x)) {
+            b->fading |= 1u << i;
+            interior_fade_exponents(x, way, &b->exponent[0][i], 8);
+        } else {
+            fade = way_fade(x, inside, way);
+        }
     }
-    const float trans = at_most_1(fabsf(rgb_grey(pass)));
-    if (!(trans > job->adc_bailout) || !job->refraction)
-        return true;
-    const struct rgb fade = lane_fade(l, s, way);
-    return emit_passing(l, sides, fade, pass, trans);
+    b->fade[0][i] = fade.r;
+    b->fade[1][i] = fade.g;
+    b->fade[2][i] = fade.b;
 }
 
 // Straight on: the direction stays as it is, to the bit.
@@ -174,61 +128,80 @@ static void sides_find(struct tracer *t, const struct simple_class *c,
     }
 }
 
+// What the kernel asks for of a lane.
+static void lane_ask(struct tracer *t, const struct simple_class *c, int i, uint32_t ray,
+                     const struct path *from, struct sides_known *known,
+                     struct simple_bounce *b)
+{
+    const struct world *w = t->job->world;
+    const uint32_t surface = w->leaf[t->hit->leaf[ray]].surface;
+    const struct interior *x = w->surface[surface].interior;
+    b->from_weight[i] = from->weight;
+    sides_find(t, c, from->inside, x, known);
+    b->index[i] = known->index;
+    b->eta[i] = known->eta;
+    if (!c->clear)
+        return;
+    const struct rgb pass = t->job->simple[surface].pass;
+    b->pass[0][i] = pass.r;
+    b->pass[1][i] = pass.g;
+    b->pass[2][i] = pass.b;
+    b->straight |= (unsigned)(fabs(known->eta - 1) < zero) << i;
+    ask_fade(b, i, x, from->inside, t->hit->t[ray]);
+}
+
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g)
 {
-    const struct world *w = t->job->world;
+    const struct job *job = t->job;
     const struct wavefront *wave = &t->wave;
-    struct simple_bounce b;
-    struct crossing_sides sides[8];
-    const struct surface *surface[8];
+    struct simple_bounce b; // not set to zero as a whole: it is large
+    const struct inside *beyond[8];
     const struct path *from[8];
     struct path camera[8];
     struct sides_known known = {.interior = NULL};
-    b.fading = 0;
+    b.least = job->adc_bailout;
+    b.fading = b.straight = 0;
     for (int i = 0; i < 8; i++) {
         b.eta[i] = b.index[i] = 1;
-        b.exponent[0][i] = b.exponent[1][i] = b.exponent[2][i] = 0;
+        b.from_weight[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            b.exponent[k][i] = 0;
+            b.pass[k][i] = b.fade[k][i] = 0;
+        }
         if (!(g->live >> i & 1))
             continue;
-        if (wave->path && !t->job->has_air) {
+        if (wave->path && !job->has_air) {
             from[i] = &wave->path[wave->order[g->slot[i]]];
         } else {
             camera[i] = wave_path(t, g->slot[i]);
             from[i] = &camera[i];
         }
-        surface[i] = &w->surface[w->leaf[t->hit->leaf[g->ray[i]]].surface];
-        const struct interior *x = surface[i]->interior;
-        sides_find(t, c, from[i]->inside, x, &known);
-        b.index[i] = known.index;
-        b.eta[i] = known.eta;
-        sides[i] = known.sides;
-        if (c->clear)
-            ask_fade(&b, i, x, from[i]->inside, t->hit->t[g->ray[i]]);
+        lane_ask(t, c, i, g->ray[i], from[i], &known, &b);
+        beyond[i] = known.sides.inside;
     }
-    t->job->kernels->bounce(c, g, &b);
+    job->kernels->bounce(c, g, &b);
     path_queue_reserve(t->wave.next, 16);
     for (unsigned live = g->live; live; live &= live - 1) {
         const int i = __builtin_ctz(live);
+        const uint32_t leaf = t->hit->leaf[g->ray[i]];
         struct lane l = {.t = t,
-                         .c = c,
                          .b = &b,
                          .i = i,
                          .from = from[i],
                          .level = from[i]->level,
                          .parent = g->slot[i],
                          .flags = from[i]->flags & (uint8_t)~PATH_OF_ONE_WAY,
-                         .mirror = {b.mirror[0][i], b.mirror[1][i], b.mirror[2][i]}};
+                         .key = path_key_within(job->world->leaf[leaf].surface)};
         if (!(from[i]->flags & PATH_CONTINUED))
             l.level++;
-        if (c->clear) {
-            if (fabs(b.eta[i] - 1) < zero)
-                go_straight(g, &b, i);
-            const struct simple_surface *x = &t->job->simple[surface[i] - w->surface];
-            if (!pass(&l, surface[i], x->pass, t->hit->t[g->ray[i]], &sides[i]))
-                continue;
-        }
-        if (c->mirror)
-            emit_mirrored(&l);
+        const bool level_counts = l.level < job->max_level;
+        if (b.straight >> i & 1)
+            go_straight(g, &b, i);
+        if (c->clear && job->refraction && (b.passes >> i & 1) &&
+            !emit_passing(&l, beyond[i], level_counts))
+            continue;
+        if (c->mirror && level_counts && (b.mirrors >> i & 1))
+            emit_back(&l, (const float(*)[8])b.mirrored, b.mirror_weight[i], 1);
     }
 }

@@ -56,7 +56,16 @@ struct path {
     uint16_t level;
     uint16_t parent; // place in its batch of the ray it comes from
     uint8_t flags;
+    uint8_t key; // path_key_within; 0: none
 };
+
+// Rays inside the object that they start from, for the most part, stay together by that
+// object better than by their directions.
+enum { PATH_KEYS_WITHIN = 16, PATH_KEYS = 48 };
+static inline uint8_t path_key_within(uint32_t surface)
+{
+    return (uint8_t)(PATH_KEYS_WITHIN + surface % (PATH_KEYS - PATH_KEYS_WITHIN));
+}
 
 // Rays that wait. `order` says in which order they count: that of their parents.
 struct path_queue {

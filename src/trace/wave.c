@@ -59,6 +59,7 @@ void path_emit(struct tracer *t, const struct path *path)
     struct path *p = path_queue_add(t->wave.next);
     *p = *path;
     p->parent = (uint16_t)t->slot;
+    p->key = 0;
 }
 
 void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
@@ -162,7 +163,7 @@ static unsigned ray_key(const struct path *p)
            (unsigned)(p->d.z < 0) << 2 | (unsigned)(p->flags & PATH_REFLECTED) << 3;
 }
 
-enum { PARTS = 64, KEYS = 16, FINE_KEYS = KEYS * PARTS };
+enum { PARTS = 64, FINE_KEYS = PATH_KEYS_WITHIN * PARTS };
 
 // A part of the ray's octant: eight by eight of them, along a curve without far leaps.
 static unsigned fine_key(const struct path *p)
@@ -181,13 +182,13 @@ static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
     // Elsewhere the order of hits counts, or rays come together.
     const bool fine =
         job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
-    const unsigned keys = fine ? FINE_KEYS : KEYS;
+    const unsigned keys = fine ? FINE_KEYS : PATH_KEYS;
     uint16_t begin[FINE_KEYS + 1];
     uint16_t key[BATCH_SIZE];
     memset(begin, 0, (keys + 1) * sizeof *begin);
     for (uint32_t i = 0; i < w->count; i++) {
         const struct path *p = &w->path[w->order[i]];
-        key[i] = (uint16_t)(fine ? fine_key(p) : ray_key(p));
+        key[i] = (uint16_t)(fine ? fine_key(p) : p->key ? p->key : ray_key(p));
         begin[key[i] + 1]++;
     }
     for (unsigned i = 1; i < keys; i++)
