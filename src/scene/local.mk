@@ -2,7 +2,7 @@ liblambert_a_SOURCES += \
 	%D%/args.h %D%/mesh_camera.c %D%/mesh_camera.h %D%/boundary.c %D%/boundary.h %D%/camera.h %D%/effects.h %D%/light.h \
 	%D%/object.c %D%/object.h %D%/object_print.c \
 	%D%/pattern.h %D%/patterns.def %D%/scene.h %D%/shape.c %D%/shape.h %D%/shape_kernels.h %D%/shape_lane.c %D%/shapes.def %D%/texture.h \
-	%D%/shapes/blob.c %D%/shapes/blob_walk.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
+	%D%/shapes/blob.c %D%/shapes/blob_walk.c %D%/shapes/blob_tree.c %D%/shapes/box.c %D%/shapes/box.h %D%/shapes/conic.c %D%/shapes/cone.c %D%/shapes/cone.h \
 	%D%/shapes/cylinder.c %D%/shapes/cylinder.h %D%/shapes/disc.c %D%/shapes/disc.h \
 	%D%/shapes/parametric.c %D%/shapes/parametric.h %D%/shapes/parametric_cells.c \
 	%D%/shapes/container.c %D%/shapes/container.h %D%/shapes/isosurface.c \

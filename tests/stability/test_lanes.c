@@ -611,6 +611,48 @@ static void boxes_hold_bounded_polynomials(void **state)
     }
 }
 
+// A blob of many components, which it finds by a tree, against the sum of all of them.
+static void many_components_are_all_found(void **state)
+{
+    (void)state;
+    enum { MANY = 400 };
+    static char text[64 * MANY];
+    static double ball[MANY][5];
+    uint64_t s = 23;
+    size_t n = (size_t)snprintf(text, sizeof text, "blob { threshold .4");
+    for (int i = 0; i < MANY; i++) {
+        for (int k = 0; k < 3; k++)
+            ball[i][k] = round(2e4 * unit(&s) - 1e4) / 1e4;
+        ball[i][3] = round(1e3 * (.05 + .15 * unit(&s))) / 1e3;
+        ball[i][4] = unit(&s) < .2 ? -.5 : 1;
+        n += (size_t)snprintf(text + n, sizeof text - n,
+                              " sphere { <%.4f, %.4f, %.4f>, %.3f, %.1f }", ball[i][0],
+                              ball[i][1], ball[i][2], ball[i][3], ball[i][4]);
+    }
+    struct loaded l;
+    load(&l, "%s }", text);
+    const struct leaf *leaf = &l.world->leaf[0];
+    int in = 0;
+    for (int i = 0; i < 20000; i++) {
+        const struct vec3 p =
+            vec3(2.4 * unit(&s) - 1.2, 2.4 * unit(&s) - 1.2, 2.4 * unit(&s) - 1.2);
+        double sum = 0;
+        for (int k = 0; k < MANY; k++) {
+            const struct vec3 v = vec3_sub(p, vec3(ball[k][0], ball[k][1], ball[k][2]));
+            const double q = 1 - vec3_dot(v, v) / (ball[k][3] * ball[k][3]);
+            sum += q > 0 ? ball[k][4] * q * q : 0;
+        }
+        if (fabs(sum - .4) < 1e-12)
+            continue;
+        in += sum > .4;
+        assert_int_equal(leaf->ops->inside(leaf->shape, p), sum > .4);
+    }
+    assert_true(in > 1000);
+    look(&l, "a blob of 400 components", false, MORE_PACKETS, false, false);
+    look(&l, "a blob of 400 components", true, MORE_PACKETS, false, false);
+    unload(&l);
+}
+
 // x^34 + y^34 + z^34 = .2 x + 1: expanded along a ray, terms of 1e9 cancel.
 static double value_34(const struct ray *r, double t)
 {
@@ -675,6 +717,7 @@ int main(void)
         cmocka_unit_test(eight_rays_have_the_bits_of_one_lines_hits),
         cmocka_unit_test(one_line_goes_on_from_a_crossing),
         cmocka_unit_test(boxes_hold_bounded_polynomials),
+        cmocka_unit_test(many_components_are_all_found),
         cmocka_unit_test(high_orders_are_met_where_they_are),
         cmocka_unit_test(carved_shapes_are_as_the_sweep_has_them),
     };

@@ -37,8 +37,10 @@ static bool is_near(const struct blob_reach *r, struct vec3 p)
 static double field(const struct blob *b, struct vec3 p, struct vec3 *gradient)
 {
     double sum = 0;
+    struct blob_near near;
     *gradient = vec3(0, 0, 0);
-    for (uint32_t i = 0; i < b->count; i++) {
+    blob_near_begin(&near, b, p);
+    for (uint32_t i; blob_near_next(&near, &i);) {
         const struct blob_component *c = &b->at[i];
         struct vec3 v;
         const double k = is_near(&b->reach[i], p) ? reach(c, p, &v) : 0;
@@ -67,9 +69,11 @@ static void textures_at(const void *shape, const struct boundary *at, struct vec
 {
     (void)at;
     const struct blob *b = shape;
+    struct blob_near near;
     struct vec3 v;
     double sum = 0;
-    for (uint32_t i = 0; i < b->count; i++) {
+    blob_near_begin(&near, b, p);
+    for (uint32_t i; blob_near_next(&near, &i);) {
         const double k = reach(&b->at[i], p, &v);
         sum += fabs(b->at[i].s) * k * k;
     }
@@ -77,7 +81,8 @@ static void textures_at(const void *shape, const struct boundary *at, struct vec
         visit(user, NULL, 1);
         return;
     }
-    for (uint32_t i = 0; i < b->count; i++) {
+    blob_near_begin(&near, b, p);
+    for (uint32_t i; blob_near_next(&near, &i);) {
         const double k = reach(&b->at[i], p, &v);
         if (k > 0 && b->at[i].s != 0)
             visit(user, b->at[i].texture, fabs(b->at[i].s) * k * k / sum);
@@ -90,17 +95,9 @@ static struct aabb bounds(const void *shape)
     struct aabb box = aabb_empty();
     if (0 > b->threshold)
         return aabb_infinite();
-    for (uint32_t i = 0; i < b->count; i++) {
-        const struct blob_component *c = &b->at[i];
-        const struct vec3 r = vec3(c->r, c->r, c->r);
-        struct aabb one = {vec3_sub(c->c, r), vec3_add(c->c, r)};
-        if (c->kind == PART_STRAIGHT || c->kind == PART_APEX) {
-            const struct vec3 end = vec3_mad(c->c, c->length, c->axis);
-            one = aabb_join(one, (struct aabb){vec3_sub(end, r), vec3_add(end, r)});
-        }
-        if (c->s > 0)
-            box = aabb_join(box, aabb_transform(one, &c->transform));
-    }
+    for (uint32_t i = 0; i < b->count; i++)
+        if (b->at[i].s > 0)
+            box = aabb_join(box, blob_component_box(&b->at[i]));
     return box;
 }
 
@@ -258,6 +255,7 @@ static bool build(void *shape, struct args *args)
     b->reach = arena_new_array(a, struct blob_reach, b->count);
     for (uint32_t i = 0; i < b->count; i++)
         b->reach[i] = reach_of(&b->at[i]);
+    blob_make_tree(b, a);
     return true;
 }
 

@@ -1,9 +1,11 @@
 #ifndef SCENE_SHAPES_BLOB_H
 #define SCENE_SHAPES_BLOB_H
 
+#include "math/bvh8.h"
 #include "math/transform.h"
 #include "scene/shape_kernels.h"
 
+struct arena;
 struct texture;
 
 enum blob_part { PART_BALL, PART_STRAIGHT, PART_BASE, PART_APEX };
@@ -29,7 +31,22 @@ struct blob {
     struct blob_reach *reach; // of each
     uint32_t count, capacity;
     double threshold;
+    struct bvh8 tree; // of the components' boxes; no node: they are few
 };
+
+void blob_make_tree(struct blob *b, struct arena *a);
+struct aabb blob_component_box(const struct blob_component *c);
+
+// The components that may reach a point.
+struct blob_near {
+    const struct blob *blob;
+    uint32_t next, last;
+    float p[3];
+    struct bvh8_walk walk;
+};
+
+void blob_near_begin(struct blob_near *n, const struct blob *b, struct vec3 p);
+bool blob_near_next(struct blob_near *n, uint32_t *i);
 
 // A component on a line: q(t) = 1 - d^2/r^2 = top + bend (t - at)^2 for lo < t < hi. About the
 // nearest point, so that a thin component keeps its digits on a line from afar.

@@ -7,18 +7,15 @@
 #include "scene/shapes/blob.h"
 #include "scene/shapes/lanes.h"
 
-// Components met by some of eight rays that are kept; where there are more, each ray goes
-// alone.
-enum { ROWS = 96 };
+// Components that a ray may meet; a ray with more goes alone.
+enum { MET = 64 };
 
-struct rows {
-    struct vec8 o, d; // the lines; |d| = 1
+struct lines {
+    struct vec8 o, d; // |d| = 1
     struct real8 shift, length, noise, start, stop;
     struct real8 sum; // of peaks: the field is never above
-    uint32_t count;
-    unsigned met[ROWS];
-    double s[ROWS], lo[ROWS][8], hi[ROWS][8], top[ROWS][8], at[ROWS][8], bend[ROWS][8],
-        peak[ROWS][8];
+    uint32_t count[8];
+    struct blob_stretch at[8][MET];
 };
 
 // The part of the axis of a cylinder's piece; returns the lanes that are in it somewhere.
@@ -42,7 +39,7 @@ LANES_INLINE unsigned clip(const struct blob_component *c, struct real8 along,
 }
 
 // As stretch_of of blob_walk.c.
-static void add_component(struct rows *x, const struct blob_component *c, unsigned lanes)
+static void add_component(struct lines *x, const struct blob_component *c, unsigned lanes)
 {
     struct vec8 o = x->o, d = x->d;
     const struct vec8 axis = V8_SET(c->axis);
@@ -77,23 +74,70 @@ static void add_component(struct rows *x, const struct blob_component *c, unsign
     lanes &= m8_bits(m8_and(r8_le(x->start, hi), r8_le(lo, x->stop)));
     if (!lanes)
         return;
-    const uint32_t i = x->count++;
-    if (i >= ROWS)
-        return;
     const struct real8 top = r8_div(rest, r8_set(r2));
     const struct real8 peak = c->s > 0 ? r8_mul(r8_mul(r8_set(c->s), top), top) : zero;
     x->sum = r8_add(x->sum, r8_select(m8_of(lanes), peak, zero));
-    x->met[i] = lanes;
-    x->s[i] = c->s;
-    r8_store(x->lo[i], lo);
-    r8_store(x->hi[i], hi);
-    r8_store(x->top[i], top);
-    r8_store(x->at[i], at);
-    r8_store(x->bend[i], r8_div(r8_neg(a), r8_set(r2)));
-    r8_store(x->peak[i], peak);
+    double each[6][8];
+    const struct real8 of[6] = {lo, hi, top, at, r8_div(r8_neg(a), r8_set(r2)), peak};
+    for (int k = 0; k < 6; k++)
+        r8_store(each[k], of[k]);
+    for (; lanes; lanes &= lanes - 1) {
+        const int l = __builtin_ctz(lanes);
+        const uint32_t i = x->count[l]++;
+        if (i < MET)
+            x->at[l][i] =
+                (struct blob_stretch){each[0][l], each[1][l], c->s,      each[2][l],
+                                      each[3][l], each[4][l], each[5][l]};
+    }
 }
 
-static void set_up(struct rows *x, const struct blob *b, const struct shape_rays *rays)
+// The children of a node whose boxes lines pass through in their ranges: which lines.
+static void meet_boxes(const struct lines *x, const struct bvh8 *tree,
+                       const struct bvh8_node *n, unsigned lanes, unsigned met[8])
+{
+    const struct vec8 o = v8_sub(x->o, V8_SET(tree->origin));
+    for (int k = 0; k < 8; k++) {
+        struct real8 lo = x->start, hi = x->stop;
+        met[k] = 0;
+        if (n->child[k] == BVH8_EMPTY)
+            continue;
+        lanes_slab(o.x, x->d.x, (double)n->box[0][k], (double)n->box[3][k], &lo, &hi);
+        lanes_slab(o.y, x->d.y, (double)n->box[1][k], (double)n->box[4][k], &lo, &hi);
+        lanes_slab(o.z, x->d.z, (double)n->box[2][k], (double)n->box[5][k], &lo, &hi);
+        met[k] = lanes & m8_bits(r8_le(lo, hi));
+    }
+}
+
+// A lane looks at what its own line is near, whatever the others do.
+static void walk_tree(struct lines *x, const struct blob *b, unsigned lanes)
+{
+    struct {
+        int32_t child;
+        unsigned lanes;
+    } stack[BVH8_STACK];
+    uint32_t depth = 1;
+    stack[0].child = 0;
+    stack[0].lanes = lanes;
+    while (depth) {
+        const int32_t child = stack[--depth].child;
+        unsigned here = stack[depth].lanes, met[8];
+        if (child < 0) {
+            const uint32_t first = bvh8_leaf_first(child);
+            for (uint32_t k = first; k < first + bvh8_leaf_count(child); k++)
+                add_component(x, &b->at[b->tree.item[k]], here);
+            continue;
+        }
+        const struct bvh8_node *n = &b->tree.node[child];
+        meet_boxes(x, &b->tree, n, here, met);
+        for (int k = 0; k < 8; k++)
+            if (met[k]) {
+                stack[depth].child = n->child[k];
+                stack[depth++].lanes = met[k];
+            }
+    }
+}
+
+static void set_up(struct lines *x, const struct blob *b, const struct shape_rays *rays)
 {
     const struct vec8 o = v8_load(rays->o), d = v8_load(rays->d);
     const struct vec3 first = transform_point(&b->at[0].transform, b->at[0].c);
@@ -108,19 +152,8 @@ static void set_up(struct rows *x, const struct blob *b, const struct shape_rays
     x->start = r8_sub(r8_mul(r8_load(rays->t_min), x->length), x->shift);
     x->stop = r8_sub(r8_mul(r8_load(rays->t_max), x->length), x->shift);
     x->sum = r8_set(0);
-    x->count = 0;
-}
-
-// What one lane has met.
-static uint32_t column(const struct rows *x, int lane, struct blob_stretch *out)
-{
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < x->count; i++)
-        if (x->met[i] >> lane & 1)
-            out[n++] = (struct blob_stretch){
-                x->lo[i][lane], x->hi[i][lane],   x->s[i],         x->top[i][lane],
-                x->at[i][lane], x->bend[i][lane], x->peak[i][lane]};
-    return n;
+    for (int i = 0; i < 8; i++)
+        x->count[i] = 0;
 }
 
 // The walks of eight rays, and where each is.
@@ -128,8 +161,7 @@ struct walks {
     struct blob_walk walk[8];
     struct blob_piece piece[8];
     struct boundary first[8];
-    struct blob_stretch at[8][ROWS];
-    double end[8][2 * ROWS];
+    double end[8][2 * MET];
 };
 
 // Takes `lanes` over their pieces.
@@ -180,17 +212,19 @@ static void walk_over8(struct walks *x, unsigned lanes)
 unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *rays,
                                 unsigned lanes, struct shape_hits *out, unsigned *odd)
 {
-    struct rows x;
+    struct lines x;
     struct walks w;
     double shift[8], length[8], noise[8];
     *odd = 0;
     set_up(&x, s, rays);
-    for (uint32_t i = 0; i < s->count; i++)
-        add_component(&x, &s->at[i], lanes);
-    if (x.count > ROWS) {
-        *odd = lanes;
-        return 0;
-    }
+    if (s->tree.node)
+        walk_tree(&x, s, lanes);
+    else
+        for (uint32_t i = 0; i < s->count; i++)
+            add_component(&x, &s->at[i], lanes);
+    for (int i = 0; i < 8; i++)
+        *odd |= x.count[i] > MET ? lanes & 1u << i : 0;
+    lanes &= ~*odd;
     lanes &= m8_bits(r8_le(r8_set(s->threshold * (1 - 0x1p-30)), x.sum));
     if (!lanes)
         return 0;
@@ -201,8 +235,7 @@ unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *r
         const int l = __builtin_ctz(left);
         const struct blob_line line = {rays->t_min[l], rays->t_max[l], shift[l],
                                        length[l], noise[l]};
-        const uint32_t count = column(&x, l, w.at[l]);
-        blob_walk_begin(&w.walk[l], s, &line, w.at[l], count, w.end[l], &w.first[l]);
+        blob_walk_begin(&w.walk[l], s, &line, x.at[l], x.count[l], w.end[l], &w.first[l]);
     }
     for (unsigned on = lanes; on;) {
         for (unsigned left = on; left; left &= left - 1) {

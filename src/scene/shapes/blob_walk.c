@@ -169,19 +169,44 @@ static void sort(double *v, uint32_t n)
     }
 }
 
+struct collection {
+    const struct blob *blob;
+    struct vec3 o, d;
+    struct blob_stretch *at;
+    uint32_t count, max;
+};
+
+static void collect_one(struct collection *c, uint32_t i)
+{
+    struct blob_stretch s;
+    if (!stretch_of(&c->blob->at[i], c->o, c->d, &s))
+        return;
+    if (c->count < c->max)
+        c->at[c->count] = s;
+    c->count++;
+}
+
+// The stretches of all components that the line meets; returns their number.
 static uint32_t collect(const struct blob *b, struct vec3 o, struct vec3 d,
                         struct blob_stretch *at, uint32_t max)
 {
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < b->count; i++) {
-        struct blob_stretch s;
-        if (!stretch_of(&b->at[i], o, d, &s))
-            continue;
-        if (n < max)
-            at[n] = s;
-        n++;
+    struct collection c = {b, o, d, at, 0, max};
+    const struct bvh8 *tree = &b->tree;
+    if (!tree->node) {
+        for (uint32_t i = 0; i < b->count; i++)
+            collect_one(&c, i);
+        return c.count;
     }
-    return n;
+    struct bvh8_ray way;
+    struct bvh8_walk walk;
+    const struct ray line = {o, d, -HUGE_VAL, HUGE_VAL};
+    if (!bvh8_ray_begin(tree, &line, -HUGE_VAL, HUGE_VAL, &way))
+        return 0;
+    bvh8_walk_begin(&walk, tree);
+    for (uint32_t first, n; bvh8_walk_next(&walk, tree, &way, &first, &n);)
+        for (uint32_t k = first; k < first + n; k++)
+            collect_one(&c, tree->item[k]);
+    return c.count;
 }
 
 static void begin(struct blob_walk *w, double *end)
