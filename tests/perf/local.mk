@@ -8,6 +8,7 @@ perf_scenes = \
 perf_shapes = \
 	%D%/shapes/bicubic_patch.scn \
 	%D%/shapes/blob.scn \
+	%D%/shapes/blob_10000.scn \
 	%D%/shapes/blob_cylinders.scn \
 	%D%/shapes/box.scn \
 	%D%/shapes/cone.scn \
@@ -24,6 +25,7 @@ perf_shapes = \
 	%D%/shapes/julia_fractal.scn \
 	%D%/shapes/julia_hypercomplex.scn \
 	%D%/shapes/julia_sin.scn \
+	%D%/shapes/lathe_1000.scn \
 	%D%/shapes/lathe_bezier.scn \
 	%D%/shapes/lathe_cubic.scn \
 	%D%/shapes/lathe_linear.scn \

@@ -113,7 +113,7 @@ static bool build(void *shape, struct args *args)
     l->revolve.count = (uint32_t)n;
     l->revolve.closed =
         s[0].h_end[0] == s[n - 1].h_end[1] && s[0].r2_end[0] == s[n - 1].r2_end[1];
-    revolve_prepare(&l->revolve);
+    revolve_prepare(&l->revolve, args_arena(args));
     return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/arena.h"
 #include "math/elementary.h"
 #include "math/gamma.h"
 #include "math/polynomial.h"
@@ -99,7 +100,21 @@ static void bound_segment(struct revolve_segment *s)
     s->most2 = fmax(s->most2, fmax(s->r2_end[0], s->r2_end[1]));
 }
 
-void revolve_prepare(struct revolve *r)
+static void make_blocks(struct revolve *r, struct arena *a)
+{
+    r->blocks = (r->count + REVOLVE_BLOCK - 1) / REVOLVE_BLOCK;
+    r->block = arena_new_array(a, struct revolve_block, r->blocks);
+    for (uint32_t i = 0; i < r->blocks; i++)
+        r->block[i] = (struct revolve_block){HUGE_VAL, -HUGE_VAL, 0};
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct revolve_block *b = &r->block[i / REVOLVE_BLOCK];
+        b->low = fmin(b->low, r->segment[i].low);
+        b->high = fmax(b->high, r->segment[i].high);
+        b->most2 = fmax(b->most2, r->segment[i].most2);
+    }
+}
+
+void revolve_prepare(struct revolve *r, struct arena *a)
 {
     double r2 = 0;
     r->h_min = HUGE_VAL;
@@ -122,6 +137,7 @@ void revolve_prepare(struct revolve *r)
     r->h_min -= straight ? 0 : slack;
     r->h_max += straight ? 0 : slack;
     r->r_max = sqrt(r2) * (1 + 1. / 256);
+    make_blocks(r, a);
 }
 
 struct aabb revolve_bounds(const struct revolve *r)
@@ -304,16 +320,16 @@ static bool is_outside(const struct line *l, double h, double r2)
     return r2 == 0 || l->q * s * s + 2 * dy * l->shifted_m * s + rest >= 0;
 }
 
-// Whether the line stays away from the cylinder around a segment.
-static bool passes_by(const struct line *l, const struct revolve_segment *s)
+// Whether the line stays away from the cylinder around a segment, or around several.
+static bool passes_by(const struct line *l, double low, double high, double most2)
 {
-    const double a = (s->low - l->ray->o.y) / l->ray->d.y;
-    const double b = (s->high - l->ray->o.y) / l->ray->d.y;
+    const double a = (low - l->ray->o.y) / l->ray->d.y;
+    const double b = (high - l->ray->o.y) / l->ray->d.y;
     const double t0 = (a < b ? a : b) - l->reach, t1 = (a < b ? b : a) + l->reach;
     double t = l->nearest < t0 ? t0 : l->nearest > t1 ? t1 : l->nearest;
     t -= l->nearest;
     const double rho2 = l->nearest2 + l->q * t * t;
-    return rho2 > s->most2 + GAMMA(64) * (l->p + rho2 + s->most2);
+    return rho2 > most2 + GAMMA(64) * (l->p + rho2 + most2);
 }
 
 // The polynomial whose sign says on which side of the segment the line passes, and the heights
@@ -357,7 +373,7 @@ static void sloped_segment(const struct line *l, uint32_t i)
 {
     const struct revolve_segment *s = &l->r->segment[i];
     const double dy = l->ray->d.y;
-    if (s->most2 == 0 || passes_by(l, s))
+    if (s->most2 == 0 || passes_by(l, s->low, s->high, s->most2))
         return;
     double f[7] = {0}, h[4] = {0}, w[8];
     const int degree = 2 * s->h_degree > s->r2_degree ? 2 * s->h_degree : s->r2_degree;
@@ -462,11 +478,15 @@ void revolve_intersect(const struct revolve *r, const struct ray *ray,
     const struct line l = line_of(r, ray, out);
     const uint32_t from = out->count;
     const bool nearly = fabs(ray->d.y) <= NEARLY_FLAT * sqrt(l.q);
-    for (uint32_t i = 0; i < r->count; i++)
-        if (l.flat || (nearly && is_clear(&l, &r->segment[i])))
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct revolve_block *b = &r->block[i / REVOLVE_BLOCK];
+        if (!nearly && i % REVOLVE_BLOCK == 0 && passes_by(&l, b->low, b->high, b->most2))
+            i += REVOLVE_BLOCK - 1;
+        else if (l.flat || (nearly && is_clear(&l, &r->segment[i])))
             flat_segment(&l, i, l.flat);
         else
             sloped_segment(&l, i);
+    }
     meet_caps(&l);
     boundary_list_sort(out, from);
     alternate(&l, from);

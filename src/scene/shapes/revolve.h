@@ -9,6 +9,8 @@
 #include "scene/boundary.h"
 #include "scene/shape_kernels.h"
 
+struct arena;
+
 // A profile turned about the y axis: segments h(w), r^2(w) for 0 <= w <= 1. The solid is
 // what lies under the profile by the even-odd rule along the radius; where the profile
 // ends away from the axis a flat cap closes the solid, drawn only for sor without `open`.
@@ -28,10 +30,18 @@ struct revolve_segment {
     int degree;
 };
 
+// Neighbouring segments lie between these heights, within this radius squared.
+enum { REVOLVE_BLOCK = 16 };
+struct revolve_block {
+    double low, high, most2;
+};
+
 // What a lathe and a sor begin with.
 struct revolve {
     struct revolve_segment *segment;
     uint32_t count;
+    struct revolve_block *block; // of REVOLVE_BLOCK segments each
+    uint32_t blocks;
     bool closed; // the profile ends where it began: no caps
     bool caps_drawn;
     double h_min, h_max, r_max;
@@ -40,7 +50,8 @@ struct revolve {
 // boundary.part; v of a segment is its w.
 enum { REVOLVE_FIRST_CAP, REVOLVE_LAST_CAP, REVOLVE_SEGMENT };
 
-void revolve_prepare(struct revolve *r); // fills bounds from the segments
+// Fills bounds and blocks from the segments.
+void revolve_prepare(struct revolve *r, struct arena *a);
 struct aabb revolve_bounds(const struct revolve *r);
 bool revolve_inside(const struct revolve *r, struct vec3 p);
 void revolve_intersect(const struct revolve *r, const struct ray *ray,

@@ -61,6 +61,7 @@ struct search {
 // The same in lanes.
 struct turn8 {
     struct real8 q, y, dy, p; // |D_xz|^2; y and the squared distance there
+    struct real8 doubt;       // about heights and distances
 };
 
 struct signs {
@@ -127,7 +128,8 @@ static void wait8(struct search *x, unsigned lanes, const uint32_t of[8],
     }
 }
 
-static void add_segment(struct search *x, const struct turn8 *l, uint32_t i)
+static void add_segment(struct search *x, const struct turn8 *l, unsigned lanes,
+                        uint32_t i)
 {
     static const uint32_t each[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     const struct revolve_segment *s = &x->s->segment[i];
@@ -140,7 +142,7 @@ static void add_segment(struct search *x, const struct turn8 *l, uint32_t i)
         v[k] = r8_set(0);
     v[NOISE] = rounding8(l, s->most[0], s->most[1], s->most[2]);
     const struct signs g = signs_of(v, s->degree, v[NOISE]);
-    const unsigned lanes = x->lanes & ~g.outside;
+    lanes &= ~g.outside;
     x->odd |= lanes & ~g.clear;
     if (!(lanes & g.some))
         return;
@@ -150,6 +152,34 @@ static void add_segment(struct search *x, const struct turn8 *l, uint32_t i)
     v[MOST2] = r8_set(s->most2);
     v[CHANGES] = g.changes;
     wait8(x, lanes & g.some, each, segment, v);
+}
+
+// The lanes that come near the cylinder around a block.
+static unsigned near_block(const struct search *x, const struct turn8 *l,
+                           const struct revolve_block *b)
+{
+    const struct real8 zero = r8_set(0), per = r8_div(r8_set(1), l->dy);
+    const struct real8 slack = r8_mul(r8_abs(per), l->doubt);
+    const struct real8 p = r8_mul(r8_sub(r8_set(b->low), l->y), per);
+    const struct real8 q = r8_mul(r8_sub(r8_set(b->high), l->y), per);
+    const struct real8 from = r8_sub(r8_min(p, q), slack);
+    const struct real8 to = r8_add(r8_max(p, q), slack);
+    const struct real8 off = r8_max(from, r8_min(to, zero)); // nearest to the axis
+    const struct real8 rho2 = r8_add(l->p, r8_mul(l->q, r8_mul(off, off)));
+    const struct real8 reach = r8_add(r8_set(sqrt(b->most2)), l->doubt);
+    const struct real8 most = r8_mul(r8_set(1 + 0x1p-40), r8_mul(reach, reach));
+    return x->lanes & m8_bits(r8_le(rho2, most));
+}
+
+static void add_segments(struct search *x, const struct turn8 *l)
+{
+    const struct revolve *s = x->s;
+    for (uint32_t i = 0; i < s->blocks; i++) {
+        const uint32_t first = i * REVOLVE_BLOCK, end = first + REVOLVE_BLOCK;
+        const unsigned near = s->blocks > 1 ? near_block(x, l, &s->block[i]) : x->lanes;
+        for (uint32_t k = first; near && k < end && k < s->count; k++)
+            add_segment(x, l, near, k);
+    }
 }
 
 // Eight pieces, with their lines and their segments' polynomials.
@@ -424,6 +454,7 @@ static void set_up(struct search *x, struct turn8 *l, unsigned lanes)
     const double extent = fmax(s->r_max, fmax(fabs(s->h_min), fabs(s->h_max)));
     const struct real8 size = r8_max(v8_max_abs(o), r8_set(extent));
     const struct real8 rise = r8_mul(nearest, d.y);
+    l->doubt = r8_mul(r8_set(0x1p-40), size);
     l->p = r8_add(r8_mul(x0, x0), r8_mul(z0, z0));
     l->y = r8_add(o.y, rise);
     // Nearly flat lines, and those along the axis, are not for these sums.
@@ -455,8 +486,7 @@ unsigned OF_ISA(revolve_closest8_)(const struct revolve *s, const struct shape_r
     for (int i = 0; i < 8; i++)
         x.live[i] = x.founds[i] = 0;
     set_up(&x, &l, lanes);
-    for (uint32_t i = 0; i < s->count; i++)
-        add_segment(&x, &l, i);
+    add_segments(&x, &l);
     add_caps(&x, &l);
     look_at_pieces(&x);
     const unsigned sure = any ? x.met : x.lanes & ~x.odd;

@@ -70,7 +70,7 @@ static bool build(void *shape, struct args *args)
     for (uint32_t i = 0; i < s->revolve.count; i++)
         make_segment(p + i, &g[i]);
     s->revolve.segment = g;
-    revolve_prepare(&s->revolve);
+    revolve_prepare(&s->revolve, args_arena(args));
     return true;
 }
 
