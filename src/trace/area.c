@@ -1,6 +1,9 @@
 #include "trace/area.h"
 
+#include <stdlib.h>
+
 #include "base/arena.h"
+#include "base/memory.h"
 #include "trace/projected.h"
 
 struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
@@ -18,26 +21,36 @@ struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
 
 // The grid as seen from one point; each of its points is traced when first asked for.
 struct grid {
-    const struct shading *s;
-    const struct lamp *lamp;
-    const struct shadow_request *request;
+    struct tracer *t;
+    const struct area_request *to;
     struct lamp_grid place;
     struct rgb *value;
     bool *known;
 };
 
 // The shadow ray to a point of the grid.
-static struct shadow_request grid_request(const struct grid *g, int u, int v)
+static struct shadow_request grid_request(const struct area_request *to,
+                                          const struct lamp_grid *place, int u, int v)
 {
-    const struct vec3 p = g->s->at.p;
     struct lamp_view view;
-    lamp_direction(g->lamp, area_point(g->lamp, &g->place, g->s->path->hash, u, v), p,
+    lamp_direction(to->lamp, area_point(to->lamp, place, to->hash, u, v), to->at.p,
                    &view);
-    struct shadow_request r = *g->request;
+    struct shadow_request r = to->shadow;
     r.d = view.l;
     r.t_max = view.distance;
-    r.o = trace_offset(&g->s->at, r.d);
+    r.o = trace_offset(&to->at, r.d);
     return r;
+}
+
+static void grid_trace(struct tracer *t, const struct lamp *lamp,
+                       const struct shadow_request *r, uint32_t n, struct rgb *value)
+{
+    if (!lamp->light->projected_through) {
+        shadow_factors(t, r, n, value);
+        return;
+    }
+    for (uint32_t i = 0; i < n; i++)
+        value[i] = projected_shadow(t, lamp, &r[i]);
 }
 
 // Finds the values of the corners of `count` cells that are not known, together: rays from
@@ -50,25 +63,21 @@ static void grid_ask(struct grid *g, const int (*cell)[4], int count)
     uint32_t n = 0;
     for (int i = 0; i < 4 * count; i++) {
         const int u = cell[i / 4][i & 1 ? 2 : 0], v = cell[i / 4][i & 2 ? 3 : 1];
-        const int k = u * g->lamp->light->size2 + v;
+        const int k = u * g->to->lamp->light->size2 + v;
         if (g->known[k])
             continue;
         g->known[k] = true;
         at[n] = k;
-        r[n++] = grid_request(g, u, v);
+        r[n++] = grid_request(g->to, &g->place, u, v);
     }
-    if (g->lamp->light->projected_through)
-        for (uint32_t i = 0; i < n; i++)
-            value[i] = projected_shadow(g->s->t, g->lamp, &r[i]);
-    else
-        shadow_factors(g->s->t, r, n, value);
+    grid_trace(g->t, g->to->lamp, r, n, value);
     for (uint32_t i = 0; i < n; i++)
         g->value[at[i]] = value[i];
 }
 
 static struct rgb grid_value(const struct grid *g, int u, int v)
 {
-    return g->value[u * g->lamp->light->size2 + v];
+    return g->value[u * g->to->lamp->light->size2 + v];
 }
 
 static float difference(struct rgb a, struct rgb b, struct rgb color)
@@ -84,9 +93,9 @@ static struct rgb grid_mean(struct grid *g, const int cell[4], int level)
     const int u1 = cell[0], v1 = cell[1], u2 = cell[2], v2 = cell[3];
     struct rgb a = grid_value(g, u1, v1), b = grid_value(g, u2, v1),
                c = grid_value(g, u1, v2), d = grid_value(g, u2, v2);
-    const struct rgb k = g->lamp->light->color;
+    const struct rgb k = g->to->lamp->light->color;
     if ((u2 - u1 > 1 || v2 - v1 > 1) &&
-        (level < g->lamp->light->adaptive || difference(a, b, k) > notable ||
+        (level < g->to->lamp->light->adaptive || difference(a, b, k) > notable ||
          difference(c, d, k) > notable || difference(a, c, k) > notable ||
          difference(b, d, k) > notable)) {
         const int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2;
@@ -102,23 +111,144 @@ static struct rgb grid_mean(struct grid *g, const int cell[4], int level)
     return rgb_scale(0.25f, rgb_add(rgb_add(a, b), rgb_add(c, d)));
 }
 
-struct rgb area_shadow(const struct shading *s, const struct lamp *lamp,
-                       const struct shadow_request *r)
+enum { FEW = 400 };
+
+// Room for the values of a grid: `few` and `known`, or more of them.
+static struct grid grid_of(struct tracer *t, const struct area_request *r,
+                           struct rgb *few, bool *known)
 {
-    enum { FEW = 400 };
-    const int u = lamp->light->size1, v = lamp->light->size2;
-    struct rgb few[FEW];
-    bool few_known[FEW];
-    struct grid g = {s, lamp, r, lamp_grid_of(lamp, s->at.p), few, few_known};
-    if (u * v > FEW) {
-        g.value = arena_new_array(s->t->arena, struct rgb, (size_t)u * (size_t)v);
-        g.known = arena_new_array(s->t->arena, bool, (size_t)u *(size_t)v);
+    const struct light *light = r->lamp->light;
+    const size_t count = (size_t)light->size1 * (size_t)light->size2;
+    struct grid g = {t, r, lamp_grid_of(r->lamp, r->at.p), few, known};
+    if (count > FEW) {
+        g.value = arena_new_array(t->arena, struct rgb, count);
+        g.known = arena_new_array(t->arena, bool, count);
     }
-    for (int i = 0; i < u * v; i++)
+    for (size_t i = 0; i < count; i++)
         g.known[i] = false;
-    const int whole[1][4] = {{0, 0, u - 1, v - 1}};
+    return g;
+}
+
+struct rgb area_shadow(struct tracer *t, const struct area_request *r)
+{
+    struct rgb few[FEW];
+    bool known[FEW];
+    struct grid g = grid_of(t, r, few, known);
+    const int whole[1][4] = {
+        {0, 0, r->lamp->light->size1 - 1, r->lamp->light->size2 - 1}};
     grid_ask(&g, whole, 1);
     return grid_mean(&g, whole[0], 0);
+}
+
+// ---- together ------------------------------------------------------------------------
+
+// The corners of grids come first, those of many places at once.
+enum { CORNERS = 4, PLACES = BATCH_SIZE / CORNERS };
+
+struct area_queue {
+    struct area_request *at;
+    uint32_t count, capacity;
+    struct shadow_request ray[BATCH_SIZE];
+    struct rgb value[BATCH_SIZE];
+};
+
+void area_init(struct tracer *t)
+{
+    const struct job *job = t->job;
+    for (uint32_t i = 0; i < job->lamp_count && !t->area; i++)
+        if (job->lamp[i].light->area && job->area_lights && job->shadows)
+            t->area = must_calloc(1, sizeof *t->area);
+}
+
+void area_end(struct tracer *t)
+{
+    if (t->area)
+        free(t->area->at);
+    free(t->area);
+}
+
+void area_add(struct tracer *t, const struct area_request *r)
+{
+    struct area_queue *q = t->area;
+    if (q->count == q->capacity) {
+        q->capacity = q->capacity ? 2 * q->capacity : PLACES;
+        q->at = realloc(q->at, q->capacity * sizeof *q->at);
+        if (!q->at)
+            abort();
+    }
+    q->at[q->count++] = *r;
+}
+
+// The corners of a lamp's grid that are not the same.
+struct corners {
+    int u[CORNERS], v[CORNERS];
+    uint32_t count;
+};
+
+static struct corners corners_of(const struct light *l)
+{
+    struct corners c = {.count = 0};
+    for (int k = 0; k < CORNERS; k++) {
+        if ((k & 1 && l->size1 == 1) || (k & 2 && l->size2 == 1))
+            continue;
+        c.u[c.count] = k & 1 ? l->size1 - 1 : 0;
+        c.v[c.count++] = k & 2 ? l->size2 - 1 : 0;
+    }
+    return c;
+}
+
+// The mean over a grid whose corners are known.
+static struct rgb cornered(struct tracer *t, const struct area_request *r,
+                           const struct corners *c, const struct rgb *value)
+{
+    struct rgb few[FEW];
+    bool known[FEW];
+    const int u = r->lamp->light->size1, v = r->lamp->light->size2;
+    struct grid g = grid_of(t, r, few, known);
+    for (uint32_t i = 0; i < c->count; i++) {
+        g.value[c->u[i] * v + c->v[i]] = value[i];
+        g.known[c->u[i] * v + c->v[i]] = true;
+    }
+    return grid_mean(&g, (const int[4]){0, 0, u - 1, v - 1}, 0);
+}
+
+// At most PLACES of one lamp.
+static void places_light(struct tracer *t, const struct area_request *const *r,
+                         uint32_t count)
+{
+    struct area_queue *q = t->area;
+    const struct lamp *lamp = r[0]->lamp;
+    const struct corners c = corners_of(lamp->light);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct lamp_grid place = lamp_grid_of(lamp, r[i]->at.p);
+        for (uint32_t k = 0; k < c.count; k++)
+            q->ray[c.count * i + k] = grid_request(r[i], &place, c.u[k], c.v[k]);
+    }
+    grid_trace(t, lamp, q->ray, c.count * count, q->value);
+    for (uint32_t i = 0; i < count; i++)
+        tracer_lit(
+            t, r[i]->shadow.slot,
+            rgb_mul(r[i]->shadow.value, cornered(t, r[i], &c, &q->value[c.count * i])));
+}
+
+void area_flush(struct tracer *t)
+{
+    struct area_queue *q = t->area;
+    const struct area_request *of_lamp[PLACES];
+    if (!q)
+        return;
+    for (uint32_t l = 0; l < t->job->lamp_count && q->count; l++) {
+        uint32_t n = 0;
+        for (uint32_t i = 0; i < q->count; i++) {
+            if (q->at[i].lamp->index == l)
+                of_lamp[n++] = &q->at[i];
+            if (n == PLACES || (n && i + 1 == q->count)) {
+                places_light(t, of_lamp, n);
+                n = 0;
+            }
+        }
+    }
+    q->count = 0;
 }
 
 struct rgb projected_shadow(struct tracer *t, const struct lamp *lamp,

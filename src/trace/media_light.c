@@ -26,12 +26,8 @@ static struct rgb special_shadow(const struct media_march *m, const struct lamp 
     if (!lamp->light->area || !m->t->job->area_lights)
         return projected_shadow(m->t, lamp, r);
     // A place in the open air: no surface to start from.
-    const struct path path = {.hash = hash, .inside = m->way->inside};
-    struct shading s;
-    s.t = m->t;
-    s.path = &path;
-    s.at = (struct interaction){.p = r->o, .error = 0};
-    return area_shadow(&s, lamp, r);
+    const struct area_request place = {lamp, *r, {.p = r->o}, hash};
+    return area_shadow(m->t, &place);
 }
 
 static void shadows(struct lighting *l)

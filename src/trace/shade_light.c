@@ -196,7 +196,7 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
                                      .lamp = lamp->index,
                                      .photons = photons_instead(job, s->at.surface, light)};
     if (area && !light->shadowless)
-        tracer_add(s->t, rgb_mul(value, area_shadow(s, lamp, &r)));
+        area_add(s->t, &(struct area_request){lamp, r, s->at, s->path->hash});
     else if (light->projected_through)
         tracer_add(s->t, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
     else

@@ -348,13 +348,6 @@ static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count
         walk_batch(t, b, count, air_end);
 }
 
-static void light_add(struct tracer *t, uint32_t slot, struct rgb c)
-{
-    t->wave.lit[0][slot] += c.r;
-    t->wave.lit[1][slot] += c.g;
-    t->wave.lit[2][slot] += c.b;
-}
-
 void shadow_flush_simple(struct tracer *t, uint32_t count)
 {
     struct shadow_batch *b = &t->simple;
@@ -365,7 +358,7 @@ void shadow_flush_simple(struct tracer *t, uint32_t count)
         struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
         if (b->pass)
             c = rgb_mul(c, b->pass[k]);
-        light_add(t, b->slot[k], c);
+        tracer_lit(t, b->slot[k], c);
     }
 }
 
@@ -462,6 +455,6 @@ void shadow_flush(struct tracer *t)
             c = rgb_mul(c, b->pass[k]);
         else if (air_end[k] > 0)
             c = rgb_mul(c, airy(t, r));
-        light_add(t, r->slot, c);
+        tracer_lit(t, r->slot, c);
     }
 }

@@ -1,3 +1,4 @@
+#include "trace/area.h"
 #include "trace/tracer.h"
 
 #include <stdlib.h>
@@ -34,6 +35,7 @@ struct tracer *tracer_new(const struct job *job)
     t->rays = endless_new();
     t->hit = hit_batch_new(BATCH_SIZE);
     shadow_init(t);
+    area_init(t);
     simple_init(t);
     paint_init(t);
     if (job->settings.indirect.begin)
@@ -59,6 +61,7 @@ void tracer_free(struct tracer *t)
     wave_frames_free(t->frame);
     path_queue_free(&t->camera_queue);
     shadow_end(t);
+    area_end(t);
     simple_end(t);
     media_end(t);
     photon_near_free(t->near_photons);

@@ -146,7 +146,8 @@ struct tracer {
     struct shadow_request *shadow;    // what waits for `rest`
     uint32_t shadow_count;
     uint32_t *shadow_order, *lamp_begin;
-    struct shadow_batch near; // rays to one lamp from one point
+    struct shadow_batch near;     // of few rays, or those to area lights
+    struct area_queue *area;      // trace/area.h; NULL: no area lights
     struct shadow_walk *walk; // shadow rays among transparent things
     struct ray_batch *walk_rays;
     struct hit_batch *walk_hit;
@@ -247,6 +248,14 @@ static inline void tracer_add(struct tracer *t, struct rgb c)
     t->wave.own[0][t->slot] += c.r;
     t->wave.own[1][t->slot] += c.g;
     t->wave.own[2][t->slot] += c.b;
+}
+
+// Adds light of lamps to a slot.
+static inline void tracer_lit(struct tracer *t, uint32_t slot, struct rgb c)
+{
+    t->wave.lit[0][slot] += c.r;
+    t->wave.lit[1][slot] += c.g;
+    t->wave.lit[2][slot] += c.b;
 }
 
 static inline uint32_t hash_mix(uint32_t h, uint32_t v)

@@ -1,3 +1,4 @@
+#include "trace/area.h"
 #include "trace/wave.h"
 
 #include <stdlib.h>
@@ -378,6 +379,7 @@ static void wave_trace(struct tracer *t)
     paint_shade(t);
     simple_shade(t);
     shadow_flush(t);
+    area_flush(t);
     sums_add(t);
     emitted_sort(w->next, first);
 }
