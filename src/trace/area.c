@@ -1,10 +1,12 @@
 #include "trace/area.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/memory.h"
 #include "trace/projected.h"
+#include "trace/shade_kernel.h"
 
 struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
                        uint32_t hash, int u, int v)
@@ -19,6 +21,77 @@ struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
     return lamp_grid_point(lamp, grid, fu, fv);
 }
 
+// ---- rays ----------------------------------------------------------------------------
+
+// The corners of grids come first, those of many places at once.
+enum { CORNERS = 4, PLACES = BATCH_SIZE / CORNERS };
+
+struct area_queue {
+    struct area_request *at;
+    uint32_t count, capacity;
+    // Rays to one lamp, either as requests or, where it shines from points through clear
+    // air, as places.
+    uint32_t ray_count;
+    struct shadow_request ray[BATCH_SIZE];
+    struct area_rays place;
+    struct rgb value[BATCH_SIZE];
+};
+
+static bool is_plain(const struct job *job, const struct light *l)
+{
+    return !job->has_air && !l->projected_through && !l->parallel &&
+           l->kind != LIGHT_CYLINDER;
+}
+
+// Puts the shadow ray to a point of the grid behind the others.
+static void ray_put(struct tracer *t, const struct area_request *r,
+                    const struct lamp_grid *grid, int u, int v)
+{
+    struct area_queue *q = t->area;
+    const uint32_t i = q->ray_count++;
+    const struct vec3 at = area_point(r->lamp, grid, r->hash, u, v);
+    if (is_plain(t->job, r->lamp->light)) {
+        const struct vec3 from[3] = {at, r->at.p, r->at.ng};
+        double(*const to[3])[BATCH_SIZE] = {q->place.to, q->place.p, q->place.ng};
+        for (int k = 0; k < 3; k++) {
+            to[k][0][i] = from[k].x;
+            to[k][1][i] = from[k].y;
+            to[k][2][i] = from[k].z;
+        }
+        q->place.error[i] = r->at.error;
+        t->near.slot[i] = (uint16_t)r->shadow.slot;
+        t->near.photons[i] = r->shadow.photons;
+        return;
+    }
+    struct lamp_view view;
+    lamp_direction(r->lamp, at, r->at.p, &view);
+    q->ray[i] = r->shadow;
+    q->ray[i].d = view.l;
+    q->ray[i].t_max = view.distance;
+    q->ray[i].o = trace_offset(&r->at, view.l);
+}
+
+// What of the light comes along the rays, into `value`.
+static void rays_trace(struct tracer *t, const struct lamp *lamp)
+{
+    struct area_queue *q = t->area;
+    const uint32_t n = q->ray_count;
+    q->ray_count = 0;
+    if (!n)
+        return;
+    if (is_plain(t->job, lamp->light)) {
+        t->job->kernels->toward(&q->place, n, t->near.rays);
+        shadow_factors_near(t, n, q->value);
+    } else if (lamp->light->projected_through) {
+        for (uint32_t i = 0; i < n; i++)
+            q->value[i] = projected_shadow(t, lamp, &q->ray[i]);
+    } else {
+        shadow_factors(t, q->ray, n, q->value);
+    }
+}
+
+// ---- one grid ------------------------------------------------------------------------
+
 // The grid as seen from one point; each of its points is traced when first asked for.
 struct grid {
     struct tracer *t;
@@ -28,37 +101,10 @@ struct grid {
     bool *known;
 };
 
-// The shadow ray to a point of the grid.
-static struct shadow_request grid_request(const struct area_request *to,
-                                          const struct lamp_grid *place, int u, int v)
-{
-    struct lamp_view view;
-    lamp_direction(to->lamp, area_point(to->lamp, place, to->hash, u, v), to->at.p,
-                   &view);
-    struct shadow_request r = to->shadow;
-    r.d = view.l;
-    r.t_max = view.distance;
-    r.o = trace_offset(&to->at, r.d);
-    return r;
-}
-
-static void grid_trace(struct tracer *t, const struct lamp *lamp,
-                       const struct shadow_request *r, uint32_t n, struct rgb *value)
-{
-    if (!lamp->light->projected_through) {
-        shadow_factors(t, r, n, value);
-        return;
-    }
-    for (uint32_t i = 0; i < n; i++)
-        value[i] = projected_shadow(t, lamp, &r[i]);
-}
-
 // Finds the values of the corners of `count` cells that are not known, together: rays from
 // one point to one lamp make good packets.
 static void grid_ask(struct grid *g, const int (*cell)[4], int count)
 {
-    struct shadow_request r[16];
-    struct rgb value[16];
     int at[16];
     uint32_t n = 0;
     for (int i = 0; i < 4 * count; i++) {
@@ -67,12 +113,12 @@ static void grid_ask(struct grid *g, const int (*cell)[4], int count)
         if (g->known[k])
             continue;
         g->known[k] = true;
-        at[n] = k;
-        r[n++] = grid_request(g->to, &g->place, u, v);
+        at[n++] = k;
+        ray_put(g->t, g->to, &g->place, u, v);
     }
-    grid_trace(g->t, g->to->lamp, r, n, value);
+    rays_trace(g->t, g->to->lamp);
     for (uint32_t i = 0; i < n; i++)
-        g->value[at[i]] = value[i];
+        g->value[at[i]] = g->t->area->value[i];
 }
 
 static struct rgb grid_value(const struct grid *g, int u, int v)
@@ -143,15 +189,6 @@ struct rgb area_shadow(struct tracer *t, const struct area_request *r)
 // ---- together ------------------------------------------------------------------------
 
 // The corners of grids come first, those of many places at once.
-enum { CORNERS = 4, PLACES = BATCH_SIZE / CORNERS };
-
-struct area_queue {
-    struct area_request *at;
-    uint32_t count, capacity;
-    struct shadow_request ray[BATCH_SIZE];
-    struct rgb value[BATCH_SIZE];
-};
-
 void area_init(struct tracer *t)
 {
     const struct job *job = t->job;
@@ -216,19 +253,20 @@ static struct rgb cornered(struct tracer *t, const struct area_request *r,
 static void places_light(struct tracer *t, const struct area_request *const *r,
                          uint32_t count)
 {
-    struct area_queue *q = t->area;
     const struct lamp *lamp = r[0]->lamp;
     const struct corners c = corners_of(lamp->light);
+    struct rgb value[BATCH_SIZE]; // the queue's is needed on the way
     for (uint32_t i = 0; i < count; i++) {
         const struct lamp_grid place = lamp_grid_of(lamp, r[i]->at.p);
         for (uint32_t k = 0; k < c.count; k++)
-            q->ray[c.count * i + k] = grid_request(r[i], &place, c.u[k], c.v[k]);
+            ray_put(t, r[i], &place, c.u[k], c.v[k]);
     }
-    grid_trace(t, lamp, q->ray, c.count * count, q->value);
+    rays_trace(t, lamp);
+    memcpy(value, t->area->value, c.count * count * sizeof *value);
     for (uint32_t i = 0; i < count; i++)
         tracer_lit(
             t, r[i]->shadow.slot,
-            rgb_mul(r[i]->shadow.value, cornered(t, r[i], &c, &q->value[c.count * i])));
+            rgb_mul(r[i]->shadow.value, cornered(t, r[i], &c, &value[c.count * i])));
 }
 
 void area_flush(struct tracer *t)

@@ -8,6 +8,12 @@ struct paint_coat;
 struct paint_group;
 struct paint_sheet;
 
+// Rays from places on surfaces to points, BATCH_SIZE at most.
+struct area_rays {
+    double to[3][BATCH_SIZE];
+    double p[3][BATCH_SIZE], ng[3][BATCH_SIZE], error[BATCH_SIZE]; // as in interaction
+};
+
 // What shading compiles once per instruction set, as trace/packet.h.
 struct shade_kernels {
     const char *name;
@@ -39,6 +45,9 @@ struct shade_kernels {
                       const struct ray_batch *rays, uint32_t first);
     // What the fogs of the scene do to the rays of the wave (trace/sky.h).
     void (*fogs)(struct tracer *t);
+    // The rays, which end at their points: as lamp_direction and trace_offset say.
+    void (*toward)(const struct area_rays *places, uint32_t count,
+                   struct ray_batch *out);
     // ---- painted hits (trace/paint.h)
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,

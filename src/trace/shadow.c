@@ -409,6 +409,18 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
     }
 }
 
+void shadow_factors_near(struct tracer *t, uint32_t count, struct rgb *out)
+{
+    struct shadow_batch *b = &t->near;
+    const double *end = b->rays->t_max;
+    batch_trace(t, b, count, NULL);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = !(end[i] > 0)    ? all
+                 : b->occluded[i] ? none
+                 : b->pass        ? b->pass[i]
+                                  : all;
+}
+
 // Rays to the same lamp side by side, so that packets stay together.
 static void shadow_sort(struct tracer *t)
 {
