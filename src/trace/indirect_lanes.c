@@ -9,22 +9,27 @@ static void add(struct tracer *t, const struct simple_group *g, int i, struct rg
                rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
 }
 
-static void ask_alone(struct tracer *t, const struct simple_group *g,
-                      const struct indirect_side *side, int i)
+void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
+                  bool back)
 {
-    const uint32_t k = g->ray[i];
     const struct ray_batch *b = t->rays;
+    const struct wavefront *w = &t->wave;
+    const uint32_t slot = w->slot[k];
     const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
                             vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
     const struct hit met = hit_batch_at(t->hit, k);
     struct interaction at;
     trace_interaction(t->job->world, &ray, &met, &at);
-    struct path path = wave_path(t, g->slot[i]);
+    struct path path = wave_path(t, slot);
     if (!(path.flags & PATH_CONTINUED))
         path.level++;
-    const struct indirect_hit hit = {
-        &ray, &met, &at, vec3(side->n[0][i], side->n[1][i], side->n[2][i]), &path};
-    add(t, g, i, rgb_mul(side->matt[i], indirect_light(t, &hit, side->back)));
+    const struct vec3 own = vec3_dot(at.ns, ray.d) > 0 ? vec3_neg(at.ns) : at.ns;
+    const struct indirect_hit hit = {&ray, &met, &at, n ? *n : own, &path};
+    const struct rgb light = indirect_light(t, &hit, back);
+    t->slot = slot;
+    tracer_add(t,
+               rgb_mul(rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]),
+                       rgb_mul(matt, light)));
 }
 
 // Adds the light of the lanes for which it is known; returns all others.
@@ -60,6 +65,9 @@ void indirect_side_light(struct tracer *t, const struct simple_group *g,
     unsigned lanes = side->lanes;
     if (lanes && t->job->settings.indirect.known)
         lanes = add_known(t, g, side);
-    for (; lanes; lanes &= lanes - 1)
-        ask_alone(t, g, side, __builtin_ctz(lanes));
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        const struct vec3 n = {side->n[0][i], side->n[1][i], side->n[2][i]};
+        indirect_ask(t, g->ray[i], side->matt[i], &n, side->back);
+    }
 }

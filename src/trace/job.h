@@ -79,6 +79,7 @@ struct job {
     double reach; // of rays with PATH_SHORT; 0: none has a limit
     bool general;                        // for tests: no hit is shaded in lanes
     bool quick_camera;                   // its rays are made eight at a time
+    bool asks_in_order; // light by way of others, in the order of the rays
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;
     uint32_t simple_class_count;

@@ -125,6 +125,17 @@ static bool same_finish(const struct finish *a, const struct finish *b)
             a->fresnel == b->fresnel && a->conserve_energy == b->conserve_energy);
 }
 
+// Whether what a surface asks, in the order of the rays, is known before its hits are placed.
+// What it gives off is added after that: no third sum.
+static bool asks_simply(const struct job *job, const struct texture_layer *l,
+                        const struct simple_surface *x)
+{
+    const struct finish *f = l->finish;
+    const struct rgb own = rgb_add(rgb_mul(f->ambient, job->ambient_light), f->emission);
+    return x->kind == SIMPLE_SOLID && !(l->normal && job->normals) &&
+           !(f->matt_back > 0 && rgb_max(own) > 0);
+}
+
 enum { RECENT = 16 }; // classes that a surface is compared with
 
 static uint32_t class_of(struct job *job, struct simple_class *all,
@@ -186,8 +197,9 @@ void simple_compile(struct job *job, struct arena *a)
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
     job->quick_camera =
         !general && !collects && !camera_has_lens(c) && c->kind != CAMERA_MESH;
-    if (general || collects || job->has_air_media || !job->lights || !job->pigments ||
-        !(1 > job->adc_bailout))
+    job->asks_in_order = collects && job->settings.purpose == RENDER_GATHER;
+    if (general || (collects && !job->asks_in_order) || job->has_air_media ||
+        !job->lights || !job->pigments || !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
         arena_new_array(a, struct simple_surface, w->surface_count + 1);
@@ -205,6 +217,8 @@ void simple_compile(struct job *job, struct arena *a)
             simple[i - 1].class != SIMPLE_NONE)
             x = simple[i - 1];
         else if (!color_compile(job, &compiler, l->pigment, &x))
+            continue;
+        if (job->asks_in_order && !asks_simply(job, l, &x))
             continue;
         x.class = class_of(job, all, &w->surface[i]);
         x.normal = job->normals ? l->normal : NULL;
@@ -272,6 +286,23 @@ bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
     return true;
 }
 
+void simple_ask(struct tracer *t, uint32_t k, uint32_t end)
+{
+    const struct world *w = t->job->world;
+    const struct indirect *indirect = &t->job->settings.indirect;
+    for (; k < end; k++) {
+        const uint32_t surface = w->leaf[t->hit->leaf[k]].surface;
+        const struct simple_surface *x = &t->job->simple[surface];
+        const struct finish *f = t->job->simple_class[x->class].finish;
+        for (int back = 0; back <= indirect->both_sides; back++) {
+            const float matt = (back ? f->matt_back : f->matt) * x->att;
+            const struct rgb color = rgb_scale(matt, x->color[0]);
+            if (rgb_grey(rgb(1, 1, 1)) * matt > indirect->least && rgb_max(color) > 0)
+                indirect_ask(t, k, color, NULL, back);
+        }
+    }
+}
+
 // Light by way of other surfaces on one side of a group, as shade_indirect.
 static void side_indirect(struct tracer *t, const struct simple_class *c,
                           const struct simple_group *g, bool back)
@@ -327,7 +358,7 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
         if (t->group[i].bare)
             shade_bare(t, &t->group[i]);
         kernels->own(t, c, &t->group[i]);
-        if (t->job->settings.indirect.data)
+        if (t->job->settings.indirect.data && !t->job->asks_in_order)
             group_indirect(t, c, &t->group[i]);
     }
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)

@@ -133,7 +133,8 @@ struct path wave_path(const struct tracer *t, uint32_t slot)
     if (w->path) {
         struct path p = w->path[w->order[slot]];
         if (t->job->has_air) {
-            p.through = rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
+            p.through =
+                rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
             p.through_t = w->through_t[slot];
         }
         return p;
@@ -373,6 +374,8 @@ static void wave_trace(struct tracer *t)
             end++;
         if (!simple_take(t, k, end - k))
             shade_alone(t, k, end);
+        else if (t->job->asks_in_order)
+            simple_ask(t, k, end);
     }
     if (sky.count)
         misses_shade(t, &sky);
