@@ -336,6 +336,38 @@ static struct span8 quick_other(const struct eight *e, const struct quick *q,
     return x;
 }
 
+// The same of a quadric that is no complement: lines that are inside but for the stretch
+// between their crossings are inside all the way, and that stretch is like a complement.
+static struct span8 quick_quadric(const struct eight *e, const struct quick *q,
+                                  struct quick_spans *v, const struct product_part *part,
+                                  const struct ray8 *ray, const struct leaf *l)
+{
+    const struct quadric *s = part->shape;
+    const struct cross8 c = cross8_quadric(s, ray);
+    const struct real8 at_o = quadric8_value(s, v8_sub(ray->o, V8_SET(s->centre)));
+    struct mask8 odd = m8_or(c.odd, m8_without(r8_le(at_o, r8_set(0)), c.met));
+    struct mask8 hollow = m8_without(c.met, c.enters);
+    struct span8 x = {.in = c.t[0], .out = c.t[1], .in_e = c.dt[0], .out_e = c.dt[1]};
+    if (!l->transform->identity) {
+        x.in_e = moved8(l, &e->ray, ray, x.in, x.in_e);
+        x.out_e = moved8(l, &e->ray, ray, x.out, x.out_e);
+    }
+    x.clear = quick_clear(q, &x);
+    if (m8_bits(hollow) && v->hollows < QUICK_HOLLOWS) {
+        x.met = hollow;
+        v->hollow[v->hollows++] = (struct quick_hollow){x, part};
+    } else {
+        odd = m8_or(odd, hollow);
+        hollow = m8_of(0);
+    }
+    const struct mask8 all = m8_or(odd, hollow);
+    x.in = r8_select(all, r8_set(-INFINITY), x.in);
+    x.out = r8_select(all, r8_set(INFINITY), x.out);
+    x.met = m8_or(c.met, odd);
+    x.clear = m8_without(m8_or(x.clear, hollow), odd);
+    return x;
+}
+
 // The span of a part, seen by the rays of its space.
 LANES_INLINE struct span8 part_span(const struct eight *e, const struct quick *q,
                                     const struct product_part *part,
@@ -351,6 +383,18 @@ LANES_INLINE struct span8 part_span(const struct eight *e, const struct quick *q
     }
 }
 
+// The same of a solid.
+LANES_INLINE struct span8 solid_span(const struct eight *e, const struct quick *q,
+                                     struct quick_spans *v,
+                                     const struct product_part *part,
+                                     const struct ray8 *ray, uint32_t first_leaf,
+                                     unsigned bits)
+{
+    if (part->kind != PACKET_QUADRIC)
+        return part_span(e, q, part, ray, first_leaf, bits);
+    return quick_quadric(e, q, v, part, ray, &e->p->w->leaf[first_leaf + part->leaf]);
+}
+
 // The spans of the solids and of what matters of their complements; returns the lanes that
 // may meet the object.
 LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_product *x,
@@ -360,7 +404,7 @@ LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_prod
     const struct product_part *part = x->part;
     uint32_t i = 0;
     for (; i < x->world_solids && bits; i++) {
-        const struct span8 s = part_span(e, q, &part[i], &e->ray, first_leaf, bits);
+        const struct span8 s = solid_span(e, q, v, &part[i], &e->ray, first_leaf, bits);
         bits &= quick_solid(q, v, &part[i], &s);
     }
     for (uint32_t k = 0; k < x->spaces && bits; k++) {
@@ -370,11 +414,13 @@ LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_prod
     }
     for (; i < x->solids && bits; i++) {
         const struct ray8 *ray = part[i].space ? &own[part[i].space - 1] : &e->ray;
-        const struct span8 s = part_span(e, q, &part[i], ray, first_leaf, bits);
+        const struct span8 s = solid_span(e, q, v, &part[i], ray, first_leaf, bits);
         bits &= quick_solid(q, v, &part[i], &s);
     }
     if (bits)
         bits &= quick_solids_end(q, v, r8_load(e->p->t));
+    for (uint32_t k = 0; k < v->hollows && bits; k++)
+        quick_complement(q, v, v->hollow[k].part, bits, &v->hollow[k].span);
     for (; i < x->count && bits; i++) {
         const struct ray8 *ray = part[i].space ? &own[part[i].space - 1] : &e->ray;
         const struct span8 s = part_span(e, q, &part[i], ray, first_leaf, bits);
@@ -398,7 +444,7 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     struct quick q;
     struct quick_spans v; // not set to zero: it is large
     struct ray8 own[PRODUCT_SPACES];
-    v.count = 0;
+    v.count = v.hollows = 0;
     quick_begin(&q, e->t_min, e->t_max);
     quick_space(&q, x, &e->ray, r8_set(0), r8_set(0));
     bits = quick_parts(e, x, o->first_leaf, bits, &q, &v, own);

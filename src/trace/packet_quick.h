@@ -104,11 +104,20 @@ struct quick {
     struct mask8 doubt;
 };
 
+enum { QUICK_HOLLOWS = 2 }; // solids of a product that lines may be inside but for a span
+
+struct quick_hollow {
+    struct span8 span;
+    const struct product_part *part;
+};
+
 // The spans that matter, those of solids first.
 struct quick_spans {
-    struct real8 in[PRODUCT_LEAVES], out[PRODUCT_LEAVES];
-    const struct product_part *part[PRODUCT_LEAVES];
-    uint32_t count, solids;
+    struct real8 in[PRODUCT_LEAVES + QUICK_HOLLOWS], out[PRODUCT_LEAVES + QUICK_HOLLOWS];
+    const struct product_part *part[PRODUCT_LEAVES + QUICK_HOLLOWS];
+    struct quick_hollow
+        hollow[QUICK_HOLLOWS]; // what is missing of solids, like complements
+    uint32_t count, solids, hollows;
 };
 
 LANES_INLINE struct real8 quick_bound(const struct quick *q, double times, struct real8 t)
