@@ -106,6 +106,30 @@ static void refine(struct radiosity *r, const double *off)
     free(split);
 }
 
+static bool build(struct radiosity *r, const struct job *job, char *error,
+                  size_t error_size)
+{
+    r->patches = patches_build(job, &r->settings.patches);
+    if (r->patches && r->patches->element_count)
+        return true;
+    snprintf(error, error_size, "no surface of the scene can be cut into patches");
+    return false;
+}
+
+// Anew, with as many alike cells as the target may take by what few of them were off by:
+// squarer than what quarters of large ones are, and with no small cells beside large ones,
+// between which light is interpolated worse.
+static bool rebuild(struct radiosity *r, const struct job *job, char *error,
+                    size_t error_size)
+{
+    static const double order = 1.1; // patches are as the error to minus this
+    static const double most = 32;   // times as many
+    const double more = pow(r->report.error / r->settings.error, order);
+    r->settings.patches.count = r->patches->element_count * fmin(fmax(more, 2), most);
+    radiosity_level_free(r);
+    return build(r, job, error, error_size);
+}
+
 bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
                         size_t error_size)
 {
@@ -119,17 +143,19 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
     r->settings.factors.visibility =
         fmin(r->settings.factors.visibility, visibility * target);
     watch_part(r->settings.watch, 0, .05);
-    r->patches = patches_build(job, &r->settings.patches);
-    if (!r->patches || !r->patches->element_count) {
-        snprintf(error, error_size, "no surface of the scene can be cut into patches");
+    if (!build(r, job, error, error_size))
         return false;
-    }
     r->report.error = 1;
     r->report.converged = false;
     for (uint32_t level = 0; ok && level < LEVELS_MOST; level++) {
-        if (level)
+        if (level == 1)
+            ok = rebuild(r, job, error, error_size);
+        else if (level)
             refine(r, off);
         free(off);
+        off = NULL;
+        if (!ok)
+            break;
         ok = level_solve(r, level, error, error_size);
         off = solver_alloc(r->patches->element_count, sizeof *off);
         r->report.error = ok ? fmax(radiosity_probe(r, off), r->solution.error) : 1;
