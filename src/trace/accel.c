@@ -167,7 +167,7 @@ static bool is_intersection(const struct world *w, const struct world_object *o)
     if (!has_intersections_only(w, o))
         return false;
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
-        if (!w->leaf[i].drawn || w->surface[w->leaf[i].surface].opaque != o->opaque)
+        if (!w->leaf[i].drawn)
             return false;
     return true;
 }
@@ -203,8 +203,6 @@ static bool is_carved(const struct world *w, const struct accel *accel,
         const bool solid = accel->leaf_shape[i] == PACKET_LANES;
         if (solid ? !l->drawn : !packet_is_product_shape(accel->leaf_shape[i]))
             return false;
-        if (l->drawn && w->surface[l->surface].opaque != o->opaque)
-            return false;
         solids += solid;
         shown |= !solid && l->drawn;
         closed |= solid && is_closed(l);
@@ -236,8 +234,6 @@ static enum packet_shape clipped_shape(const struct world *w, const struct accel
             clips++;
             continue;
         }
-        if (w->surface[l->surface].opaque != o->opaque)
-            return PACKET_NONE;
         shown++;
         known = known && has_known_bounds(l, shape);
         product = product && packet_is_product_shape(shape);

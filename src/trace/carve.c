@@ -292,8 +292,6 @@ unsigned carve(const struct world *w, struct trace_scratch *s, uint32_t object,
     c.met = 0;
     out->unsure = 0;
     s->stats.csg_tests += (unsigned)__builtin_popcount(lanes);
-    if (mode == SWEEP_OPAQUE && !c.o->opaque)
-        return 0;
     unsigned on = 0;
     for (unsigned m = lanes; m; m &= m - 1) {
         const int i = __builtin_ctz(m);

@@ -15,7 +15,8 @@ struct carve_hits {
     unsigned unsure;      // lanes where crossings are too near each other: for sweep_object
 };
 
-// As sweep_object, for the lanes of ray[8]; limit[i]: where lane i's nearest hit lies.
+// As sweep_object, for the lanes of ray[8]; limit[i]: where lane i's nearest hit lies. Where
+// mode is SWEEP_OPAQUE the object is opaque.
 unsigned carve(const struct world *w, struct trace_scratch *s, uint32_t object,
                const struct ray *ray, const double *limit, unsigned lanes,
                enum sweep_mode mode, struct carve_hits *out);

@@ -259,22 +259,22 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
 {
     const struct world_object *o = &f->w->object[object];
     const struct ray_query *q = f->q;
-    if ((o->flags & q->hidden_by) || (o->bound_count && culled(o, &q->ray, f->s)))
+    const bool one_kind = f->mode == SWEEP_CLOSEST || o->opaque; // every surface counts
+    if ((o->flags & q->hidden_by) || (!one_kind && !o->mixed) ||
+        (o->bound_count && culled(o, &q->ray, f->s)))
         return false;
     if (o->is_csg) {
         double t;
         f->box.t_max = fmin(q->ray.t_max, f->t);
         if (!box_meets(&o->bounds, &f->box, &t))
             return false;
-        if (f->w->accel->object_shape[object] == PACKET_SPONGE) {
-            if (f->mode == SWEEP_OPAQUE && !o->opaque)
-                return false;
+        if (one_kind && f->w->accel->object_shape[object] == PACKET_SPONGE) {
             const enum stab_result r =
                 stab_object(f->w, f->s, object, &q->ray, f->t, out);
             if (r != STAB_UNSURE)
                 return r == STAB_FOUND;
         }
-        if (f->w->accel->object_shape[object] == PACKET_CARVED) {
+        if (one_kind && f->w->accel->object_shape[object] == PACKET_CARVED) {
             struct carve_hits hits;
             const bool met =
                 carve(f->w, f->s, object, &q->ray, &f->t, 1, f->mode, &hits) != 0;

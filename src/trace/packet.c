@@ -107,6 +107,8 @@ bool packet_lists_crossings(const struct world *w)
 {
     for (uint32_t i = 0; i < w->object_count; i++) {
         const enum packet_shape shape = w->accel->object_shape[i];
+        if (w->object[i].mixed)
+            return false;
         if (!w->object[i].opaque && shape != PACKET_PRODUCT &&
             (shape < PACKET_SPHERE || shape > PACKET_TRIANGLE))
             return false;

@@ -28,8 +28,10 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     bits = seeing(p, o->flags, bits);
     if (o->bound_count)
         bits = within_bounds(e, bits, o);
-    if (!bits || (p->mode == SWEEP_OPAQUE && !o->opaque))
+    if (!bits)
         return 0;
+    if (p->mode == SWEEP_OPAQUE && !o->opaque)
+        return o->mixed ? packet_try_object(p, bits, object) : 0;
     if (shape == PACKET_PRODUCT)
         return product(e, bits, object);
     if (shape == PACKET_CLIPPED || shape == PACKET_CLIPPED_PRODUCT)

@@ -510,12 +510,15 @@ static void add_object(struct build *b, const struct object *o, const struct con
     if (!w->is_csg)
         b->node.count = root;
     w->node_count = b->node.count - root;
+    bool some = false;
     w->opaque = true;
     for (uint32_t i = first_leaf; i < b->leaf.count; i++) {
         const struct leaf *l = (struct leaf *)b->leaf.at + i;
-        if (l->drawn)
-            w->opaque &= ((struct surface *)b->surface.at)[l->surface].opaque;
+        const bool opaque = ((struct surface *)b->surface.at)[l->surface].opaque;
+        w->opaque &= opaque || !l->drawn;
+        some |= opaque && l->drawn;
     }
+    w->mixed = some && !w->opaque;
     w->flags = o->flags | c->flags;
     w->source = o;
     w->bound = join_bounds(b, o, c, &w->bound_count);

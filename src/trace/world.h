@@ -87,6 +87,7 @@ struct world_object {
     uint32_t root, node_count; // its csg nodes
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
+    bool mixed;                // some are, some are not
     unsigned flags;            // visibility of the whole
     const struct object *source;
     const struct user_bound *bound; // bounded_by, its own and those of unions around it

@@ -477,6 +477,9 @@ static struct object *random_product(struct maker *m, double off)
         const double r = .5 + between(m, 0, .5) + off * chance(m);
         child[i] = random_solid(m, c, r, off, i % 2);
     }
+    if (chance(m) < .2) // some surfaces let light through, others do not
+        ((struct object *)child[0])->texture =
+            (struct attached_texture){&clear_texture, &transform_identity};
     return object_new_csg(m->a, chance(m) < .3 ? CSG_INTERSECTION : CSG_DIFFERENCE, child,
                           n, (struct span){0});
 }
