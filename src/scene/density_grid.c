@@ -16,13 +16,3 @@ bool density_grid_init(struct density_grid *g, const uint8_t *data, size_t size)
             return true;
     return false;
 }
-
-double density_grid_at(const struct density_grid *g, uint32_t x, uint32_t y, uint32_t z)
-{
-    const size_t at = ((size_t)z * g->size[1] + y) * g->size[0] + x;
-    const uint8_t *b = g->sample + at * g->width;
-    uint32_t v = 0;
-    for (uint32_t i = 0; i < g->width; i++)
-        v = v << 8 | b[i];
-    return v / (double)(UINT32_MAX >> (32 - 8 * g->width));
-}

@@ -15,6 +15,19 @@ struct density_grid {
 // Points into data, which must outlive it. False: the length does not fit the sizes.
 bool density_grid_init(struct density_grid *g, const uint8_t *data, size_t size);
 // 0 to 1; the indices must be inside.
-double density_grid_at(const struct density_grid *g, uint32_t x, uint32_t y, uint32_t z);
+static inline double density_grid_sample(const struct density_grid *g, size_t at)
+{
+    const uint8_t *b = g->sample + at * g->width;
+    uint32_t v = b[0];
+    for (uint32_t i = 1; i < g->width; i++)
+        v = v << 8 | b[i];
+    return v / (double)(UINT32_MAX >> (32 - 8 * g->width));
+}
+// The number of a sample.
+static inline size_t density_grid_place(const struct density_grid *g, uint32_t x,
+                                        uint32_t y, uint32_t z)
+{
+    return ((size_t)z * g->size[1] + y) * g->size[0] + x;
+}
 
 #endif

@@ -32,10 +32,15 @@ static void cut_roots(struct cuts *cuts, double a, double b, double c, double s)
         cut_add(cuts, root / a, s);
 }
 
-static int by_value(const void *a, const void *b)
+static void cuts_sort(struct cuts *c)
 {
-    const double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
+    for (int i = 1; i < c->count; i++) {
+        const double v = c->at[i];
+        int k = i;
+        for (; k > 0 && c->at[k - 1] > v; k--)
+            c->at[k] = c->at[k - 1];
+        c->at[k] = v;
+    }
 }
 
 typedef bool lit_at(const struct lamp *lamp, struct vec3 from);
@@ -60,7 +65,7 @@ static bool between_cuts(struct cuts *c, lit_at *lit, struct vec3 from, struct v
     bool any = false;
     c->at[c->count++] = 0;
     c->at[c->count++] = s;
-    qsort(c->at, (size_t)c->count, sizeof *c->at, by_value);
+    cuts_sort(c);
     for (int i = 0; i + 1 < c->count; i++) {
         const double middle = (c->at[i] + c->at[i + 1]) / 2;
         if (!(c->at[i] < c->at[i + 1]) || !lit(out->lamp, vec3_mad(from, middle, d)))
@@ -118,6 +123,15 @@ static int by_begin(const void *a, const void *b)
     return (p->begin > q->begin) - (p->begin < q->begin);
 }
 
+// Mostly they are: most lamps reach everything.
+static bool is_sorted(const struct media_interval *v, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++)
+        if (v[i - 1].begin > v[i].begin)
+            return false;
+    return true;
+}
+
 // Lit and unlit pieces in turn, from 0 to s.
 static uint32_t pieces_of(struct arena *a, const struct media_lamp *lamp, uint32_t count,
                           double s, struct media_interval **out)
@@ -128,7 +142,8 @@ static uint32_t pieces_of(struct arena *a, const struct media_lamp *lamp, uint32
     for (uint32_t i = 0; i < count; i++)
         lit[i] =
             (struct media_interval){lamp[i].begin, lamp[i].end - lamp[i].begin, true};
-    qsort(lit, count, sizeof *lit, by_begin);
+    if (!is_sorted(lit, count))
+        qsort(lit, count, sizeof *lit, by_begin);
     uint32_t n = 0;
     double done = 0;
     for (uint32_t i = 0; i < count; i++) {

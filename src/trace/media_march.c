@@ -19,13 +19,13 @@ static double drawn(struct media_march *m)
     return hash_unit(hash_mix(m->way->hash, ++m->drawn));
 }
 
-// Most media are grey, or dim nothing.
+// What passes ends in colours: single precision will do. Most media are grey, or dim nothing.
 static struct vec3 exp_minus(struct vec3 depth)
 {
     struct vec3 e;
-    e.x = depth.x == 0 ? 1 : det_exp(-depth.x);
-    e.y = depth.y == depth.x ? e.x : det_exp(-depth.y);
-    e.z = depth.z == depth.y ? e.y : det_exp(-depth.z);
+    e.x = depth.x == 0 ? 1 : det_exp_single(-depth.x);
+    e.y = depth.y == depth.x ? e.x : det_exp_single(-depth.y);
+    e.z = depth.z == depth.y ? e.y : det_exp_single(-depth.z);
     return e;
 }
 

@@ -27,18 +27,31 @@ static uint32_t neighbour(struct cell c, int step)
     return (c.at + (uint32_t)step) % c.size;
 }
 
+// The numbers of the samples from `from` on along each axis, to be added up.
+static void places_of(const struct density_grid *g, const struct cell c[3], int from,
+                      int count, size_t at[3][4])
+{
+    for (int i = 0; i < count; i++) {
+        at[0][i] = density_grid_place(g, neighbour(c[0], from + i), 0, 0);
+        at[1][i] = density_grid_place(g, 0, neighbour(c[1], from + i), 0);
+        at[2][i] = density_grid_place(g, 0, 0, neighbour(c[2], from + i));
+    }
+}
+
 static double linear(const struct density_grid *g, const struct cell c[3])
 {
+    size_t at[3][4];
     double sum = 0;
+    places_of(g, c, 0, 2, at);
     for (int i = 0; i < 8; i++) {
-        uint32_t at[3];
+        size_t place = 0;
         double weight = 1;
         for (int k = 0; k < 3; k++) {
             const int next = i >> k & 1;
-            at[k] = neighbour(c[k], next);
+            place += at[k][next];
             weight *= next ? c[k].fraction : 1 - c[k].fraction;
         }
-        sum += weight * density_grid_at(g, at[0], at[1], at[2]);
+        sum += weight * density_grid_sample(g, place);
     }
     return sum;
 }
@@ -55,12 +68,12 @@ static float hermite(float t, const float v[4])
 static double cubic(const struct density_grid *g, const struct cell c[3])
 {
     float line[4], row[4], column[4];
+    size_t at[3][4];
+    places_of(g, c, -1, 4, at);
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
             for (int k = 0; k < 4; k++)
-                column[k] = (float)density_grid_at(g, neighbour(c[0], i - 1),
-                                                   neighbour(c[1], j - 1),
-                                                   neighbour(c[2], k - 1));
+                column[k] = (float)density_grid_sample(g, at[0][i] + at[1][j] + at[2][k]);
             row[j] = hermite((float)c[2].fraction, column);
         }
         line[i] = hermite((float)c[1].fraction, row);
@@ -79,7 +92,8 @@ static double value(const struct pattern *p, struct vec3 at,
     const struct cell c[3] = {cell_of(at.x, g->size[0]), cell_of(at.y, g->size[1]),
                               cell_of(at.z, g->size[2])};
     switch (p->integer[0] % 10) {
-    case 0: return density_grid_at(g, c[0].at, c[1].at, c[2].at);
+    case 0:
+        return density_grid_sample(g, density_grid_place(g, c[0].at, c[1].at, c[2].at));
     case 1: return linear(g, c);
     default: return cubic(g, c);
     }
