@@ -52,8 +52,11 @@ uint64_t gatherer_rays(const struct gatherer *g)
 
 void gatherer_start(struct gatherer *g, uint32_t direction)
 {
-    for (uint32_t k = 0; k < g->cache->depths; k++)
-        g->level[k].next = direction % g->cache->direction_count;
+    for (uint32_t k = 0; k < g->cache->depths; k++) {
+        struct gather_level *l = &g->level[k];
+        l->next = direction % g->cache->direction_count;
+        l->asked = l->asked_fresh = (struct store_memo){.cell_count = 0};
+    }
 }
 
 void *gather_begin(const void *cache)
@@ -291,7 +294,7 @@ bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sampl
                                    s->depth, false, least};
     struct cache_mean mean = {0};
     if (c->store.count)
-        store_mean(&c->store, &at, &mean);
+        store_mean(&c->store, &at, NULL, &mean);
     return mean.weight < least;
 }
 
@@ -338,9 +341,9 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                                    scouts ? least : INFINITY};
     struct cache_mean mean = {0};
     if (c->store.count)
-        store_mean(&c->store, &at, &mean);
+        store_mean(&c->store, &at, &l->asked, &mean);
     if (g->fresh && g->fresh->count && mean.weight < at.enough)
-        store_mean(g->fresh, &at, &mean);
+        store_mean(g->fresh, &at, &l->asked_fresh, &mean);
     // After a cancel nobody looks at the light; a sample may take many seconds.
     if (mean.weight < least && !(c->cancel && *c->cancel)) {
         struct cache_sample fresh;

@@ -31,6 +31,7 @@ struct gather_level {
     struct first_hit *first;
     float (*color)[4];
     float *quality; // of what each met, as the next depth tells
+    struct store_memo asked, asked_fresh;
 };
 
 struct gatherer {
@@ -47,7 +48,7 @@ void gatherer_free(struct gatherer *g);
 uint64_t gatherer_rays(const struct gatherer *g);
 // Whether a query before the picture would take a sample where this one lies.
 bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s);
-// Directions from here on.
+// A new store takes what is found, or what was known has grown; directions from here on.
 void gatherer_start(struct gatherer *g, uint32_t direction);
 
 // Rays of one sample at a depth.

@@ -200,18 +200,41 @@ void store_add(struct store *s, const struct cache_sample *sample)
     s->count++;
 }
 
-void store_mean(const struct store *s, const struct cache_point *at,
-                struct cache_mean *mean)
+static const struct cache_cell *cell_remembered(const struct store *s,
+                                                const struct cache_cell *key,
+                                                struct store_memo *memo)
 {
-    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth]; size++) {
-        const double scale = ldexp(1, -size);
+    enum { SIZES = sizeof memo->cell / sizeof *memo->cell };
+    const unsigned i = (unsigned)key->size % SIZES;
+    struct cache_place *p = &memo->place[i];
+    if (memo->cell_count != s->cell_count) {
+        memset(memo->cell, 0, sizeof memo->cell);
+        memo->cell_count = s->cell_count;
+    }
+    if (memo->cell[i] && p->size == key->size && p->depth == key->depth &&
+        memcmp(p->at, key->place, sizeof p->at) == 0)
+        return memo->cell[i];
+    memcpy(p->at, key->place, sizeof p->at);
+    p->size = key->size;
+    p->depth = key->depth;
+    return memo->cell[i] = cell_slot(s, key);
+}
+
+void store_mean(const struct store *s, const struct cache_point *at,
+                struct store_memo *memo, struct cache_mean *mean)
+{
+    double scale = ldexp(1, -s->size_low[at->depth]);
+    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth];
+         size++, scale /= 2) {
         const struct cache_cell key = {.place = {place_of(at->p.x, scale),
                                                  place_of(at->p.y, scale),
                                                  place_of(at->p.z, scale)},
                                        .size = (int16_t)size,
                                        .depth = (uint16_t)at->depth};
-        const struct cache_cell *c = cell_slot(s, &key);
-        if (!s->kernels->mean(s->sample, s->filed + c->first, c->count, at, mean))
+        const struct cache_cell *c =
+            memo ? cell_remembered(s, &key, memo) : cell_slot(s, &key);
+        if (c->count &&
+            !s->kernels->mean(s->sample, s->filed + c->first, c->count, at, mean))
             return;
     }
 }
@@ -250,8 +273,9 @@ void store_means(const struct store *s, const struct cache_points *at,
                  struct cache_means *mean)
 {
     enum { FEW = 2 }; // points that are better off alone
-    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth]; size++) {
-        const double scale = ldexp(1, -size);
+    double scale = ldexp(1, -s->size_low[at->depth]);
+    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth];
+         size++, scale /= 2) {
         int32_t place[8][3];
         for (int i = 0; i < 8; i++)
             for (int k = 0; k < 3; k++)

@@ -66,8 +66,20 @@ struct cache_point {
 struct cache_mean {
     double weight, light[3]; // sums
 };
+// The cells that a thread has asked last, one of a size: neighbours ask the same ones. All
+// zero at first, and when the store is another one.
+struct store_memo {
+    struct cache_place {
+        int32_t at[3];
+        int16_t size;
+        uint16_t depth;
+    } place[16];
+    const struct cache_cell *cell[16]; // NULL: none yet
+    uint32_t cell_count;               // when they were asked
+};
+// memo: of this store alone; NULL: none.
 void store_mean(const struct store *s, const struct cache_point *at,
-                struct cache_mean *mean);
+                struct store_memo *memo, struct cache_mean *mean);
 // The same of eight points at once; those that are not `lanes` are left alone.
 struct cache_points {
     double p[3][8], n[3][8], error_bound[8];

@@ -83,7 +83,7 @@ static void test_weight_of_one(void **state)
             struct cache_mean mean = {0};
             store_init(&s, isas[k]);
             store_add(&s, &x);
-            store_mean(&s, &at, &mean);
+            store_mean(&s, &at, NULL, &mean);
             assert_true(mean.weight == want);
             assert_true(mean.light[1] == (want > 0 ? want * (double)x.light.g : 0));
             heard += want > 0;
@@ -99,6 +99,7 @@ static void test_sum_of_many(void **state)
     const double bound = 0.8;
     struct cache_sample sample[SAMPLES];
     struct store s[3];
+    struct store_memo memo[3] = {0};
     (void)state;
     random_state = 2;
     for (int i = 0; i < SAMPLES; i++)
@@ -121,7 +122,7 @@ static void test_sum_of_many(void **state)
             heard += w > 0;
         }
         for (int k = 0; k < 3; k++)
-            store_mean(&s[k], &at, &mean[k]);
+            store_mean(&s[k], &at, k ? &memo[k] : NULL, &mean[k]);
         assert_near(mean[0].weight, weight, SAMPLES * 0x1p-52 * weight);
         assert_memory_equal(&mean[0], &mean[1], sizeof mean[0]);
         assert_memory_equal(&mean[0], &mean[2], sizeof mean[0]);
@@ -131,7 +132,7 @@ static void test_sum_of_many(void **state)
         // Half of it is enough: no more is added than what exceeds it.
         struct cache_mean half = {0};
         at.enough = weight / 2;
-        store_mean(&s[0], &at, &half);
+        store_mean(&s[0], &at, NULL, &half);
         assert_true(half.weight >= at.enough && half.weight <= mean[0].weight);
     }
     assert_true(crowded > POINTS / 20);
@@ -148,6 +149,7 @@ static void test_eight_points(void **state)
     for (int k = 0; k < 3; k++) {
         struct cache_sample sample[SAMPLES];
         uint32_t heard = 0;
+        struct store_memo memo = {0};
         random_state = 3;
         store_init(&s, isa_present(isas[k]) ? isas[k] : isas[0]);
         for (int i = 0; i < SAMPLES; i++) {
@@ -179,7 +181,7 @@ static void test_eight_points(void **state)
                     INFINITY};
                 struct cache_mean want = {0};
                 if (at.lanes >> j & 1)
-                    store_mean(&s, &alone, &want);
+                    store_mean(&s, &alone, &memo, &want);
                 assert_true(got.weight[j] == want.weight);
                 for (int a = 0; a < 3; a++)
                     assert_true(got.light[a][j] == want.light[a]);
