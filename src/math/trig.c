@@ -5,9 +5,10 @@
 
 #include "math/dd.h"
 #include "math/elementary.h"
+#include "math/trig.h"
 
 static const double TWO_OVER_PI = 0x1.45f306dc9c883p-1;
-static const struct dd PI_2 = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+const struct dd trig_half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 // pi/2 in parts of 33 bits (k * part is exact for k < 2^20) and a rest.
 static const double PI_2_PART[] = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34,
@@ -62,7 +63,7 @@ static struct dd reduce_large(double x, unsigned *quadrant)
     struct dd f = {0, 0};
     for (int i = 7; i >= 0; i--)
         f = dd_add(dd_two_sum(ldexp(fraction[i], 2 - 32 * (i + 1)), 0), f);
-    return dd_mul(f, PI_2);
+    return dd_mul(f, trig_half_pi);
 }
 
 // |x| = quadrant * pi/2 + result (mod 2 pi), |result| <= pi/4 and a little.
@@ -84,9 +85,9 @@ static struct dd reduce(double x, unsigned *quadrant)
 // pair on |r| <= pi/4.
 static struct dd sin_kernel(struct dd r)
 {
-    static const double c[] = {-1. / 6,         1. / 120,           -1. / 5040,
-                               1. / 362880,     -1. / 39916800.,    1. / 6227020800.,
-                               -1. / 1307674368000., 1. / 355687428096000.};
+    static const double c[] = {
+        -1. / 6,         1. / 120,         -1. / 5040,           1. / 362880,
+        -1. / 39916800., 1. / 6227020800., -1. / 1307674368000., 1. / 355687428096000.};
     double r2 = r.hi * r.hi, p = 0;
     for (int i = 7; i >= 0; i--)
         p = p * r2 + c[i];
@@ -95,9 +96,14 @@ static struct dd sin_kernel(struct dd r)
 
 static struct dd cos_kernel(struct dd r)
 {
-    static const double c[] = {1. / 24,         -1. / 720,        1. / 40320,
-                               -1. / 3628800,   1. / 479001600.,  -1. / 87178291200.,
-                               1. / 20922789888000., -1. / 6402373705728000.};
+    static const double c[] = {1. / 24,
+                               -1. / 720,
+                               1. / 40320,
+                               -1. / 3628800,
+                               1. / 479001600.,
+                               -1. / 87178291200.,
+                               1. / 20922789888000.,
+                               -1. / 6402373705728000.};
     double r2 = r.hi * r.hi, p = 0;
     for (int i = 7; i >= 0; i--)
         p = p * r2 + c[i];
@@ -137,7 +143,7 @@ double det_tan(double x)
 }
 
 // atan(k/8), k = 0..8.
-static const struct dd ATAN_EIGHTH[] = {
+const struct dd trig_atan_eighth[9] = {
     {0, 0},
     {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
     {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
@@ -161,13 +167,14 @@ static struct dd atan_ratio(struct dd num, struct dd den)
     struct dd bottom = dd_two_sum(den.hi, c * num.hi);
     double t = top.hi / bottom.hi;
     struct dd q = dd_two_prod(t, bottom.hi);
-    double t_low = (((top.hi - q.hi) - q.lo) +
-                    (top.lo - t * (bottom.lo + den.lo + c * num.lo))) / bottom.hi;
+    double t_low =
+        (((top.hi - q.hi) - q.lo) + (top.lo - t * (bottom.lo + den.lo + c * num.lo))) /
+        bottom.hi;
     double t2 = t * t, p = 0;
     for (int n = 15; n >= 3; n -= 2)
         p = (n & 2 ? -1. : 1.) / n + t2 * p;
-    struct dd s = dd_two_sum(ATAN_EIGHTH[k].hi, t);
-    return dd_fast_sum(s.hi, s.lo + (ATAN_EIGHTH[k].lo + t_low + t * t2 * p));
+    struct dd s = dd_two_sum(trig_atan_eighth[k].hi, t);
+    return dd_fast_sum(s.hi, s.lo + (trig_atan_eighth[k].lo + t_low + t * t2 * p));
 }
 
 // The angle of (x, y) in the first quadrant.
@@ -176,7 +183,7 @@ static struct dd angle(struct dd y, struct dd x)
     if (y.hi <= x.hi)
         return atan_ratio(y, x);
     struct dd a = atan_ratio(x, y);
-    return dd_add(PI_2, (struct dd){-a.hi, -a.lo});
+    return dd_add(trig_half_pi, (struct dd){-a.hi, -a.lo});
 }
 
 double det_atan2(double y, double x)
@@ -188,7 +195,7 @@ double det_atan2(double y, double x)
     if (ay == 0)
         a = (struct dd){0, 0};
     else if (ax == 0 || ay > DBL_MAX)
-        a = ax > DBL_MAX ? ATAN_EIGHTH[8] : PI_2;
+        a = ax > DBL_MAX ? trig_atan_eighth[8] : trig_half_pi;
     else if (ax > DBL_MAX)
         a = (struct dd){0, 0};
     else {
@@ -201,7 +208,8 @@ double det_atan2(double y, double x)
             a = angle((struct dd){sy, 0}, (struct dd){sx, 0});
     }
     if (signbit(x))
-        a = dd_add((struct dd){2 * PI_2.hi, 2 * PI_2.lo}, (struct dd){-a.hi, -a.lo});
+        a = dd_add((struct dd){2 * trig_half_pi.hi, 2 * trig_half_pi.lo},
+                   (struct dd){-a.hi, -a.lo});
     return signbit(y) ? -a.hi : a.hi;
 }
 
@@ -234,6 +242,7 @@ double det_acos(double x)
         return (x - x) / 0.0;
     struct dd a = angle(cosine_of(x), (struct dd){fabs(x), 0});
     if (x < 0)
-        a = dd_add((struct dd){2 * PI_2.hi, 2 * PI_2.lo}, (struct dd){-a.hi, -a.lo});
+        a = dd_add((struct dd){2 * trig_half_pi.hi, 2 * trig_half_pi.lo},
+                   (struct dd){-a.hi, -a.lo});
     return a.hi;
 }

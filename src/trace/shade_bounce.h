@@ -50,24 +50,15 @@ LANES_INLINE void reflectivity8(const struct simple_class *k,
         share = r8_select(r8_lt(r8_abs(less), r8_set(zero)), r8_set(1), share);
     }
     const struct float8 part = f8_of(share);
-    const struct rgb8 r =
+    struct rgb8 r =
         rgb8_add(rgb8_scale(f8_sub(f8_set(1), part), rgb8_set(f->reflection_min)),
                  rgb8_scale(part, rgb8_set(f->reflection_max)));
-    f8_store(b->mirror[0], r.r);
-    f8_store(b->mirror[1], r.g);
-    f8_store(b->mirror[2], r.b);
     const float most = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
-    for (int i = 0; i < 8; i++) {
-        struct rgb c = {b->mirror[0][i], b->mirror[1][i], b->mirror[2][i]};
-        b->weight[i] = f->fresnel ? rgb_max(c) : most;
-        if (f->reflection_metallic == 0)
-            continue;
-        c = metal_tint(c, rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
-                       f->reflection_metallic, b->cosine[i]);
-        b->mirror[0][i] = c.r;
-        b->mirror[1][i] = c.g;
-        b->mirror[2][i] = c.b;
-    }
+    f8_store(b->weight, f->fresnel ? f8_max(f8_max(r.r, r.g), r.b) : f8_set(most));
+    if (f->reflection_metallic != 0)
+        r = metal_tint8(r, rgb8_load((const float(*)[8])g->color), f->reflection_metallic,
+                        cosine);
+    rgb8_store(b->mirror, r);
 }
 
 LANES_INLINE struct float8 f8_abs(struct float8 x)
@@ -80,13 +71,6 @@ LANES_INLINE struct float8 grey8(struct rgb8 c)
 {
     return f8_add(f8_add(f8_mul(f8_set(0.297f), c.r), f8_mul(f8_set(0.589f), c.g)),
                   f8_mul(f8_set(0.114f), c.b));
-}
-
-LANES_INLINE void rgb8_store(float to[3][8], struct rgb8 c)
-{
-    f8_store(to[0], c.r);
-    f8_store(to[1], c.g);
-    f8_store(to[2], c.b);
 }
 
 // What mirrored rays count (shade_mirrors of trace/shade_transmit.c).
@@ -103,8 +87,8 @@ LANES_INLINE void mirrored_light(const struct simple_group *g, struct simple_bou
 }
 
 // What rays through the surface count (shade_refract).
-LANES_INLINE void passing_light(const struct simple_class *c, const struct simple_group *g,
-                                struct simple_bounce *b)
+LANES_INLINE void passing_light(const struct simple_class *c,
+                                const struct simple_group *g, struct simple_bounce *b)
 {
     const struct float8 one = f8_set(1), least = f8_set(b->least);
     struct rgb8 fade = rgb8_load((const float(*)[8])b->fade);
@@ -150,7 +134,6 @@ static void bounce(const struct simple_class *c, const struct simple_group *g,
     const struct vec8 d = v8_load((const double(*)[8])g->d),
                       n = v8_load((const double(*)[8])g->n);
     const struct real8 along = v8_dot(d, n), cosine = r8_neg(along);
-    r8_store(b->cosine, cosine);
     reflectivity8(c, g, cosine, b);
     const struct vec8 back = v8_normalize(v8_mad(d, r8_mul(r8_set(-2), along), n));
     v8_store(b->mirror_d, back);

@@ -59,24 +59,15 @@ struct lit_layer {
     const float *att;
 };
 
-// Metals tint their highlights, lane by lane.
-static struct rgb8 tinted(const struct lit_layer *l, struct float8 sum,
-                          struct real8 facing)
+// Metals tint their highlights.
+LANES_INLINE struct rgb8 tinted(const struct lit_layer *l, struct float8 sum,
+                                struct real8 facing)
 {
-    float s[8], c[3][8];
-    double cosine[8];
-    f8_store(s, sum);
-    r8_store(cosine, facing);
-    for (int i = 0; i < 8; i++) {
-        struct rgb x = rgb_gray(s[i]);
-        if (s[i] != 0)
-            x = metal_tint(x, rgb(l->color[0][i], l->color[1][i], l->color[2][i]),
-                           l->finish->metallic, cosine[i]);
-        c[0][i] = x.r;
-        c[1][i] = x.g;
-        c[2][i] = x.b;
-    }
-    return rgb8_load((const float(*)[8])c);
+    const struct float8 o = f8_set(0);
+    if ((f8_le(sum, o) & f8_le(o, sum)) == 255)
+        return (struct rgb8){o, o, o};
+    return metal_tint8((struct rgb8){sum, sum, sum}, rgb8_load(l->color),
+                       l->finish->metallic, facing);
 }
 
 // layer_lit. Takes lanes that get nothing out of *live.

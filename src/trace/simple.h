@@ -61,7 +61,6 @@ struct simple_bounce {
     double exponent[3][8];       // by in the lanes `fading`, all of it in others
     unsigned fading, straight;   // straight: light goes on as it came
     // Answered:
-    double cosine[8]; // between n and the way to the eye
     double mirror_d[3][8], mirror_o[3][8], bent_d[3][8], bent_o[3][8];
     float mirror[3][8], weight[8]; // finish_reflectivity
     // `through` and weight of rays that are mirrored, reflected totally, bent or straight on.

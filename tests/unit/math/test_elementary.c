@@ -5,6 +5,7 @@
 #include <float.h>
 #include <stdbool.h>
 
+#include "math/acos_lanes.h"
 #include "math/elementary.h"
 
 typedef double (*fn)(double);
@@ -144,6 +145,29 @@ static void special_values(void **state)
     assert_near(det_sin(0x1p1000), (double)sinl(0x1p1000L), 1e-16);
 }
 
+// Of the whole range, and close to its ends and its middle.
+static void acos_in_lanes(void **state)
+{
+    (void)state;
+    uint32_t random = 7;
+    for (int i = 0; i < 20000; i++) {
+        double x[8], y[8];
+        for (int k = 0; k < 8; k++) {
+            random = random * 1664525u + 1013904223u;
+            const double u = random * 0x1p-31 - 1;
+            const double near = ldexp(u, -(int)(random >> 8) % 60);
+            x[k] = i % 4 == 0 ? near : i % 4 == 1 ? copysign(1 - fabs(near), u) : u;
+        }
+        if (i < 3)
+            x[0] = i - 1;
+        r8_store(y, det_acos8(r8_load(x)));
+        for (int k = 0; k < 8; k++) {
+            const double want = det_acos(x[k]);
+            assert_memory_equal(&want, &y[k], sizeof want);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -152,6 +176,7 @@ int main(void)
         cmocka_unit_test(pow_against_long_double),
         cmocka_unit_test(atan2_in_all_quadrants),
         cmocka_unit_test(special_values),
+        cmocka_unit_test(acos_in_lanes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
