@@ -101,21 +101,17 @@ static uint32_t hash_of_double(uint32_t h, double v)
     return hash_mix(hash_mix(h, (uint32_t)bits), (uint32_t)(bits >> 32));
 }
 
-static struct rgb shadow_of(struct tracer *t, const struct media *const *media,
-                            uint32_t count, const struct media_way *way)
+// The mix of those that take light away.
+static struct media_mix dark_mix(struct arena *a, const struct media *const *media,
+                                 uint32_t count)
 {
-    struct media_scratch *s = &t->media[WAY_SHADOW];
-    const struct media **dark =
-        arena_new_array(s->arena, const struct media *, count + 1);
-    const uint32_t n = media_opaque_only(media, count, dark);
-    if (!n)
-        return rgb(1, 1, 1);
-    const struct media_mix mix = media_mix_of(dark, n);
-    struct media_march m = {
-        .t = t, .scratch = s, .mix = &mix, .way = way, .depth_only = true};
-    m.interval = media_intervals(s->arena, &mix, way->s, NULL, 0, &m.interval_count);
-    const struct vec3 pass = media_walk(&m).pass;
-    return rgb((float)pass.x, (float)pass.y, (float)pass.z);
+    const struct media **dark = arena_new_array(a, const struct media *, count + 1);
+    return media_mix_of(dark, media_opaque_only(media, count, dark));
+}
+
+static struct rgb rgb_of(struct vec3 v)
+{
+    return rgb((float)v.x, (float)v.y, (float)v.z);
 }
 
 static struct media_way shadow_way(struct vec3 o, struct vec3 d, double s)
@@ -124,6 +120,20 @@ static struct media_way shadow_way(struct vec3 o, struct vec3 d, double s)
     uint32_t h = hash_of_double(5, o.x);
     h = hash_of_double(h, o.y + o.z);
     return (struct media_way){.o = o, .d = d, .s = s, .hash = hash_of_double(h, d.x)};
+}
+
+static struct rgb shadow_of(struct tracer *t, const struct media *const *media,
+                            uint32_t count, struct vec3 o, struct vec3 d, double length)
+{
+    struct media_scratch *s = &t->media[WAY_SHADOW];
+    const struct media_mix mix = dark_mix(s->arena, media, count);
+    if (mix.even) // none at all, too
+        return rgb_of(media_even_pass(mix.everywhere.extinction, length));
+    const struct media_way way = shadow_way(o, d, length);
+    struct media_march m = {
+        .t = t, .scratch = s, .mix = &mix, .way = &way, .depth_only = true};
+    m.interval = media_intervals(s->arena, &mix, length, NULL, 0, &m.interval_count);
+    return rgb_of(media_walk(&m).pass);
 }
 
 struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
@@ -135,8 +145,7 @@ struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3
     arena_reset(a);
     uint32_t count;
     const struct media *const *media = media_of(a, list, &count);
-    const struct media_way way = shadow_way(o, d, s);
-    return shadow_of(t, media, count, &way);
+    return shadow_of(t, media, count, o, d, s);
 }
 
 static bool same_media(const struct inside *a, const struct inside *b)
@@ -185,7 +194,7 @@ static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
                             .depth_only = true};
     media_walk_together(&m, first, n, pass);
     for (uint32_t i = 0; i < n; i++)
-        ray[i].pass = rgb((float)pass[i].x, (float)pass[i].y, (float)pass[i].z);
+        ray[i].pass = rgb_of(pass[i]);
     return n;
 }
 
@@ -196,10 +205,8 @@ static uint32_t shadows_from(struct tracer *t, struct media_dark *ray, uint32_t 
     arena_reset(a);
     uint32_t all;
     const struct media *const *media = media_of(a, ray->inside, &all);
-    const struct media **dark = arena_new_array(a, const struct media *, all + 1);
-    const uint32_t n = media_opaque_only(media, all, dark);
-    const struct media_mix mix = media_mix_of(dark, n);
-    if (count > 1 && n && media_goes_together(&mix) &&
+    const struct media_mix mix = dark_mix(a, media, all);
+    if (count > 1 && mix.count && media_goes_together(&mix) &&
         same_media(ray[0].inside, ray[1].inside) &&
         (uint32_t)mix.rules->intervals <= media_stride(&mix))
         return walk_few(t, &mix, ray, count);
@@ -222,9 +229,11 @@ void media_shadows(struct tracer *t, struct media_dark *ray, uint32_t count)
 struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s)
 {
     const struct scene *scene = t->job->scene;
-    const struct media_way way = shadow_way(o, d, s);
-    arena_reset(t->media[WAY_SHADOW].arena);
-    return shadow_of(t, scene->media, scene->media_count, &way);
+    struct media_scratch *shadow = &t->media[WAY_SHADOW];
+    if (shadow->air_even)
+        return rgb_of(media_even_pass(shadow->air_extinction, s));
+    arena_reset(shadow->arena);
+    return shadow_of(t, scene->media, scene->media_count, o, d, s);
 }
 
 // ---- preparation -----------------------------------------------------------------------
@@ -315,6 +324,11 @@ void media_init(struct tracer *t)
         abort();
     for (int i = 0; i < 2; i++)
         t->media[i].arena = arena_new(4096);
+    struct media_scratch *s = &t->media[WAY_SHADOW];
+    const struct scene *scene = t->job->scene;
+    const struct media_mix air = dark_mix(s->arena, scene->media, scene->media_count);
+    s->air_even = air.even;
+    s->air_extinction = air.everywhere.extinction;
 }
 
 void media_end(struct tracer *t)

@@ -352,6 +352,13 @@ static void uniform(const struct media_march *m, struct total *all)
     }
 }
 
+struct vec3 media_even_pass(struct vec3 extinction, double s)
+{
+    if (extinction.x == 0 && extinction.y == 0 && extinction.z == 0)
+        return vec3(1, 1, 1); // whatever s
+    return exp_minus(vec3_scale(s, extinction));
+}
+
 // How many intervals are walked at once: enough for full batches of shadow rays.
 uint32_t media_stride(const struct media_mix *mix)
 {

@@ -25,6 +25,8 @@ struct media_scratch {
     struct media_sample *sample;
     struct media_span *span;
     uint32_t sample_count, sample_capacity, span_count, span_capacity;
+    bool air_even; // for shadow rays: what fills the scene is the same everywhere
+    struct vec3 air_extinction;
 };
 
 // How the settings of a medium end the random samples of methods 1 and 2: [n], the variance
@@ -50,6 +52,9 @@ struct media_march {
 };
 
 struct media_result media_walk(struct media_march *m);
+// What media_walk lets pass of a mix that is the same everywhere, when only depths are asked
+// for.
+struct vec3 media_even_pass(struct vec3 extinction, double s);
 
 // Whether several ways through the mix may be walked together: nothing about them is random.
 bool media_goes_together(const struct media_mix *mix);
