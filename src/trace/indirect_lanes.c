@@ -32,26 +32,47 @@ void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct ve
                        rgb_mul(matt, light)));
 }
 
+// Asks for the light of `lanes` that is known, with the normals n; returns those for which it
+// is.
+static unsigned known_light(struct tracer *t, const struct simple_group *g,
+                            unsigned lanes, const double n[3][8], bool back,
+                            struct rgb light[8])
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    const struct wavefront *w = &t->wave;
+    struct indirect_eight q = {.lanes = lanes};
+    if (!lanes)
+        return 0;
+    for (int i = 0; i < 8; i++) {
+        q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
+        for (int k = 0; k < 3; k++) {
+            q.p[k][i] = g->p[k][i];
+            q.n[k][i] = back ? -n[k][i] : n[k][i];
+        }
+    }
+    return indirect->known(indirect->data, t->indirect, &q, light);
+}
+
+unsigned indirect_known(struct tracer *t, const struct simple_group *g,
+                        struct rgb light[8])
+{
+    const struct job *job = t->job;
+    const struct indirect *indirect = &job->settings.indirect;
+    if (!indirect->data || !indirect->known || indirect->layer_normals || !job->lights ||
+        job->settings.purpose != RENDER_PICTURE || job->has_media || job->has_air_media)
+        return 0;
+    return known_light(t, g, g->live, (const double(*)[8])g->n, false, light);
+}
+
 // Adds the light of the lanes for which it is known; returns all others.
 static unsigned add_known(struct tracer *t, const struct simple_group *g,
                           const struct indirect_side *side)
 {
-    const struct indirect *indirect = &t->job->settings.indirect;
-    const struct wavefront *w = &t->wave;
-    const bool layers = indirect->layer_normals;
-    struct indirect_eight q = {.lanes = side->lanes & ~(layers ? 0 : side->perturbed)};
     struct rgb light[8];
-    if (!q.lanes)
-        return side->lanes;
-    for (int i = 0; i < 8; i++) {
-        q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
-        for (int k = 0; k < 3; k++) {
-            const double n = layers ? side->n[k][i] : g->n[k][i];
-            q.p[k][i] = g->p[k][i];
-            q.n[k][i] = side->back ? -n : n;
-        }
-    }
-    const unsigned known = indirect->known(indirect->data, t->indirect, &q, light);
+    const bool layers = t->job->settings.indirect.layer_normals;
+    const unsigned known =
+        known_light(t, g, side->lanes & ~(layers ? 0 : side->perturbed),
+                    (const double(*)[8])(layers ? side->n : g->n), side->back, light);
     for (unsigned bits = known; bits; bits &= bits - 1) {
         const int i = __builtin_ctz(bits);
         add(t, g, i, rgb_mul(side->matt[i], light[i]));

@@ -27,7 +27,11 @@ static inline void indirect_side_add(struct indirect_side *s, int i, struct rgb 
 // Adds the light to the slots.
 void indirect_side_light(struct tracer *t, const struct simple_group *g,
                          const struct indirect_side *side);
-// The same for one hit, that of ray k of the batch; n: of the layer, NULL: the surface's own.
+// The light in front of the hits of a group whose n is the surface's own, for a picture,
+// where it is known and queries ask with that normal; returns those lanes.
+unsigned indirect_known(struct tracer *t, const struct simple_group *g,
+                        struct rgb light[8]);
+// Adds the light of one hit, that of ray k of the batch; n: of the layer, NULL: the surface's own.
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back);
 

@@ -5,6 +5,7 @@
 
 #include "scene/image_map.h"
 #include "scene/pigment_tape.h"
+#include "trace/indirect_lanes.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 
@@ -301,7 +302,8 @@ static void paint_texture(struct brush *b, const struct paint_texture *x,
 // ---- light ----------------------------------------------------------------------------
 
 // Shades a lane by the general rule.
-static void shade_lane(struct tracer *t, const struct paint_group *g, int i)
+static void shade_lane(struct tracer *t, const struct paint_group *g, int i,
+                       const struct rgb *known)
 {
     struct painted layer[PAINT_LAYERS], *end = layer;
     struct paint_part part[PAINT_PARTS];
@@ -328,7 +330,25 @@ static void shade_lane(struct tracer *t, const struct paint_group *g, int i)
     struct interaction at;
     trace_interaction(t->job->world, &ray, &hit, &at);
     t->slot = g->hits.slot[i];
-    shade_painted(t, &path, &hit, &at, part, parts);
+    shade_painted(t, &path, &hit, &at, part, parts, known);
+}
+
+static bool is_matt(const struct tracer *t, const struct paint_group *g)
+{
+    bool matt = false;
+    for (uint32_t i = g->sheet; i < g->sheet + g->sheet_count; i++)
+        matt |= t->paint->sheet[i].layer->finish->matt > 0;
+    return matt;
+}
+
+static void shade_group(struct tracer *t, const struct paint_group *g)
+{
+    struct rgb light[8];
+    const unsigned known = is_matt(t, g) ? indirect_known(t, &g->hits, light) : 0;
+    for (unsigned live = g->hits.live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        shade_lane(t, g, i, known >> i & 1 ? &light[i] : NULL);
+    }
 }
 
 // Lights what waits.
@@ -338,8 +358,7 @@ static void brush_flush(struct brush *b)
     if (b->paint->lit && s->group_count)
         paint_light(b->t, s->group, s->group_count);
     for (uint32_t i = 0; i < s->group_count && !b->paint->lit; i++)
-        for (unsigned live = s->group[i].hits.live; live; live &= live - 1)
-            shade_lane(b->t, &s->group[i], __builtin_ctz(live));
+        shade_group(b->t, &s->group[i]);
     s->group_count = s->sheet_count = s->coat_count = 0;
 }
 

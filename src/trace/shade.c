@@ -113,20 +113,20 @@ struct rgb indirect_light(struct tracer *t, const struct indirect_hit *h, bool b
 
 // Light by way of other surfaces, on what is matt of all layers of one side.
 static void shade_indirect(struct shading *s, const struct hit *hit,
-                           const struct ray *ray, bool back)
+                           const struct ray *ray, bool back, const struct rgb *known)
 {
     const struct layer *first;
     const struct rgb matt = matt_part(s, back, &first);
     if (rgb_max(matt) <= 0)
         return;
     const struct indirect_hit h = {ray, hit, &s->at, first->n, s->path};
-    const struct rgb c = indirect_light(s->t, &h, back);
+    const struct rgb c = known ? *known : indirect_light(s->t, &h, back);
     tracer_add(s->t, rgb_mul(s->path->through, rgb_mul(matt, c)));
 }
 
 void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
                    const struct interaction *at, const struct paint_part *part,
-                   uint32_t part_count)
+                   uint32_t part_count, const struct rgb *known)
 {
     struct path here = *path;
     if (t->job->has_media) {
@@ -158,9 +158,9 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
     if (!t->job->lights)
         return;
     if (t->job->settings.indirect.data)
-        shade_indirect(&s, hit, &ray, false);
+        shade_indirect(&s, hit, &ray, false, known);
     if (t->job->settings.indirect.both_sides)
-        shade_indirect(&s, hit, &ray, true);
+        shade_indirect(&s, hit, &ray, true, NULL);
     shade_lights(&s);
     if (t->job->photons)
         shade_photons(&s);
@@ -174,5 +174,5 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
     const struct ray ray = {path->o, path->d, 0, INFINITY};
     struct interaction at;
     trace_interaction(t->job->world, &ray, hit, &at);
-    shade_painted(t, path, hit, &at, NULL, 0);
+    shade_painted(t, path, hit, &at, NULL, 0, NULL);
 }

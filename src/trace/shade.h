@@ -28,10 +28,11 @@ plain_function shade_plain;
 
 struct paint_part;
 // shade_hit of a hit whose interaction is known, and whose textures are evaluated
-// (trace/paint.h). No parts: they are not.
+// (trace/paint.h). No parts: they are not. known: the light by way of others in front of it;
+// NULL: it is asked for.
 void shade_painted(struct tracer *t, const struct path *path, const struct hit *hit,
                    const struct interaction *at, const struct paint_part *part,
-                   uint32_t part_count);
+                   uint32_t part_count, const struct rgb *known);
 
 // Direct light of all lamps on all layers (shade_light.c).
 void shade_lights(struct shading *s);
