@@ -7,6 +7,7 @@
 #include "trace/packet_lanes.h"
 #include "trace/packet_list.h"
 #include "trace/packet_mesh.h"
+#include "trace/packet_parts.h"
 #include "trace/packet_sponge.h"
 
 enum {
