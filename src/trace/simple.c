@@ -192,7 +192,8 @@ void simple_compile(struct job *job, struct arena *a)
     const bool general = job->general;
     const struct camera *c = job->camera;
     job->kernels = kernels_named(w->accel->kernels->name);
-    // Where light by way of others is collected, the order of hits counts: one order only.
+    // Where light by way of others is collected, the order of hits counts: the camera's are left to
+    // the general rule, others ask before they are kept (simple_ask).
     const bool collects =
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
     job->quick_camera =
