@@ -131,7 +131,7 @@ static void check_furnace(size_t i, uint32_t seed)
 static void furnace(void **state)
 {
     (void)state;
-    const uint32_t seeds = in_full() ? 4 : 1;
+    const uint32_t seeds = in_full() ? 2 : 1;
     for (size_t i = 0; i < sizeof furnaces / sizeof furnaces[0]; i++)
         for (uint32_t seed = 1; seed <= seeds; seed++)
             if (in_full() || i % 3 == 0)
