@@ -109,7 +109,7 @@ static const struct pigment_ramp *ramp_new(struct arena *a, const struct color_m
     }
     for (int j = 0; j < 5; j++)
         r->channel[j] = v + (size_t)(j + 1) * room;
-    r->quick = plain && m->count <= 8;
+    r->quick = plain;
     return r;
 }
 

@@ -35,7 +35,7 @@ enum pigment_op {
 // A colour map by channel, filled up to a multiple of eight.
 struct pigment_ramp {
     uint32_t count;
-    bool quick;  // at most eight ascending keys, nothing out of the ordinary
+    bool quick;  // ascending keys, nothing out of the ordinary
     bool opaque; // neither filter nor transmit
     const float *key;
     const float *channel[5];

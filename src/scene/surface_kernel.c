@@ -206,18 +206,20 @@ LANES_INLINE struct float8 blend8(struct float8 a, struct float8 b, struct real8
     return f8_add(a, f8_of(r8_mul(f, r8_of_floats(f8_sub(b, a)))));
 }
 
-// The entries that the numbers 0 to 7 in `index` tell.
-LANES_INLINE struct float8 pick8(const float table[8], const int32_t index[8])
+// The entries that the numbers in `index` tell; few: they are 0 to 7.
+LANES_INLINE struct float8 pick8(const float *table, const int32_t index[8], bool few)
 {
 #if defined(__AVX2__)
-    return (struct float8){_mm256_permutevar8x32_ps(
-        _mm256_loadu_ps(table), _mm256_loadu_si256((const __m256i *)index))};
+    if (few)
+        return (struct float8){_mm256_permutevar8x32_ps(
+            _mm256_loadu_ps(table), _mm256_loadu_si256((const __m256i *)index))};
 #else
+    (void)few;
+#endif
     float v[8];
     for (int i = 0; i < 8; i++)
         v[i] = table[index[i]];
     return f8_load(v);
-#endif
 }
 
 LANES_INLINE void store_small8(int32_t out[8], struct real8 x)
@@ -232,33 +234,51 @@ LANES_INLINE void store_small8(int32_t out[8], struct real8 x)
 #endif
 }
 
-// At most eight keys, ascending.
-LANES_INLINE void ramp_quick(const struct pigment_ramp *r, int channels, struct real8 v,
-                             float out[5][8])
+// The numbers of the first keys that are not below the values, the last for all above.
+LANES_INLINE struct real8 ramp_find(const struct pigment_ramp *r, struct real8 v)
 {
-    const struct real8 one = r8_set(1), zero = r8_set(0), last = r8_set(r->count - 1);
-    struct real8 n = zero;
+    const struct real8 one = r8_set(1), last = r8_set(r->count - 1);
+    struct real8 n = r8_set(0);
+    if (r->count > 32) {
+        double value[8], found[8];
+        r8_store(value, v);
+        for (int i = 0; i < 8; i++)
+            found[i] = map_search(r->key, r->count, value[i]);
+        return r8_load(found);
+    }
     for (uint32_t i = 0; i + 1 < r->count; i++)
-        n = r8_add(n, r8_select(r8_lt(r8_set(r->key[i]), v), one, zero));
-    n = r8_select(r8_le(r8_set(r->key[r->count - 1]), v), last, n);
+        n = r8_add(n, r8_select(r8_lt(r8_set(r->key[i]), v), one, r8_set(0)));
+    return r8_select(r8_le(r8_set(r->key[r->count - 1]), v), last, n);
+}
+
+// Ascending keys; few: at most eight.
+LANES_INLINE void ramp_quick(const struct pigment_ramp *r, bool few, int channels,
+                             struct real8 v, float out[5][8])
+{
+    const struct real8 one = r8_set(1), zero = r8_set(0), n = ramp_find(r, v);
     int32_t above[8], below[8];
     store_small8(above, n);
-    const struct real8 high = r8_of_floats(pick8(r->key, above));
+    const struct real8 high = r8_of_floats(pick8(r->key, above, few));
     const struct mask8 alone = m8_or(r8_le(n, zero), r8_le(high, v));
     store_small8(below, r8_select(alone, n, r8_sub(n, one)));
-    const struct real8 low = r8_of_floats(pick8(r->key, below));
+    const struct real8 low = r8_of_floats(pick8(r->key, below, few));
     const struct real8 f =
         r8_select(alone, zero, r8_div(r8_sub(v, low), r8_sub(high, low)));
     for (int k = 0; k < channels; k++)
         f8_store(out[k],
-                 blend8(pick8(r->channel[k], below), pick8(r->channel[k], above), f));
+                 blend8(pick8(r->channel[k], below, few),
+                        pick8(r->channel[k], above, few), f));
 }
 
 static void ramp_step(const struct pigment_ramp *r, int channels, unsigned live,
                       const double v[8], float out[5][8])
 {
+    if (r->quick && r->count <= 8) {
+        ramp_quick(r, true, channels, r8_load(v), out);
+        return;
+    }
     if (r->quick) {
-        ramp_quick(r, channels, r8_load(v), out);
+        ramp_quick(r, false, channels, r8_load(v), out);
         return;
     }
     for (; live; live &= live - 1) {

@@ -96,7 +96,7 @@ static const struct pigment *random_pigment(struct arena *a, int depth, bool cle
     *p = (struct pigment){.color = random_color(clear), .pattern = pattern};
     *pattern = (struct pattern){0};
     random_pattern(a, pattern);
-    const uint32_t count = 1 + random_below(depth ? 4 : 12);
+    const uint32_t count = 1 + random_below(depth ? 4 : random_below(6) ? 12 : 90);
     const float *key = random_keys(a, count, random_below(4) != 0);
     p->kind = depth ? (enum pigment_kind)random_below(7) : PIGMENT_COLORS;
     if (p->kind == PIGMENT_IMAGE || (p->kind == PIGMENT_COLORS && random_below(8) == 0))
