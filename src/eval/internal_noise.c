@@ -77,7 +77,7 @@ static void plain_bounds8(const struct noise_kernels *kernels, int generator,
                     generator, &b);
     memcpy(out->lo, b.lo, sizeof b.lo);
     memcpy(out->hi, b.hi, sizeof b.hi);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; partial && i < 3; i++) {
         memcpy(partial[i].lo, b.slope_lo[i], sizeof *b.slope_lo);
         memcpy(partial[i].hi, b.slope_hi[i], sizeof *b.slope_hi);
     }
@@ -149,7 +149,7 @@ static bool noise_generator_bounds8(const struct noise_kernels *kernels, const v
     if (!is_one(in[3].lo) || !is_one(in[3].hi) || in[3].lo[0] != in[3].hi[0])
         return false;
     plain_bounds8(kernels, generator_of(in[3].lo[0]), in, out, partial);
-    for (int l = 0; l < TAPE_LANES; l++) {
+    for (int l = 0; partial && l < TAPE_LANES; l++) {
         partial[3].lo[l] = -INFINITY;
         partial[3].hi[l] = INFINITY;
     }

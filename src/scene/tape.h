@@ -26,8 +26,8 @@ enum { TAPE_LANES = 8, TAPE_ARGUMENTS_MAX = 56, TAPE_WIDTH_MAX = 5, TAPE_PARTIAL
 
 int tape_arguments(const struct tape *t);
 int tape_width(const struct tape *t); // results: 1, or those of a vector function
-// Something in it has no bounds (a pattern, a pigment): bounds may be the whole line
-// however small the box.
+// Something in it has no bounds that shrink with the box (an image, a fractal): those of
+// its values may be wide, and those of its slopes the whole line, however small the box.
 bool tape_is_opaque(const struct tape *t);
 uint32_t tape_length(const struct tape *t); // steps
 
@@ -53,8 +53,11 @@ struct interval tape_bounds(const struct tape *t, const struct interval *argumen
 // argument[i].d[k] says how argument i changes with direction k < directions.
 struct tape_slope tape_bounds_slope(const struct tape *t,
                                     const struct tape_slope *argument, int directions);
-// Of eight boxes of x, y, z at once, with the slopes by these if wanted: the bounds hold, as those of
-// tape_bounds_slope, of which they are the same up to a few roundings.
+// Of all results, as many as tape_width says.
+void tape_bounds_all(const struct tape *t, const struct tape_slope *argument,
+                     int directions, struct tape_slope *out);
+// Of all results over eight boxes of x, y, z at once, with the slopes by these if wanted: the bounds
+// hold, as those of tape_bounds_slope, of which they are the same up to a few roundings.
 struct tape_boxes {
     double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
 };
@@ -75,7 +78,9 @@ struct tape_range8 {
 };
 
 // A function in C that a tape calls. `bounds` fills out and, if partial is not NULL,
-// partial[i * arguments + k] = d out[i] / d in[k]; NULL: nothing is known. `expand`
+// partial[i * arguments + k] = d out[i] / d in[k]; NULL: nothing is known. `opaque` says that
+// they do not shrink with the box; NULL: they do. `anywhere`: they
+// hold for arguments of the whole line too, and for what is no number. `expand`
 // writes it in steps instead, for arguments of which enough are constant (tape_build.h).
 struct tape_builder;
 struct tape_extern {
@@ -91,6 +96,8 @@ struct tape_extern {
                     struct tape_range8 *partial);
     void (*bounds)(const void *data, const struct interval *in, struct interval *out,
                    struct interval *partial);
+    bool (*opaque)(const void *data);
+    bool anywhere;
     bool (*expand)(struct tape_builder *b, const void *data, const uint32_t *in,
                    uint32_t *out);
 };

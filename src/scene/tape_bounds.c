@@ -241,7 +241,12 @@ static struct tape_slope chosen(const struct tape_slope *a, const struct tape_sl
 // ---- calls --------------------------------------------------------------------------
 
 static struct tape_slope run(const struct tape *t, const struct tape_slope *argument,
-                             int n);
+                             int n)
+{
+    struct tape_slope out[TAPE_WIDTH_MAX];
+    tape_bounds_all(t, argument, n, out);
+    return out[0];
+}
 
 enum { TURNS_MAX = 1000 }; // of a loop whose bounds are taken turn by turn
 
@@ -291,7 +296,7 @@ static void extern_bounds(const struct tape_step *s, const struct tape_slope *in
     bool known = f->bounds != NULL;
     for (uint32_t i = 0; i < s->count; i++) {
         at[i] = in[i].v;
-        known &= interval_size(at[i]) < INFINITY;
+        known &= interval_size(at[i]) < INFINITY || f->anywhere;
     }
     for (int i = 0; i < f->width; i++)
         r[i] = nothing_known(n);
@@ -415,8 +420,8 @@ void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
     }
 }
 
-static struct tape_slope run(const struct tape *t, const struct tape_slope *argument,
-                             int n)
+void tape_bounds_all(const struct tape *t, const struct tape_slope *argument,
+                     int n, struct tape_slope *out)
 {
     struct tape_slope r[TAPE_REGISTERS_MAX];
     for (uint32_t i = 0; i < t->constant_count; i++)
@@ -424,7 +429,8 @@ static struct tape_slope run(const struct tape *t, const struct tape_slope *argu
     memcpy(r + t->constant_count, argument, (size_t)t->arguments * sizeof *r);
     for (uint32_t i = 0; i < t->step_count; i++)
         step(t, &t->step[i], r, n);
-    return r[t->result[0]];
+    for (int i = 0; i < t->width; i++)
+        out[i] = r[t->result[i]];
 }
 
 static struct interval chosen_value(struct interval a, struct interval b,

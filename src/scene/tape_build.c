@@ -517,8 +517,10 @@ static bool place(struct finish *f, uint32_t i)
 
 static void look_into(struct finish *f, const struct tape_node *n)
 {
-    if (n->op == TAPE_EXTERN && !((const struct tape_extern *)n->callee)->bounds)
-        f->opaque = true;
+    if (n->op == TAPE_EXTERN) {
+        const struct tape_extern *e = n->callee;
+        f->opaque |= !e->bounds || (e->opaque && e->opaque(n->data));
+    }
     if (n->op == TAPE_CALL || n->op == TAPE_SUM || n->op == TAPE_PRODUCT) {
         const struct tape *t = n->callee;
         f->opaque |= t->opaque;

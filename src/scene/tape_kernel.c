@@ -244,7 +244,7 @@ static bool call_in_lanes(const struct tape *t, const struct tape_step *s, struc
         r8_store(in[i].lo, a->v.lo);
         r8_store(in[i].hi, a->v.hi);
     }
-    if (!f->bounds8(&OF_ISA(noise_kernels_), s->data, in, out, partial))
+    if (!f->bounds8(&OF_ISA(noise_kernels_), s->data, in, out, n ? partial : NULL))
         return false;
     struct reg v[TAPE_WIDTH_MAX];
     for (int i = 0; i < f->width; i++) {
@@ -451,12 +451,14 @@ LANES_INLINE void run_bounds(const struct tape *t, const struct tape_boxes *in,
         for (int k = 0; k < width_of(s); k++)
             moving[s->to + k] = (uint8_t)m;
     }
-    const struct reg *v = &r[t->result[0]];
-    r8_store(out->lo, v->v.lo);
-    r8_store(out->hi, v->v.hi);
-    for (int i = 0; i < n; i++) {
-        r8_store(out->slope_lo[i], v->d[i].lo);
-        r8_store(out->slope_hi[i], v->d[i].hi);
+    for (int k = 0; k < t->width; k++, out++) {
+        const struct reg *v = &r[t->result[k]];
+        r8_store(out->lo, v->v.lo);
+        r8_store(out->hi, v->v.hi);
+        for (int i = 0; i < n; i++) {
+            r8_store(out->slope_lo[i], v->d[i].lo);
+            r8_store(out->slope_hi[i], v->d[i].hi);
+        }
     }
 }
 

@@ -31,12 +31,18 @@ static void one_by_one(const struct tape *t, const struct tape_boxes *in, bool s
             for (int k = 0; k < 3; k++)
                 arg[i].d[k] = interval_point(slopes && i == k);
         }
-        const struct tape_slope r = tape_bounds_slope(t, arg, 3);
-        out->lo[l] = r.v.lo;
-        out->hi[l] = r.v.hi;
-        for (int i = 0; i < 3; i++) {
-            out->slope_lo[i][l] = r.d[i].lo;
-            out->slope_hi[i][l] = r.d[i].hi;
+        struct tape_slope r[TAPE_WIDTH_MAX];
+        if (t->width == 1)
+            r[0] = tape_bounds_slope(t, arg, 3);
+        else
+            tape_bounds_all(t, arg, 3, r);
+        for (int k = 0; k < t->width; k++) {
+            out[k].lo[l] = r[k].v.lo;
+            out[k].hi[l] = r[k].v.hi;
+            for (int i = 0; i < 3; i++) {
+                out[k].slope_lo[i][l] = r[k].d[i].lo;
+                out[k].slope_hi[i][l] = r[k].d[i].hi;
+            }
         }
     }
 }
