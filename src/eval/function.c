@@ -9,8 +9,7 @@
 #include "eval/expr.h"
 #include "eval/internal.h"
 #include "eval/spline.h"
-#include "scene/noise_kernel.h"
-#include "scene/pigment_tape.h"
+#include "scene/pattern_function.h"
 
 enum { NAMES_MAX = TAPE_ARGUMENTS_MAX + 64, MORE_ARGUMENTS = 10000 };
 
@@ -436,87 +435,6 @@ static struct tape *expression(struct eval *e, const struct ast *parameters,
     return finish(e, body, c.b, parameters ? count_list(parameters->list) : 3, &to, 1);
 }
 
-struct function_pigment {
-    const struct pigment *pigment;
-    const struct pigment_tape *tape; // NULL: not compiled
-};
-
-// No surface is there: slopes are 0.
-static void pigment_at(const void *data, const double *in, double *out)
-{
-    const struct function_pigment *f = data;
-    const struct vec3 p = vec3(in[0], in[1], in[2]);
-    const struct texture_point at = {.p = p, .p_world = p, .uv = {p.x, p.y}};
-    struct rgbft c = {0};
-    pigment_color(f->pigment, &at, &c);
-    out[0] = c.r;
-    out[1] = c.g;
-    out[2] = c.b;
-    out[3] = c.filter;
-    out[4] = c.transmit;
-}
-
-static void pigments_at(const struct noise_kernels *k, const void *data,
-                        const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
-{
-    static const double none[3][TAPE_LANES];
-    const struct function_pigment *f = data;
-    const struct pattern_packet packet = {in, none, none, in};
-    float c[TAPE_WIDTH_MAX][TAPE_LANES] = {{0}};
-    if (f->tape) {
-        const unsigned found = k->surface->colors(f->tape, &packet, in, 255, c);
-        for (int i = 0; i < TAPE_LANES && f->tape->channels == 3; i++)
-            c[4][i] = found >> i & 1 ? 0 : 1; // an image does not reach there
-    }
-    for (int i = 0; i < TAPE_LANES; i++) {
-        double one[TAPE_WIDTH_MAX];
-        if (!f->tape)
-            pigment_at(f, (const double[]){in[0][i], in[1][i], in[2][i]}, one);
-        for (int j = 0; j < TAPE_WIDTH_MAX; j++)
-            out[j][i] = f->tape ? (double)c[j][i] : one[j];
-    }
-}
-
-static const struct function_pigment *function_pigment(struct arena *a,
-                                                       const struct pigment *p)
-{
-    struct pigment_compiler c = {.arena = a};
-    if (!p)
-        return NULL;
-    struct function_pigment *f = arena_new_struct(a, struct function_pigment);
-    *f = (struct function_pigment){p, pigment_compile(&c, p)};
-    return f;
-}
-
-static void pattern_at(const void *data, const double *in, double *out)
-{
-    const struct vec3 p = vec3(in[0], in[1], in[2]);
-    const struct pattern_context none = {.p_world = p, .uv = {p.x, p.y}};
-    out[0] = pattern_value(data, p, &none);
-}
-
-static void patterns_at(const struct noise_kernels *k, const void *data,
-                        const double (*in)[TAPE_LANES], double (*out)[TAPE_LANES])
-{
-    static const double none[3][TAPE_LANES];
-    const struct pattern_packet packet = {in, none, none, in};
-    double at[3][TAPE_LANES];
-    memcpy(at, in, sizeof at);
-    k->surface->warp(data, at);
-    k->surface->values(data, &packet, (const double(*)[TAPE_LANES])at, 255, out[0]);
-}
-
-static const struct tape_extern pigment_extern = {.name = "pigment",
-                                                  .arguments = 3,
-                                                  .width = 5,
-                                                  .value = pigment_at,
-                                                  .values = pigments_at};
-static const struct tape_extern pattern_extern = {.name = "pattern",
-                                                  .arguments = 3,
-                                                  .width = 1,
-                                                  .value = pattern_at,
-                                                  .values = patterns_at};
-
 static struct tape *of_extern(struct eval *e, const struct ast *n,
                               const struct tape_extern *f, const void *data)
 {
@@ -557,6 +475,20 @@ static struct tape *of_spline(struct eval *e, const struct ast *n, const struct 
     return of_extern(e, n, &spline_extern[s->width], s);
 }
 
+static struct tape *of_pigment(struct eval *e, const struct ast *n)
+{
+    const struct pigment *p = builder_function_pigment(e->builder, n);
+    return p ? of_extern(e, n, &pigment_extern, pigment_function(e->arena, e->parse, p))
+             : NULL;
+}
+
+static struct tape *of_pattern(struct eval *e, const struct ast *n)
+{
+    const struct pattern *p = builder_function_pattern(e->builder, n);
+    return p ? of_extern(e, n, &pattern_extern, pattern_function(e->arena, e->parse, p))
+             : NULL;
+}
+
 static struct tape *of_block(struct eval *e, const struct ast *body)
 {
     const struct value *v;
@@ -565,12 +497,8 @@ static struct tape *of_block(struct eval *e, const struct ast *body)
     case WORD_transform:
         v = builder_block(e->builder, body);
         return v ? of_transform(e, body, v->data) : NULL;
-    case WORD_pigment:
-        return of_extern(e, body, &pigment_extern,
-                         function_pigment(e->arena, builder_function_pigment(e->builder, body)));
-    case WORD_pattern:
-        return of_extern(e, body, &pattern_extern,
-                         builder_function_pattern(e->builder, body));
+    case WORD_pigment: return of_pigment(e, body);
+    case WORD_pattern: return of_pattern(e, body);
     default:
         diag_at(e->diags, DIAG_FUNCTION_ITEM, body->where,
                 word_text((enum word)body->word));

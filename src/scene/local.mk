@@ -22,7 +22,8 @@ liblambert_a_SOURCES += \
 # textures
 liblambert_a_SOURCES += \
 	%D%/finish.c %D%/interior.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
-	%D%/pattern.c %D%/pattern_math.h %D%/pigment.c %D%/pigment_tape.c %D%/pigment_tape.h %D%/surface_eval.h %D%/texture.c \
+	%D%/pattern.c %D%/pattern_bounds.c %D%/pattern_formula.c %D%/pattern_formula.h %D%/pattern_function.c \
+	%D%/pattern_function.h %D%/pattern_math.h %D%/pigment.c %D%/pigment_tape.c %D%/pigment_tape.h %D%/surface_eval.h %D%/texture.c \
 	%D%/warp.c %D%/warp.h
 liblambert_a_SOURCES += \
 	%D%/patterns/agate.c %D%/patterns/aoi.c %D%/patterns/boxed.c %D%/patterns/bozo.c \
@@ -37,7 +38,7 @@ liblambert_a_SOURCES += \
 	%D%/patterns/spiral2.c %D%/patterns/spotted.c %D%/patterns/square.c \
 	%D%/patterns/triangular.c %D%/patterns/waves.c %D%/patterns/wood.c \
 	%D%/patterns/wrinkles.c %D%/patterns/mandel.c %D%/patterns/julia.c \
-	%D%/patterns/magnet.c %D%/patterns/fractal.h %D%/patterns/cellular.h %D%/patterns/rings.h \
+	%D%/patterns/magnet.c %D%/patterns/crackle.h %D%/patterns/crackle_bounds.c %D%/patterns/fractal.h %D%/patterns/cellular.h %D%/patterns/rings.h \
 	%D%/patterns/crackle.c %D%/patterns/facets.c \
 	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c \
 	%D%/image_map.c %D%/image_map.h %D%/patterns/image_pattern.c \

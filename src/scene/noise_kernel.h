@@ -25,8 +25,21 @@ typedef void noise_bounds_kernel(const double lo[3][8], const double hi[3][8],
                                  int generator, struct noise_bounds8 *out);
 noise_bounds_kernel noise_bounds_base, noise_bounds_avx2, noise_bounds_avx512;
 
-struct surface_kernels;
-struct tape_kernels; // scene/tape_kernel.h
+// A sum of the distances to the three nearest points of cells, clamped (crackle): bounds over
+// eight boxes, and of the slopes if wanted. For a metric of at least 1 and an offset that is
+// not negative, or a metric of 1 or 2. `twice`: 2 * metric where it is whole, else 0.
+struct noise_cells_form {
+    double metric, offset, form[3];
+    int twice, wanted; // wanted: how many of the points have a say
+};
+typedef void noise_cells_bounds_kernel(const struct noise_cells_form *f,
+                                       const double lo[3][8], const double hi[3][8],
+                                       bool slopes, struct noise_bounds8 *out);
+noise_cells_bounds_kernel noise_cells_bounds_base, noise_cells_bounds_avx2,
+    noise_cells_bounds_avx512;
+
+struct tape_kernels;    // scene/tape_kernel.h
+struct surface_kernels; // scene/pigment_tape.h
 // The three smallest of the squares (metric 2) or sums (metric 1) of the distances from
 // points of one cell, those in `lanes`, to the random points of the cells around
 // (scene/patterns/cellular.h). Those after the first `count` may be too large. `place`, if
@@ -64,6 +77,7 @@ struct noise_kernels {
                     double out[3][8]);
     noise_nearest_kernel *nearest;
     noise_bounds_kernel *bounds;
+    noise_cells_bounds_kernel *cells_bounds;
     // cycloidal of scene/pattern_math.h, and quick_pow.
     void (*cycloidal)(const double v[8], double out[8]);
     void (*sine)(const double v[8], double out[8]);                     // pattern_sine
@@ -71,9 +85,8 @@ struct noise_kernels {
     void (*power)(const double x[8], double y, double out[8]);
     noise_rings_kernel *rings;
     noise_ring_slopes_kernel *ring_slopes;
-    // Functions and pigments of the same instruction set.
-    const struct tape_kernels *tapes;
-    const struct surface_kernels *surface; // scene/pigment_tape.h
+    const struct tape_kernels *tapes; // functions of the same instruction set
+    const struct surface_kernels *surface; // likewise
 };
 
 extern const struct noise_kernels noise_kernels_base, noise_kernels_avx2,

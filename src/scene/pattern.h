@@ -16,6 +16,7 @@ struct image_map;
 struct density_grid;
 struct pattern;
 struct noise_kernels;
+struct formula;
 
 enum wave { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY };
 
@@ -76,6 +77,9 @@ struct pattern_ops {
     // The same at eight points, to the bit. NULL: by value, one after the other.
     void (*values)(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8]);
+    // The value as steps of a tape, for bounds (scene/pattern_formula.h). NULL: nothing is
+    // known of it.
+    uint32_t (*formula)(struct formula *f, const struct pattern *p, const uint32_t at[3]);
     // Told when all parameters are read: settles them, or says what is wrong. NULL: none.
     const char *(*finish)(struct pattern *p);
     // As a normal: n changed by this pattern's own rule (spec/textures 11.3). NULL:

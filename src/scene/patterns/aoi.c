@@ -1,5 +1,6 @@
 // aoi: the angle between ray and perturbed normal, over pi
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -14,5 +15,13 @@ static double value(const struct pattern *p, struct vec3 at,
     return det_acos(s < -1 ? -1 : s > 1 ? 1 : s) / PATTERN_PI;
 }
 
+// No surface is there.
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    (void)at;
+    return formula_constant(f, 0);
+}
+
 const struct pattern_ops aoi_pattern_ops = {
-    .keyword = "aoi", .frequency = 1, .value = value};
+    .keyword = "aoi", .frequency = 1, .value = value, .formula = formula};

@@ -1,5 +1,6 @@
 // bozo: noise
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -15,5 +16,13 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
     k->value(at, 1, pattern_noise_generator(p), out);
 }
 
-const struct pattern_ops bozo_pattern_ops = {
-    .keyword = "bozo", .frequency = 1, .value = value, .values = values};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    return formula_noise(f, p, at);
+}
+
+const struct pattern_ops bozo_pattern_ops = {.keyword = "bozo",
+                                             .frequency = 1,
+                                             .value = value,
+                                             .formula = formula,
+                                             .values = values};

@@ -1,5 +1,6 @@
 // brick: courses of bricks (1) in mortar (0), spec/textures 5.2
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static void init(struct pattern *p)
@@ -30,5 +31,31 @@ static double value(const struct pattern *p, struct vec3 at,
     return fraction(x + 0.5) > m / s.x && fraction(z) > m / s.z;
 }
 
-const struct pattern_ops brick_pattern_ops = {
-    .keyword = "brick", .frequency = 0, .list = 2, .init = init, .value = value};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    const float m = (float)(p->value[0] - 2 * PATTERN_EDGE);
+    const double move = PATTERN_EDGE + m;
+    uint32_t v[3], inner[3], shifted[3]; // in the brick along each axis
+    for (int i = 0; i < 3; i++) {
+        const double size = vec3_axis(p->vector, i);
+        const uint32_t joint = formula_constant(f, m / size);
+        v[i] = tape_quotient(f->b, formula_offset(f, at[i], move),
+                             formula_constant(f, size));
+        inner[i] = formula_less(f, joint, formula_fraction(f, v[i]));
+        shifted[i] =
+            formula_less(f, joint, formula_fraction(f, formula_offset(f, v[i], 0.5)));
+    }
+    const uint32_t half = formula_fraction(f, formula_scale(f, v[1], 0.5));
+    const uint32_t even =
+        tape_binary(f->b, TAPE_LESS_EQUAL, half, formula_constant(f, 0.5));
+    const uint32_t row = formula_where(f, even, formula_both(f, inner[0], shifted[2]),
+                                       formula_both(f, shifted[0], inner[2]));
+    return formula_both(f, inner[1], row);
+}
+
+const struct pattern_ops brick_pattern_ops = {.keyword = "brick",
+                                              .frequency = 0,
+                                              .list = 2,
+                                              .init = init,
+                                              .value = value,
+                                              .formula = formula};

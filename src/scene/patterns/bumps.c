@@ -1,5 +1,6 @@
 // bumps: noise; as a normal, vector noise
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -33,9 +34,15 @@ static void perturbs(const struct pattern *p, const struct noise_kernels *k, flo
             n[a][i] += amount * v[a][i];
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    return formula_noise(f, p, at);
+}
+
 const struct pattern_ops bumps_pattern_ops = {.keyword = "bumps",
                                               .frequency = 1,
                                               .value = value,
+                                              .formula = formula,
                                               .values = values,
                                               .perturb = perturb,
                                               .perturbs = perturbs};

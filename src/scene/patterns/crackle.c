@@ -6,6 +6,7 @@
 // Euclidean length, which differs from them by a factor 3^|1/p - 1/2| at the most, tells
 // which few points they are worth while for.
 
+#include "scene/patterns/crackle.h"
 #include "scene/patterns/cellular.h"
 
 static void init(struct pattern *p)
@@ -14,49 +15,12 @@ static void init(struct pattern *p)
     p->metric = 2;
 }
 
-// ---- the powers of a metric ----------------------------------------------------------
+// ---- distances ------------------------------------------------------------------------
 
-// x^metric. Up to TWICE_MAX / 2 halves of whole numbers need no logarithm.
-struct power {
-    double metric;
-    int twice; // 2 * metric, or 0: neither whole nor half
-};
-
-enum { TWICE_MAX = 16 };
-
-static struct power power_of(double metric)
+static double distance_sum(struct vec3 e, struct crackle_power p)
 {
-    const double twice = 2 * metric;
-    const bool exact = twice >= 1 && twice <= TWICE_MAX && floor(twice) == twice;
-    return (struct power){metric, exact ? (int)twice : 0};
-}
-
-static double raised(struct power p, double x)
-{
-    if (!p.twice)
-        return det_pow(x, p.metric);
-    double r = p.twice & 1 ? sqrt(x) : 1;
-    for (int n = p.twice >> 1; n; n >>= 1) {
-        if (n & 1)
-            r *= x;
-        x *= x;
-    }
-    return r;
-}
-
-// The root: in single precision and one step of Newton's method, which leaves the rounding
-// of the power.
-static double lowered(struct power p, double s)
-{
-    if (!p.twice || !(s >= DBL_MIN && s <= DBL_MAX))
-        return det_pow(s, 1 / p.metric);
-    const double r = det_pow_single(s, 1 / p.metric);
-    return r + r * (s / raised(p, r) - 1) / p.metric;
-}
-
-static double distance_sum(struct vec3 e, struct power p)
-{
-    return raised(p, fabs(e.x)) + raised(p, fabs(e.y)) + raised(p, fabs(e.z));
+    return crackle_raised(p, fabs(e.x)) + crackle_raised(p, fabs(e.y)) +
+           crackle_raised(p, fabs(e.z));
 }
 
 static double distance_sum_single(struct vec3 e, double metric)
@@ -65,24 +29,14 @@ static double distance_sum_single(struct vec3 e, double metric)
            det_pow_single(fabs(e.z), metric);
 }
 
-static double distance_of(double sum, double metric, double offset)
-{
-    if (metric == 2)
-        return sqrt(sum + offset * offset);
-    if (metric == 1)
-        return sum + offset;
-    const struct power p = power_of(metric);
-    return lowered(p, offset != 0 ? sum + raised(p, offset) : sum);
-}
-
 // ---- the nearest points --------------------------------------------------------------
 
-enum { CELLS = 81, CELLS_NEAR = 27, NEAREST = 3 }; // NEAR: without those two cells off
+enum { CELLS_NEAR = 27 }; // NEAR: without those two cells off
 
 // The three smallest sums in ascending order, and the point of the smallest: of equal ones
 // that of the cell which is first in lexical order.
 struct nearest {
-    double d[NEAREST];
+    double d[CRACKLE_NEAREST];
     struct vec3 p;
     int rank;
 };
@@ -111,31 +65,7 @@ static struct nearest nothing(struct vec3 cell)
     return (struct nearest){.d = {DBL_MAX, DBL_MAX, DBL_MAX}, .p = cell, .rank = -1};
 }
 
-// Cells that are likely near first.
-struct cell_offset {
-    signed char x, y, z;
-};
-
-#define FACES(r)                                                                         \
-    {-r, 0, 0}, {r, 0, 0}, {0, -r, 0}, {0, r, 0}, {0, 0, -r}, { 0, 0, r }
-#define PAIR(r, s)                                                                       \
-    {r, s, 0}, {s, r, 0}, {r, 0, s}, {s, 0, r}, {0, r, s}, { 0, s, r }
-#define TRIPLE(r, s, t)                                                                  \
-    {r, s, t}, {s, r, t}, { s, t, r }
-
-static const struct cell_offset around[CELLS] = {
-    {0, 0, 0},         FACES(1),          {-1, -1, 0},      {-1, 1, 0},
-    {1, -1, 0},        {1, 1, 0},         {-1, 0, -1},      {-1, 0, 1},
-    {1, 0, -1},        {1, 0, 1},         {0, -1, -1},      {0, -1, 1},
-    {0, 1, -1},        {0, 1, 1},         {-1, -1, -1},     {-1, -1, 1},
-    {-1, 1, -1},       {-1, 1, 1},        {1, -1, -1},      {1, -1, 1},
-    {1, 1, -1},        {1, 1, 1},         FACES(2),         PAIR(-2, -1),
-    PAIR(-2, 1),       PAIR(2, -1),       PAIR(2, 1),       TRIPLE(-2, -1, -1),
-    TRIPLE(-2, -1, 1), TRIPLE(-2, 1, -1), TRIPLE(-2, 1, 1), TRIPLE(2, -1, -1),
-    TRIPLE(2, -1, 1),  TRIPLE(2, 1, -1),  TRIPLE(2, 1, 1),
-};
-
-static int rank_of(struct cell_offset o)
+static int rank_of(struct crackle_cell o)
 {
     return ((o.x + 2) * 5 + o.y + 2) * 5 + o.z + 2;
 }
@@ -179,10 +109,10 @@ static inline __attribute__((always_inline)) int search(struct vec3 at, bool squ
     const double far = fmin(fmin(fmin(x[0], x[4]), fmin(y[0], y[4])), fmin(z[0], z[4]));
     *n = nothing(cell);
     int count = 0;
-    for (int i = 0; i < CELLS; i++) {
+    for (int i = 0; i < CRACKLE_CELLS; i++) {
         if (i == CELLS_NEAR && far > stretch * n->d[wanted - 1])
             break;
-        const struct cell_offset o = around[i];
+        const struct crackle_cell o = crackle_cells[i];
         if (x[o.x + 2] + y[o.y + 2] + z[o.z + 2] > stretch * n->d[wanted - 1])
             continue;
         const struct vec3 q = noise_cell_point(cell.x + o.x, cell.y + o.y, cell.z + o.z);
@@ -219,8 +149,8 @@ static double stretch_of(double metric)
 // By any other metric.
 static void search_general(struct vec3 at, double metric, int wanted, struct nearest *n)
 {
-    struct candidate c[CELLS];
-    const struct power p = power_of(metric);
+    struct candidate c[CRACKLE_CELLS];
+    const struct crackle_power p = crackle_power(metric);
     const double stretch = stretch_of(metric);
     int count = search(at, true, wanted, stretch, c, n);
     count = thinned(c, count, n->d[wanted - 1], stretch - 1);
@@ -237,26 +167,20 @@ static void search_general(struct vec3 at, double metric, int wanted, struct nea
         keep(n, distance_sum(c[i].e, p), c[i].p, c[i].rank);
 }
 
-// How many of the nearest points have a say.
-static int wanted_of(const struct pattern *p)
+static double form_value(const struct pattern *p, const double d[CRACKLE_NEAREST])
 {
-    return p->solid ? 1 : p->vector.z != 0 ? 3 : p->vector.y != 0 ? 2 : 1;
-}
-
-static double form_value(const struct pattern *p, const double d[NEAREST])
-{
-    const double form[NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
+    const double form[CRACKLE_NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
     double sum = 0;
-    for (int i = 0; i < NEAREST; i++)
+    for (int i = 0; i < CRACKLE_NEAREST; i++)
         if (form[i] != 0)
-            sum += form[i] * distance_of(d[i], p->metric, p->offset);
+            sum += form[i] * crackle_distance(d[i], p->metric, p->offset);
     return clamp01(sum);
 }
 
 // The nearest points to a place, by the pattern's metric.
 static void search_one(const struct pattern *p, struct vec3 at, struct nearest *n)
 {
-    const int wanted = wanted_of(p);
+    const int wanted = crackle_wanted(p);
     if (p->metric == 2)
         search(at, true, wanted, 1, NULL, n);
     else if (p->metric == 1)
@@ -278,12 +202,12 @@ static double value(const struct pattern *p, struct vec3 at,
 
 // What is found at each: by lanes.
 struct nearest8 {
-    double d[NEAREST][8], p[3][8];
+    double d[CRACKLE_NEAREST][8], p[3][8];
 };
 
 static void keep_lane(struct nearest8 *all, int i, const struct nearest *n)
 {
-    for (int k = 0; k < NEAREST; k++)
+    for (int k = 0; k < CRACKLE_NEAREST; k++)
         all->d[k][i] = n->d[k];
     all->p[0][i] = n->p.x, all->p[1][i] = n->p.y, all->p[2][i] = n->p.z;
 }
@@ -317,8 +241,8 @@ static void search_all(const struct pattern *p, const struct noise_kernels *k,
         lanes = (lanes & left) | 1u << first; // no numbers are not the same
         left &= ~lanes;
         if (together && lanes & (lanes - 1)) {
-            double sum[NEAREST][8], place[3][8];
-            k->nearest(at, c, lanes, (int)p->metric, wanted_of(p), sum,
+            double sum[CRACKLE_NEAREST][8], place[3][8];
+            k->nearest(at, c, lanes, (int)p->metric, crackle_wanted(p), sum,
                        p->solid ? place : NULL);
             keep_lanes(p->solid ? all->p : all->d,
                        (const double(*)[8])(p->solid ? place : sum), lanes);
@@ -336,12 +260,12 @@ static void search_all(const struct pattern *p, const struct noise_kernels *k,
 static void form_values(const struct pattern *p, const struct nearest8 *all,
                         double out[8])
 {
-    const double form[NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
+    const double form[CRACKLE_NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
     double sum[8] = {0};
-    for (int k = 0; k < NEAREST; k++)
+    for (int k = 0; k < CRACKLE_NEAREST; k++)
         if (form[k] != 0)
             for (int i = 0; i < 8; i++)
-                sum[i] += form[k] * distance_of(all->d[k][i], p->metric, p->offset);
+                sum[i] += form[k] * crackle_distance(all->d[k][i], p->metric, p->offset);
     for (int i = 0; i < 8; i++)
         out[i] = clamp01(sum[i]);
 }
@@ -360,5 +284,14 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
         out[i] = clamp01(out[i]);
 }
 
-const struct pattern_ops crackle_pattern_ops = {
-    .keyword = "crackle", .frequency = 1, .init = init, .value = value, .values = values};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    return formula_extern(f, &crackle_bounds, p, at);
+}
+
+const struct pattern_ops crackle_pattern_ops = {.keyword = "crackle",
+                                                .frequency = 1,
+                                                .init = init,
+                                                .value = value,
+                                                .formula = formula,
+                                                .values = values};

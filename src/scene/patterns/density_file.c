@@ -2,6 +2,7 @@
 
 #include "scene/density_grid.h"
 #include "scene/pattern.h"
+#include "scene/pattern_formula.h"
 
 // The cell of a coordinate and the place in it.
 struct cell {
@@ -99,5 +100,11 @@ static double value(const struct pattern *p, struct vec3 at,
     }
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    // Cubic curves overshoot by a quarter along each axis.
+    return formula_unknown(f, 0, p->integer[0] % 10 <= 1 ? 1 : 2, at);
+}
+
 const struct pattern_ops density_file_pattern_ops = {
-    .keyword = "density_file", .frequency = 1, .value = value};
+    .keyword = "density_file", .frequency = 1, .value = value, .formula = formula};

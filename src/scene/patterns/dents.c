@@ -1,5 +1,6 @@
 // dents: noise cubed; as a normal, vector noise of that strength
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -35,9 +36,16 @@ static void perturbs(const struct pattern *p, const struct noise_kernels *k, flo
             n[a][i] += amount * strength[i] * v[a][i];
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    const uint32_t n = formula_noise(f, p, at);
+    return formula_multiply(f, tape_unary(f->b, TAPE_SQUARE, n), n);
+}
+
 const struct pattern_ops dents_pattern_ops = {.keyword = "dents",
                                               .frequency = 1,
                                               .value = value,
+                                              .formula = formula,
                                               .values = values,
                                               .perturb = perturb,
                                               .perturbs = perturbs};

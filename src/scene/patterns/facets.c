@@ -1,5 +1,6 @@
 // facets: a normal that is constant on random cells (spec/textures 11.3)
 
+#include "scene/pattern_formula.h"
 #include "scene/patterns/cellular.h"
 
 static void init(struct pattern *p)
@@ -60,8 +61,16 @@ static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
     return vec3_mad(n, coords, d);
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    (void)at;
+    return formula_constant(f, 0);
+}
+
 const struct pattern_ops facets_pattern_ops = {.keyword = "facets",
                                                .frequency = 1,
                                                .init = init,
                                                .value = value,
+                                               .formula = formula,
                                                .perturb = perturb};

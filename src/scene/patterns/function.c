@@ -1,6 +1,7 @@
 // function { F }: what the scene wrote
 
 #include "scene/noise_kernel.h"
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 #include "scene/tape_kernel.h"
 
@@ -25,5 +26,19 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
     }
 }
 
-const struct pattern_ops function_pattern_ops = {
-    .keyword = "function", .frequency = 1, .value = value, .values = values};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    uint32_t v;
+    if (p->function == tape_at) {
+        tape_call(f->b, p->function_data, at, &v);
+        return formula_wrap(f, v);
+    }
+    return p->function ? formula_unknown(f, -INFINITY, INFINITY, at)
+                       : formula_constant(f, 0);
+}
+
+const struct pattern_ops function_pattern_ops = {.keyword = "function",
+                                                 .frequency = 1,
+                                                 .value = value,
+                                                 .formula = formula,
+                                                 .values = values};

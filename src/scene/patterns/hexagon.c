@@ -1,5 +1,6 @@
 // hexagon: three kinds of hexagons in the xz plane, spec/textures 5.5
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 #define HALF_ROOT3  0.866025404
@@ -31,5 +32,48 @@ static double value(const struct pattern *p, struct vec3 at,
     return b / a < 1 ? below[j] : above[j];
 }
 
+// Within one triangle of one cell of the lattice, by its corners; else anything.
+static bool is_settled(const struct interval in[3])
+{
+    const struct interval x = interval_abs(in[0]);
+    if (in[2].lo < 0 && in[2].hi >= 0)
+        return false;
+    const struct interval z =
+        in[2].lo >= 0 ? in[2] : interval(THREE_ROOT3 + in[2].lo, THREE_ROOT3 + in[2].hi);
+    const double slack = 1e-9 * (1 + interval_size(x) + interval_size(in[2]));
+    const double u0 = fmax(x.lo / 0.5 - slack, 0), u1 = x.hi / 0.5 + slack;
+    const double w0 = z.lo / HALF_ROOT3 - slack, w1 = z.hi / HALF_ROOT3 + slack;
+    if (floor(u0) != floor(u1) || floor(w0) != floor(w1))
+        return false;
+    const int i = (int)fold(floor(u0), 6), j = (int)fold(floor(w0), 6);
+    if (i != 1 && i != 4)
+        return true;
+    const bool falls = (i + j) % 2 == 1;
+    const double a0 = falls ? 1 - (u1 - floor(u0)) : u0 - floor(u0);
+    const double a1 = falls ? 1 - (u0 - floor(u0)) : u1 - floor(u0);
+    return w1 - floor(w0) < a0 || w0 - floor(w0) > a1;
+}
+
+static void bounds(const void *data, const struct interval *in, struct interval *out,
+                   struct interval *partial)
+{
+    (void)data;
+    const bool settled = is_settled(in);
+    const double v =
+        value(NULL, vec3(interval_middle(in[0]), 0, interval_middle(in[2])), NULL);
+    out[0] = settled ? interval_point(v) : interval(0, 2);
+    for (int i = 0; partial && i < 3; i++)
+        partial[i] = settled ? interval_point(0) : interval_whole();
+}
+
+static const struct tape_extern hexagon = {
+    .name = "hexagon", .arguments = 3, .width = 1, .bounds = bounds};
+
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    return formula_extern(f, &hexagon, NULL, at);
+}
+
 const struct pattern_ops hexagon_pattern_ops = {
-    .keyword = "hexagon", .frequency = 0, .list = 3, .value = value};
+    .keyword = "hexagon", .frequency = 0, .list = 3, .value = value, .formula = formula};

@@ -1,5 +1,6 @@
 // leopard: spots where three sines meet
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -24,5 +25,17 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
     }
 }
 
-const struct pattern_ops leopard_pattern_ops = {
-    .keyword = "leopard", .frequency = 1, .value = value, .values = values};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    uint32_t sum = tape_unary(f->b, TAPE_SIN, at[0]);
+    for (int i = 1; i < 3; i++)
+        sum = formula_add(f, sum, tape_unary(f->b, TAPE_SIN, at[i]));
+    return tape_unary(f->b, TAPE_SQUARE, formula_scale(f, sum, 1.0 / 3));
+}
+
+const struct pattern_ops leopard_pattern_ops = {.keyword = "leopard",
+                                                .frequency = 1,
+                                                .value = value,
+                                                .formula = formula,
+                                                .values = values};

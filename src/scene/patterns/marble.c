@@ -1,5 +1,6 @@
 // marble: bands along x, moved by turbulence
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -21,9 +22,19 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
         out[i] = t ? at[0][i] + t->amount.x * out[i] : at[0][i];
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    const struct turbulence *t = p->turbulence;
+    if (!t)
+        return at[0];
+    const uint32_t moved = formula_turbulence(f, p, t, at);
+    return formula_add(f, at[0], formula_scale(f, moved, t->amount.x));
+}
+
 const struct pattern_ops marble_pattern_ops = {.keyword = "marble",
                                                .wave = WAVE_TRIANGLE,
                                                .frequency = 1,
                                                .own_turbulence = true,
                                                .value = value,
+                                               .formula = formula,
                                                .values = values};

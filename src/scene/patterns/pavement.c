@@ -1,5 +1,6 @@
 // pavement: the plane cut into equal pieces of triangles, squares or hexagons, the value
 // rising from 0 inside to 1 at the joints (spec/textures 7)
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 #include <stdint.h>
@@ -411,8 +412,15 @@ static double value(const struct pattern *p, struct vec3 at,
     return g->sides == 4 ? squares(p, g, at) : triangles(p, g, at);
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    return formula_unknown(f, -1, 2, at); // 0 to a little more than 1
+}
+
 const struct pattern_ops pavement_pattern_ops = {.keyword = "pavement",
                                                  .frequency = 1,
                                                  .init = init,
                                                  .finish = finish,
-                                                 .value = value};
+                                                 .value = value,
+                                                 .formula = formula};

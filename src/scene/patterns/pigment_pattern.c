@@ -1,5 +1,6 @@
 // pigment_pattern { P }: the grey of a pigment
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 #include "scene/texture.h"
 
@@ -17,5 +18,10 @@ static double value(const struct pattern *p, struct vec3 at,
     return (float)(0.297 * color.r + 0.589 * color.g + 0.114 * color.b);
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    return p->pigment ? formula_grey(f, p->pigment, at) : formula_constant(f, 0);
+}
+
 const struct pattern_ops pigment_pattern_pattern_ops = {
-    .keyword = "pigment_pattern", .frequency = 1, .value = value};
+    .keyword = "pigment_pattern", .frequency = 1, .value = value, .formula = formula};

@@ -1,5 +1,6 @@
 // planar: 1 on the xz plane, 0 from distance 1 on
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -10,5 +11,11 @@ static double value(const struct pattern *p, struct vec3 at,
     return fade_out(fabs(at.y));
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    return formula_fade_out(f, formula_abs(f, at[1]));
+}
+
 const struct pattern_ops planar_pattern_ops = {
-    .keyword = "planar", .frequency = 1, .value = value};
+    .keyword = "planar", .frequency = 1, .value = value, .formula = formula};

@@ -1,5 +1,6 @@
 // slope: how steep the surface is, mixed with height (spec/textures 5.7)
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static double into_range(double v, double low, double high)
@@ -40,5 +41,13 @@ static double value(const struct pattern *p, struct vec3 at,
     return v >= 1 && v < 1 + PATTERN_EDGE ? v - PATTERN_EDGE : wrapped(v);
 }
 
+// No surface is there.
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    (void)at;
+    return formula_constant(f, 0);
+}
+
 const struct pattern_ops slope_pattern_ops = {
-    .keyword = "slope", .frequency = 1, .value = value};
+    .keyword = "slope", .frequency = 1, .value = value, .formula = formula};

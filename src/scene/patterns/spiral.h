@@ -1,6 +1,7 @@
 #ifndef SCENE_PATTERNS_SPIRAL_H
 #define SCENE_PATTERNS_SPIRAL_H
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 // The value of spiral1; *radius is the distance from the z axis.
@@ -15,6 +16,26 @@ static inline double spiral_value(const struct pattern *p, struct vec3 at, doubl
     double v = at.z + r + p->integer[0] * angle / (2 * PATTERN_PI);
     if (p->turbulence)
         v += p->turbulence->amount.x * pattern_turbulence(p, at);
+    *radius = r;
+    return v;
+}
+
+static inline uint32_t spiral_formula(struct formula *f, const struct pattern *p,
+                                      const uint32_t at[3], uint32_t *radius)
+{
+    const double half = PATTERN_PI / 2;
+    const uint32_t r = formula_length(f, at[0], at[1]), zero = formula_constant(f, 0);
+    const uint32_t a = tape_binary(f->b, TAPE_ATAN2, at[1], formula_abs(f, at[0]));
+    const uint32_t left = formula_subtract(f, formula_constant(f, 3 * half), a);
+    uint32_t angle =
+        formula_where(f, formula_less(f, at[0], zero), left, formula_offset(f, a, half));
+    angle = formula_where(f, formula_less(f, zero, r), angle, zero);
+    uint32_t v = formula_add(f, formula_add(f, at[2], r),
+                             formula_scale(f, angle, p->integer[0] / (2 * PATTERN_PI)));
+    if (p->turbulence) {
+        const uint32_t moved = formula_turbulence(f, p, p->turbulence, at);
+        v = formula_add(f, v, formula_scale(f, moved, p->turbulence->amount.x));
+    }
     *radius = r;
     return v;
 }

@@ -1,5 +1,6 @@
 // spiral1 N: N arms around the z axis
 
+#include "scene/pattern_formula.h"
 #include "scene/patterns/spiral.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -10,5 +11,14 @@ static double value(const struct pattern *p, struct vec3 at,
     return spiral_value(p, at, &radius);
 }
 
-const struct pattern_ops spiral1_pattern_ops = {
-    .keyword = "spiral1", .wave = WAVE_TRIANGLE, .frequency = 1, .value = value};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    uint32_t radius;
+    return spiral_formula(f, p, at, &radius);
+}
+
+const struct pattern_ops spiral1_pattern_ops = {.keyword = "spiral1",
+                                                .wave = WAVE_TRIANGLE,
+                                                .frequency = 1,
+                                                .value = value,
+                                                .formula = formula};

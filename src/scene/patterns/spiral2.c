@@ -1,5 +1,6 @@
 // spiral2 N: N arms crossed with rings
 
+#include "scene/pattern_formula.h"
 #include "scene/patterns/spiral.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -10,5 +11,15 @@ static double value(const struct pattern *p, struct vec3 at,
     return triangle_wave(radius) + triangle_wave(v);
 }
 
-const struct pattern_ops spiral2_pattern_ops = {
-    .keyword = "spiral2", .wave = WAVE_TRIANGLE, .frequency = 1, .value = value};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    uint32_t radius;
+    const uint32_t v = spiral_formula(f, p, at, &radius);
+    return formula_add(f, formula_triangle(f, radius), formula_triangle(f, v));
+}
+
+const struct pattern_ops spiral2_pattern_ops = {.keyword = "spiral2",
+                                                .wave = WAVE_TRIANGLE,
+                                                .frequency = 1,
+                                                .value = value,
+                                                .formula = formula};

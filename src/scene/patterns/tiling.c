@@ -1,5 +1,6 @@
 // tiling N: the plane covered by tiles, value 1 at the joints (spec/textures 6)
 #include "scene/patterns/tiling.h"
+#include "scene/pattern_formula.h"
 
 double tile_lozenge(struct place p)
 {
@@ -276,5 +277,11 @@ static double value(const struct pattern *p, struct vec3 at,
     }
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    return formula_unknown(f, -1, 2, at); // 0 to a little more than 1
+}
+
 const struct pattern_ops tiling_pattern_ops = {
-    .keyword = "tiling", .frequency = 1, .value = value};
+    .keyword = "tiling", .frequency = 1, .value = value, .formula = formula};

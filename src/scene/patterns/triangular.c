@@ -1,5 +1,6 @@
 // triangular: six kinds of triangles around each corner, spec/textures 5.5
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 #define ROOT3 1.7320508075688772
@@ -25,5 +26,14 @@ static double value(const struct pattern *p, struct vec3 at,
     return upper ? 5 - r : r;
 }
 
-const struct pattern_ops triangular_pattern_ops = {
-    .keyword = "triangular", .frequency = 0, .list = 6, .value = value};
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    (void)p;
+    return formula_unknown(f, 0, 5, at);
+}
+
+const struct pattern_ops triangular_pattern_ops = {.keyword = "triangular",
+                                                   .frequency = 0,
+                                                   .list = 6,
+                                                   .value = value,
+                                                   .formula = formula};

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static inline double ring(const struct turbulence *t, double x, double y, double dx,
@@ -44,9 +45,25 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
         out[i] = sqrt(x[0][i] * x[0][i] + x[1][i] * x[1][i]);
 }
 
+static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    const struct turbulence *t = p->turbulence;
+    if (!t)
+        return formula_length(f, at[0], at[1]);
+    uint32_t d[3], v[2];
+    formula_dturbulence(f, t, at, d);
+    for (int i = 0; i < 2; i++) {
+        const uint32_t moved =
+            formula_scale(f, formula_add(f, at[i], d[i]), vec3_axis(t->amount, i));
+        v[i] = formula_add(f, at[i], formula_cycloidal(f, moved));
+    }
+    return formula_length(f, v[0], v[1]);
+}
+
 const struct pattern_ops wood_pattern_ops = {.keyword = "wood",
                                              .wave = WAVE_TRIANGLE,
                                              .frequency = 1,
                                              .own_turbulence = true,
                                              .value = value,
+                                             .formula = formula,
                                              .values = values};

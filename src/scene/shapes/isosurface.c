@@ -2,7 +2,7 @@
 //
 // Bounds of F and of its derivatives find the surface whatever its slope is, so that
 // max_gradient, accuracy, evaluate and max_trace are not needed; they matter for functions
-// without bounds alone (patterns, pigments). All crossings are found, as CSG wants them.
+// whose bounds say nothing alone (images, fractals, tilings). All crossings are found, as CSG wants them.
 #include "scene/shapes/isosurface.h"
 #include "scene/shapes/isosurface_open.h"
 

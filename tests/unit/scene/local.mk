@@ -25,3 +25,7 @@ check_PROGRAMS += test_crackle
 test_crackle_SOURCES = %D%/test_crackle.c
 test_crackle_CPPFLAGS = $(test_cppflags)
 test_crackle_LDADD = $(test_ldadd)
+check_PROGRAMS += test_pattern_bounds
+test_pattern_bounds_SOURCES = %D%/test_pattern_bounds.c
+test_pattern_bounds_CPPFLAGS = $(test_cppflags)
+test_pattern_bounds_LDADD = $(test_ldadd)

@@ -1,0 +1,623 @@
+// The externs that formulas of patterns are made of (pattern_formula.h): their bounds over
+// boxes of arguments.
+#include <string.h>
+
+#include "base/arena.h"
+#include "scene/pattern_formula.h"
+#include "scene/pattern_math.h"
+
+#define TURN (2 * PATTERN_PI)
+
+// Sines, powers and sums of a few terms are rounded by less.
+#define VALUE_SLACK 0x1p-46
+// A colour is rounded to single precision, and so is the difference of two.
+#define SINGLE_ROUNDING 0x1p-24
+
+uint32_t formula_extern(struct formula *f, const struct tape_extern *e, const void *data,
+                        const uint32_t at[3])
+{
+    uint32_t out;
+    tape_call_extern(f->b, e, data, at, &out);
+    return out;
+}
+
+static struct interval around(struct interval v, double slack)
+{
+    return interval(v.lo - slack, v.hi + slack);
+}
+
+// ---- nothing known ------------------------------------------------------------------
+
+static void unknown_bounds(const void *data, const struct interval *in,
+                           struct interval *out, struct interval *partial)
+{
+    (void)in;
+    out[0] = *(const struct interval *)data;
+    for (int i = 0; partial && i < 3; i++)
+        partial[i] = interval_whole();
+}
+
+static bool always(const void *data)
+{
+    (void)data;
+    return true;
+}
+
+static const struct tape_extern unknown = {.name = "unknown",
+                                           .arguments = 3,
+                                           .width = 1,
+                                           .bounds = unknown_bounds,
+                                           .opaque = always};
+
+uint32_t formula_unknown(struct formula *f, double lo, double hi, const uint32_t at[3])
+{
+    struct interval *range = arena_new_struct(f->arena, struct interval);
+    *range = interval(lo, hi);
+    return formula_extern(f, &unknown, range, at);
+}
+
+// ---- sums of noise --------------------------------------------------------------------
+
+struct octave_sum {
+    const struct pattern *p;
+    struct noise_octaves o;
+};
+
+struct sum {
+    struct interval v, d[3];
+};
+
+// What one octave's noise counts as, and the slope of that.
+static struct interval counted(const struct noise_octaves *o, int generator, bool first,
+                               struct interval n, struct interval *by)
+{
+    const bool clamped = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
+    const struct interval twice = interval(2 * n.lo, 2 * n.hi);
+    struct interval v;
+    if (o->kind == OCTAVES_FOLDED) {
+        const struct interval off = clamped ? interval(1 - twice.hi, 1 - twice.lo)
+                                            : interval(0.5 - n.hi, 0.5 - n.lo);
+        const double slope = clamped ? 2 : 1;
+        v = interval_abs(off);
+        *by = interval(off.hi > 0 ? -slope : slope, off.lo < 0 ? slope : -slope);
+        if (clamped && v.hi > 0.5) {
+            *by = v.lo > 0.5 ? interval_point(0) : interval_hull(*by, interval_point(0));
+            v = interval(fmin(v.lo, 0.5), 0.5);
+        }
+        return v;
+    }
+    *by = interval_point(clamped ? 2 : 1);
+    v = clamped ? interval(twice.lo - 0.5, twice.hi - 0.5) : n;
+    if (clamped && (o->kind == OCTAVES_STRETCHED || first) && (v.lo < 0 || v.hi > 1)) {
+        *by = v.hi < 0 || v.lo > 1 ? interval_point(0) : interval(0, 2);
+        v = interval(clamp01(v.lo), clamp01(v.hi));
+    }
+    return v;
+}
+
+static void add_octave(struct sum *s, const struct noise_octaves *o, int generator,
+                       bool first, double weight, double scale, struct interval n,
+                       const struct interval slope[3])
+{
+    struct interval by;
+    const struct interval v = counted(o, generator, first, n, &by);
+    const struct interval w = interval_point(weight), ws = interval_point(weight * scale);
+    s->v = interval_add(s->v, interval_multiply(w, v));
+    for (int i = 0; i < 3; i++)
+        s->d[i] =
+            interval_add(s->d[i], interval_multiply(interval_multiply(ws, by), slope[i]));
+}
+
+static void octaves_bounds(const void *data, const struct interval *in,
+                           struct interval *out, struct interval *partial)
+{
+    const struct octave_sum *s = data;
+    const int generator = pattern_noise_generator(s->p);
+    struct sum sum = {0};
+    double scale = s->o.scale, weight = s->o.weight;
+    for (int i = 0; i < s->o.count || i == 0; i++) {
+        struct interval box[3], n, slope[3];
+        for (int k = 0; k < 3; k++)
+            box[k] = interval_multiply(in[k], interval_point(scale));
+        noise_bounds(box, generator, &n, slope);
+        add_octave(&sum, &s->o, generator, i == 0, weight, scale, n, slope);
+        scale *= s->o.lambda;
+        weight *= s->o.omega;
+    }
+    out[0] = around(sum.v, VALUE_SLACK);
+    for (int k = 0; partial && k < 3; k++)
+        partial[k] = sum.d[k];
+}
+
+// The box times a number.
+static void scaled8(const struct tape_range8 *in, double scale, double lo[3][TAPE_LANES],
+                    double hi[3][TAPE_LANES])
+{
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < TAPE_LANES; l++) {
+            const struct interval v = interval_multiply(
+                interval(in[k].lo[l], in[k].hi[l]), interval_point(scale));
+            lo[k][l] = v.lo;
+            hi[k][l] = v.hi;
+        }
+}
+
+static struct interval slope_of(const struct noise_bounds8 *b, int k, int lane)
+{
+    return interval(b->slope_lo[k][lane], b->slope_hi[k][lane]);
+}
+
+static void set_lane(struct tape_range8 *to, int lane, struct interval v)
+{
+    to->lo[lane] = v.lo;
+    to->hi[lane] = v.hi;
+}
+
+static bool octaves_bounds8(const struct noise_kernels *k, const void *data,
+                            const struct tape_range8 *in, struct tape_range8 *out,
+                            struct tape_range8 *partial)
+{
+    const struct octave_sum *s = data;
+    const int generator = pattern_noise_generator(s->p);
+    struct sum sum[TAPE_LANES] = {0};
+    double scale = s->o.scale, weight = s->o.weight;
+    for (int i = 0; i < s->o.count || i == 0; i++) {
+        double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
+        struct noise_bounds8 b;
+        scaled8(in, scale, lo, hi);
+        k->bounds((const double(*)[TAPE_LANES])lo, (const double(*)[TAPE_LANES])hi,
+                  generator, &b);
+        for (int l = 0; l < TAPE_LANES; l++) {
+            const struct interval slope[3] = {slope_of(&b, 0, l), slope_of(&b, 1, l),
+                                              slope_of(&b, 2, l)};
+            add_octave(&sum[l], &s->o, generator, i == 0, weight, scale,
+                       interval(b.lo[l], b.hi[l]), slope);
+        }
+        scale *= s->o.lambda;
+        weight *= s->o.omega;
+    }
+    for (int l = 0; l < TAPE_LANES; l++) {
+        set_lane(out, l, around(sum[l].v, VALUE_SLACK));
+        for (int a = 0; partial && a < 3; a++)
+            set_lane(&partial[a], l, sum[l].d[a]);
+    }
+    return true;
+}
+
+static const struct tape_extern octaves = {.name = "octaves",
+                                           .arguments = 3,
+                                           .width = 1,
+                                           .bounds = octaves_bounds,
+                                           .bounds8 = octaves_bounds8};
+
+uint32_t formula_octaves(struct formula *f, const struct pattern *p,
+                         const struct noise_octaves *o, const uint32_t at[3])
+{
+    struct octave_sum *s = arena_new_struct(f->arena, struct octave_sum);
+    *s = (struct octave_sum){p, *o};
+    return formula_extern(f, &octaves, s, at);
+}
+
+uint32_t formula_turbulence(struct formula *f, const struct pattern *p,
+                            const struct turbulence *t, const uint32_t at[3])
+{
+    const struct noise_octaves o = {1,        t->lambda,  1,
+                                    t->omega, t->octaves, OCTAVES_TURBULENCE};
+    return formula_octaves(f, p, &o, at);
+}
+
+static void noise_extern_bounds(const void *data, const struct interval *in,
+                                struct interval *out, struct interval *partial)
+{
+    struct interval slope[3];
+    noise_bounds(in, pattern_noise_generator(data), out, slope);
+    if (partial)
+        memcpy(partial, slope, sizeof slope);
+}
+
+static bool noise_extern_bounds8(const struct noise_kernels *k, const void *data,
+                                 const struct tape_range8 *in, struct tape_range8 *out,
+                                 struct tape_range8 *partial)
+{
+    double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
+    struct noise_bounds8 b;
+    scaled8(in, 1, lo, hi);
+    k->bounds((const double(*)[TAPE_LANES])lo, (const double(*)[TAPE_LANES])hi,
+              pattern_noise_generator(data), &b);
+    memcpy(out->lo, b.lo, sizeof b.lo);
+    memcpy(out->hi, b.hi, sizeof b.hi);
+    for (int a = 0; partial && a < 3; a++)
+        for (int l = 0; l < TAPE_LANES; l++)
+            set_lane(&partial[a], l, slope_of(&b, a, l));
+    return true;
+}
+
+static const struct tape_extern noise_extern = {.name = "noise",
+                                                .arguments = 3,
+                                                .width = 1,
+                                                .bounds = noise_extern_bounds,
+                                                .bounds8 = noise_extern_bounds8};
+
+uint32_t formula_noise(struct formula *f, const struct pattern *p, const uint32_t at[3])
+{
+    return formula_extern(f, &noise_extern, p, at);
+}
+
+// ---- noise_dturbulence ------------------------------------------------------------------
+
+static void dturbulence_bounds(const void *data, const struct interval *in,
+                               struct interval *out, struct interval *partial)
+{
+    const struct turbulence *t = data;
+    for (int c = 0; c < 3; c++) {
+        struct interval v = interval_point(0), d[3] = {v, v, v};
+        double scale = 1, weight = 1;
+        for (int i = 0; i < t->octaves || i == 0; i++) {
+            struct interval box[3], n, slope[3];
+            for (int k = 0; k < 3; k++)
+                box[k] = interval_multiply(in[k], interval_point(scale));
+            noise_bounds(box, NOISE_COMPONENT + c, &n, slope);
+            v = interval_add(v, interval_multiply(interval_point(weight), n));
+            for (int k = 0; k < 3; k++)
+                d[k] = interval_add(
+                    d[k], interval_multiply(interval_point(weight * scale), slope[k]));
+            scale *= t->lambda;
+            weight *= t->omega;
+        }
+        out[c] = around(v, VALUE_SLACK);
+        for (int k = 0; partial && k < 3; k++)
+            partial[3 * c + k] = d[k];
+    }
+}
+
+static bool dturbulence_bounds8(const struct noise_kernels *kernels, const void *data,
+                                const struct tape_range8 *in, struct tape_range8 *out,
+                                struct tape_range8 *partial)
+{
+    const struct turbulence *t = data;
+    struct sum sum[3][TAPE_LANES] = {0};
+    double scale = 1, weight = 1;
+    for (int i = 0; i < t->octaves || i == 0; i++) {
+        double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
+        scaled8(in, scale, lo, hi);
+        const struct interval w = interval_point(weight),
+                              ws = interval_point(weight * scale);
+        for (int c = 0; c < 3; c++) {
+            struct noise_bounds8 b;
+            kernels->bounds((const double(*)[TAPE_LANES])lo,
+                            (const double(*)[TAPE_LANES])hi, NOISE_COMPONENT + c, &b);
+            for (int l = 0; l < TAPE_LANES; l++) {
+                struct sum *s = &sum[c][l];
+                s->v =
+                    interval_add(s->v, interval_multiply(w, interval(b.lo[l], b.hi[l])));
+                for (int k = 0; partial && k < 3; k++)
+                    s->d[k] =
+                        interval_add(s->d[k], interval_multiply(ws, slope_of(&b, k, l)));
+            }
+        }
+        scale *= t->lambda;
+        weight *= t->omega;
+    }
+    for (int c = 0; c < 3; c++)
+        for (int l = 0; l < TAPE_LANES; l++) {
+            set_lane(&out[c], l, around(sum[c][l].v, VALUE_SLACK));
+            for (int k = 0; partial && k < 3; k++)
+                set_lane(&partial[3 * c + k], l, sum[c][l].d[k]);
+        }
+    return true;
+}
+
+static const struct tape_extern dturbulence = {.name = "turbulence",
+                                               .arguments = 3,
+                                               .width = 3,
+                                               .bounds = dturbulence_bounds,
+                                               .bounds8 = dturbulence_bounds8};
+
+void formula_dturbulence(struct formula *f, const struct turbulence *t,
+                         const uint32_t at[3], uint32_t out[3])
+{
+    tape_call_extern(f->b, &dturbulence, t, at, out);
+}
+
+// ---- waves ------------------------------------------------------------------------------
+
+static struct interval triangle(struct interval v, struct interval *by)
+{
+    const double half = floor(2 * v.lo);
+    const double a = triangle_wave(v.lo), b = triangle_wave(v.hi);
+    struct interval r = interval(fmin(a, b), fmax(a, b));
+    const bool even = fmod(half, 2) == 0;
+    *by = interval_point(even ? 2 : -2);
+    if (2 * v.hi > half + 1) { // past the next turn
+        *by = interval(-2, 2);
+        r = even ? interval(r.lo, 1) : interval(0, r.hi);
+        if (2 * v.hi > half + 2)
+            r = interval(0, 1);
+    }
+    return around(r, VALUE_SLACK * (1 + interval_size(v)));
+}
+
+static struct interval power_of(struct interval v, double e, struct interval *by)
+{
+    const struct interval a = interval(fmax(v.lo, 0), fmax(v.hi, 0));
+    *by = interval_whole();
+    if (!(e > 0))
+        return e == 0 ? interval_point(1) : interval_whole();
+    if (e >= 1 || a.lo > 0)
+        *by =
+            interval_multiply(interval_point(e), interval_pow(a, interval_point(e - 1)));
+    return interval_widened(det_pow(a.lo, e), det_pow(a.hi, e), VALUE_SLACK);
+}
+
+// Of a value that is not below 0.
+static struct interval wave_of(const struct pattern *p, struct interval v,
+                               struct interval *by)
+{
+    struct interval s, turned = interval_multiply(v, interval_point(TURN));
+    switch (p->wave) {
+    case WAVE_RAMP: break;
+    case WAVE_TRIANGLE: return triangle(v, by);
+    case WAVE_SINE:
+        s = interval_sin(turned);
+        *by = interval_multiply(interval_point(PATTERN_PI), interval_cos(turned));
+        return around(interval(0.5 * s.lo + 0.5, 0.5 * s.hi + 0.5), VALUE_SLACK);
+    case WAVE_SCALLOP:
+        turned = interval_multiply(v, interval_point(PATTERN_PI));
+        s = interval_sin(turned);
+        *by = interval_multiply(interval_point(PATTERN_PI), interval_cos(turned));
+        if (s.lo < 0)
+            *by = s.hi <= 0 ? interval_negate(*by)
+                            : interval_hull(*by, interval_negate(*by));
+        return around(interval_abs(s), VALUE_SLACK);
+    case WAVE_CUBIC:
+        *by = interval_multiply(interval_multiply(interval_point(6), v),
+                                interval_subtract(interval_point(1), v));
+        // Rises to 1 and falls after it.
+        if (v.hi <= 1)
+            return interval_widened(v.lo * v.lo * (3 - 2 * v.lo),
+                                    v.hi * v.hi * (3 - 2 * v.hi), VALUE_SLACK);
+        return interval_multiply(
+            interval_square(v),
+            interval_subtract(interval_point(3), interval(2 * v.lo, 2 * v.hi)));
+    case WAVE_POLY: return power_of(v, p->exponent, by);
+    }
+    *by = interval_point(1);
+    return v;
+}
+
+struct pieces {
+    struct interval v, by;
+    bool any;
+};
+
+static void add_piece(const struct pattern *p, struct interval v, struct pieces *all)
+{
+    struct interval by;
+    const struct interval w = wave_of(p, v, &by);
+    all->v = all->any ? interval_hull(all->v, w) : w;
+    all->by = all->any ? interval_hull(all->by, by) : by;
+    all->any = true;
+}
+
+// Below 0 the value is counted from the whole number below.
+static void add_signed(const struct pattern *p, struct interval v, struct pieces *all,
+                       bool *jumps)
+{
+    if (v.lo >= 0) {
+        add_piece(p, v, all);
+        return;
+    }
+    const bool periodic =
+        p->wave == WAVE_TRIANGLE || p->wave == WAVE_SINE || p->wave == WAVE_SCALLOP;
+    const double first = floor(v.lo), last = v.hi < 0 ? floor(v.hi) : -1;
+    if (last > first + 1) { // all there is
+        add_piece(p, interval(0, 1), all);
+        *jumps |= !periodic;
+    } else {
+        for (double c = first; c <= last; c++)
+            add_piece(p, interval(fmax(v.lo - c, 0), fmin(v.hi - c, 1)), all);
+        *jumps |= !periodic && last > first;
+    }
+    if (v.hi >= 0) {
+        add_piece(p, interval(0, v.hi), all);
+        *jumps |= !periodic;
+    }
+}
+
+static void finished_bounds(const void *data, const struct interval *in,
+                            struct interval *out, struct interval *partial)
+{
+    const struct pattern *p = data;
+    struct interval v = in[0];
+    struct pieces all = {0};
+    bool jumps = false;
+    const double m = PATTERN_MODULUS;
+    if (p->frequency != 0) {
+        v = interval_add(interval_multiply(v, interval_point(p->frequency)),
+                         interval_point(p->phase));
+        const double first = trunc(v.lo / m), last = trunc(v.hi / m);
+        if (first == last) { // 0 holds both signs
+            v = interval(v.lo - first * m, v.hi - first * m);
+            if (first != 0)
+                v = around(v, 4 * DBL_EPSILON * fabs(first * m));
+            add_signed(p, v, &all, &jumps);
+        } else if (last == first + 1) {
+            const double slack = 4 * DBL_EPSILON * m * (fabs(first) + 2);
+            const double low = v.lo - first * m - slack, high = v.hi - last * m + slack;
+            jumps = true;
+            // Towards 0 where the number is negative: multiples belong to the part below.
+            add_signed(p, interval(low, v.hi > 0 ? m : 0), &all, &jumps);
+            add_signed(p, interval(v.lo < 0 ? -m : 0, high), &all, &jumps);
+        } else {
+            jumps = true;
+            add_signed(p, interval(v.lo < 0 ? -m : 0, v.hi > 0 ? m : 0), &all, &jumps);
+        }
+    } else {
+        add_signed(p, v, &all, &jumps);
+    }
+    out[0] = all.v;
+    if (partial)
+        partial[0] = jumps ? interval_whole()
+                     : p->frequency != 0
+                         ? interval_multiply(all.by, interval_point(p->frequency))
+                         : all.by;
+}
+
+static const struct tape_extern finished = {
+    .name = "wave", .arguments = 1, .width = 1, .bounds = finished_bounds};
+
+uint32_t formula_finished(struct formula *f, const struct pattern *p, uint32_t v)
+{
+    uint32_t out;
+    tape_call_extern(f->b, &finished, p, &v, &out);
+    return out;
+}
+
+static void triangle_bounds(const void *data, const struct interval *in,
+                            struct interval *out, struct interval *partial)
+{
+    (void)data;
+    struct interval by;
+    out[0] = triangle(in[0], &by);
+    if (partial)
+        partial[0] = by;
+}
+
+static const struct tape_extern triangle_extern = {
+    .name = "triangle", .arguments = 1, .width = 1, .bounds = triangle_bounds};
+
+uint32_t formula_triangle(struct formula *f, uint32_t v)
+{
+    uint32_t out;
+    tape_call_extern(f->b, &triangle_extern, NULL, &v, &out);
+    return out;
+}
+
+// ---- colours ----------------------------------------------------------------------------
+
+static float channel(const struct rgbft *c, int i)
+{
+    return i == 0   ? c->r
+           : i == 1 ? c->g
+           : i == 2 ? c->b
+           : i == 3 ? c->filter
+                    : c->transmit;
+}
+
+static bool ascends(const struct color_map *m)
+{
+    for (uint32_t i = 1; i < m->count; i++)
+        if (!(m->key[i] >= m->key[i - 1]))
+            return false;
+    return true;
+}
+
+static double channel_at(const struct color_map *m, int c, double v)
+{
+    uint32_t a, b;
+    double f;
+    map_find(m->key, m->count, v, &a, &b, &f);
+    const double from = channel(&m->color[a], c), to = channel(&m->color[b], c);
+    return a == b || from == to ? to : from + f * (to - from);
+}
+
+// What blends of the entries a..last are rounded by.
+static double blend_slack(const struct color_map *m, int c, uint32_t a, uint32_t last)
+{
+    double most = 0;
+    for (uint32_t i = a + 1; i <= last; i++) {
+        const double from = channel(&m->color[i - 1], c), to = channel(&m->color[i], c);
+        if (from != to)
+            most = fmax(most, 2 * fabs(to - from) + fmax(fabs(from), fabs(to)));
+    }
+    return SINGLE_ROUNDING * most;
+}
+
+static struct interval joined(struct interval all, struct interval one, bool *any)
+{
+    const struct interval r = *any ? interval_hull(all, one) : one;
+    *any = true;
+    return r;
+}
+
+// Slopes of a channel where the value is in v, the entries a..last around it.
+static struct interval channel_slopes(const struct color_map *m, int c, struct interval v,
+                                      uint32_t a, uint32_t last)
+{
+    struct interval d = interval_point(0);
+    bool any = m->key[0] >= v.lo || m->key[m->count - 1] <= v.hi; // level beyond
+    for (uint32_t i = a + 1; i <= last; i++) {
+        const double from = channel(&m->color[i - 1], c), to = channel(&m->color[i], c);
+        const double width = (double)m->key[i] - m->key[i - 1];
+        if (from == to)
+            d = joined(d, interval_point(0), &any);
+        else if (width > 0)
+            d = joined(d, interval_point((to - from) / width), &any);
+        else
+            return interval_whole();
+    }
+    return interval_widened(d.lo, d.hi, 4 * DBL_EPSILON);
+}
+
+static void colors_bounds(const void *data, const struct interval *in,
+                          struct interval *out, struct interval *partial)
+{
+    const struct color_map *m = data;
+    const struct interval v = in[0];
+    const bool known = ascends(m);
+    uint32_t a = 0, last = m->count - 1, unused;
+    double f;
+    if (known) {
+        map_find(m->key, m->count, v.lo, &a, &unused, &f);
+        map_find(m->key, m->count, v.hi, &unused, &last, &f);
+        for (; a > 0 && m->key[a] >= v.lo; a--)
+            ;
+        for (; last + 1 < m->count && m->key[last] <= v.hi; last++)
+            ;
+    }
+    for (int c = 0; c < 5; c++) {
+        struct interval r = interval_point(channel(&m->color[0], c));
+        if (known) {
+            const double x = channel_at(m, c, v.lo), y = channel_at(m, c, v.hi);
+            r = interval(fmin(x, y), fmax(x, y));
+        }
+        for (uint32_t i = a; i <= last; i++)
+            if (!known || (m->key[i] >= v.lo && m->key[i] <= v.hi))
+                r = interval_hull(r, interval_point(channel(&m->color[i], c)));
+        out[c] = around(r, blend_slack(m, c, a, last));
+        if (partial)
+            partial[c] = known ? channel_slopes(m, c, v, a, last) : interval_whole();
+    }
+}
+
+static const struct tape_extern colors_extern = {.name = "colour_map",
+                                                 .arguments = 1,
+                                                 .width = 5,
+                                                 .bounds = colors_bounds,
+                                                 .anywhere = true};
+
+void formula_colors(struct formula *f, const struct color_map *m, uint32_t v,
+                    uint32_t out[5])
+{
+    tape_call_extern(f->b, &colors_extern, m, &v, out);
+}
+
+static void single_bounds(const void *data, const struct interval *in,
+                          struct interval *out, struct interval *partial)
+{
+    out[0] = around(in[0], *(const double *)data);
+    if (partial)
+        partial[0] = interval_point(1);
+}
+
+static const struct tape_extern single = {
+    .name = "single", .arguments = 1, .width = 1, .bounds = single_bounds};
+
+uint32_t formula_single(struct formula *f, double size, uint32_t v)
+{
+    double *slack = arena_new_struct(f->arena, double);
+    uint32_t out;
+    *slack = SINGLE_ROUNDING * size;
+    tape_call_extern(f->b, &single, slack, &v, &out);
+    return out;
+}
