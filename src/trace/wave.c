@@ -344,6 +344,20 @@ static void shade_alone(struct tracer *t, uint32_t k, uint32_t end)
     }
 }
 
+// The end of the row of rays from k on that hit one leaf, where there are media, inside the
+// same interiors.
+static uint32_t run_end(const struct tracer *t, uint32_t k)
+{
+    const struct wavefront *w = &t->wave;
+    uint32_t end = k + 1;
+    while (end < w->count && t->hit->leaf[end] == t->hit->leaf[k] &&
+           t->hit->t[end] < INFINITY &&
+           (!t->job->has_media ||
+            wave_inside(t, w->slot[end]) == wave_inside(t, w->slot[k])))
+        end++;
+    return end;
+}
+
 // Traces and shades the rays of the batch.
 static void wave_trace(struct tracer *t)
 {
@@ -369,9 +383,7 @@ static void wave_trace(struct tracer *t)
                 missed(t, k);
             continue;
         }
-        while (end < w->count && t->hit->leaf[end] == t->hit->leaf[k] &&
-               t->hit->t[end] < INFINITY)
-            end++;
+        end = run_end(t, k);
         if (!simple_take(t, k, end - k))
             shade_alone(t, k, end);
         else if (t->job->asks_in_order)
