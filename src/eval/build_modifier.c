@@ -140,10 +140,22 @@ static bool photon_item(struct args *a, struct photon_target *t)
         args_optional(a, &t->spacing);
         t->target = t->spacing > 0;
         return true;
-    case WORD_refraction: args_next(a); t->refraction = args_switch(a) ? 1 : -1; return true;
-    case WORD_reflection: args_next(a); t->reflection = args_switch(a) ? 1 : -1; return true;
-    case WORD_collect: args_next(a); t->collect = args_switch(a); return true;
-    case WORD_pass_through: args_next(a); t->pass_through = args_switch(a); return true;
+    case WORD_refraction:
+        args_next(a);
+        t->refraction = args_switch(a) ? 1 : -1;
+        return true;
+    case WORD_reflection:
+        args_next(a);
+        t->reflection = args_switch(a) ? 1 : -1;
+        return true;
+    case WORD_collect:
+        args_next(a);
+        t->collect = args_switch(a);
+        return true;
+    case WORD_pass_through:
+        args_next(a);
+        t->pass_through = args_switch(a);
+        return true;
     default: return false;
     }
 }
@@ -255,9 +267,9 @@ static bool switch_modifier(struct args *a, struct object *o)
 
 bool args_part(struct args *a, struct transform *out, const struct texture **texture)
 {
-    static const enum word known[] = {WORD_translate, WORD_rotate, WORD_scale,
-                                      WORD_matrix, WORD_transform, WORD_texture,
-                                      WORD_pigment, WORD_normal, WORD_finish};
+    static const enum word known[] = {WORD_translate, WORD_rotate,    WORD_scale,
+                                      WORD_matrix,    WORD_transform, WORD_texture,
+                                      WORD_pigment,   WORD_normal,    WORD_finish};
     struct object part = {.transform = &transform_identity,
                           .texture.transform = &transform_identity};
     struct transform t;
@@ -283,6 +295,13 @@ static void inverse(struct args *a, struct object *o)
     o->flags ^= OBJECT_INVERSE;
 }
 
+// In POV-Ray a text is a union of its letters.
+static bool is_union(const struct object *o)
+{
+    return o->kind == OBJECT_CSG ? o->op == CSG_UNION
+                                 : o->kind == OBJECT_SHAPE && o->ops == &text_ops;
+}
+
 static bool word_modifier(struct args *a, struct object *o)
 {
     bool csg = o->kind == OBJECT_CSG;
@@ -301,7 +320,7 @@ static bool word_modifier(struct args *a, struct object *o)
         o->flags |= OBJECT_CUTAWAY;
         break;
     case WORD_split_union:
-        if (!csg || o->op != CSG_UNION)
+        if (!is_union(o))
             wrong_owner(a, "split_union");
         args_next(a);
         o->flags &= ~(unsigned)OBJECT_NO_SPLIT;
