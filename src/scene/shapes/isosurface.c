@@ -12,6 +12,9 @@
 #include "scene/tape_kernel.h"
 
 enum { MAX_TRACE = 10 };
+// Roots are found closer than this share of the container: where the gradient would need a
+// longer way to 0 the function jumps.
+#define JUMP_SHARE 0x1p-18
 static const double ACCURACY = 0.001, MAX_GRADIENT = 1.1;
 
 bool isosurface_is_open(const void *shape)
@@ -128,12 +131,13 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
         out->uv = (struct vec2){p.x, p.y};
         return;
     }
-    double g[3] = {0};
+    double g[3] = {0}, f = 0;
     if (!tape_is_opaque(s->f))
-        tape_gradient(s->f, (const double[]){p.x, p.y, p.z}, 3, g);
+        f = tape_gradient(s->f, (const double[]){p.x, p.y, p.z}, 3, g) - s->threshold;
     struct vec3 n = vec3(g[0], g[1], g[2]);
     double length = vec3_length(n);
-    if (!(length > 0 && length < INFINITY)) {
+    const double near = JUMP_SHARE * vec3_max_abs(vec3_sub(s->bounds.max, s->bounds.min));
+    if (!(length > 0 && length < INFINITY) || fabs(f) > near * length) {
         n = differences(s, p);
         length = vec3_length(n);
     }
