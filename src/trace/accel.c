@@ -11,6 +11,7 @@
 #include "scene/shapes/isosurface_open.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
+#include "scene/shapes/torus.h"
 #include "trace/carve.h"
 #include "trace/packet.h"
 
@@ -210,6 +211,24 @@ static bool is_carved(const struct world *w, const struct accel *accel,
     return solids == 1 && (closed || !shown);
 }
 
+static bool is_ring(const struct world *w, const struct accel *accel,
+                    const struct world_object *o)
+{
+    uint32_t rings = 0;
+    if (!has_intersections_only(w, o) || o->leaf_count > PRODUCT_LEAVES)
+        return false;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
+        const struct leaf *l = &w->leaf[i];
+        if (packet_is_product_shape(accel->leaf_shape[i]))
+            continue;
+        const struct torus *t = l->shape;
+        if (accel->leaf_shape[i] != PACKET_TORUS || !l->drawn || !(t->major > t->minor))
+            return false;
+        rings++;
+    }
+    return rings == 1;
+}
+
 // Whether packets know all that the sweep takes the bounds of a leaf's crossings for.
 static bool has_known_bounds(const struct leaf *l, unsigned shape)
 {
@@ -273,6 +292,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = PACKET_PRODUCT;
         else if (is_carved(w, accel, o))
             accel->object_shape[i] = PACKET_CARVED;
+        else if (is_ring(w, accel, o))
+            accel->object_shape[i] = PACKET_RING;
         else
             accel->object_shape[i] = (uint8_t)clipped_shape(w, accel, o);
     }

@@ -24,6 +24,8 @@ enum packet_shape {
     PACKET_SPONGE,  // of objects: an intersection of few solids less many spheres
     PACKET_CLIPPED, // of objects: one such shape, clipped by what may be part of a product
     PACKET_CLIPPED_PRODUCT, // of objects: a product, clipped likewise
+    PACKET_RING, // of objects: an intersection of a ring torus, or its complement, with what
+                 // may be part of a product
     PACKET_CARVED // of objects: an intersection of a PACKET_LANES with what may be part of a
                   // product (trace/carve.h)
 };

@@ -8,6 +8,7 @@
 #include "trace/packet_list.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_parts.h"
+#include "trace/packet_ring.h"
 #include "trace/packet_sponge.h"
 
 enum {
@@ -37,6 +38,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         return product(e, bits, object);
     if (shape == PACKET_CLIPPED || shape == PACKET_CLIPPED_PRODUCT)
         return clipped(e, bits, object, shape == PACKET_CLIPPED_PRODUCT);
+    if (shape == PACKET_RING)
+        return ring_product(e, bits, object);
     if (shape == PACKET_MESH)
         return mesh8(e, bits, object);
     if (shape == PACKET_LANES)

@@ -533,6 +533,35 @@ static void clip_by_solids(struct maker *m, struct object *o, double off)
     o->clip_count = n;
 }
 
+// A ring cut by solids and cutting them, by drawn ones and clips.
+static void rings(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9, .01};
+    for (uint64_t k = 0; k < 16; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 500 + k, .grid = k % 4 == 0};
+        for (int i = 0; i < 20; i++) {
+            const uint32_t n = 2 + (uint32_t)(3 * chance(&m));
+            const struct object **child = arena_new_array(m.a, const struct object *, n);
+            const uint32_t first = i % 3 == 0;
+            for (uint32_t j = 0; j < n; j++)
+                child[j] = random_solid(&m, somewhere(&m, .75), .6 + chance(&m),
+                                        off[k / 4], j % 2);
+            child[first] = m.grid ? of(&m, &torus_ops, &(struct torus){1, .25})
+                                  : random_torus(&m, 1, 0);
+            struct object *o = object_new_csg(
+                m.a, i % 2 ? CSG_INTERSECTION : CSG_DIFFERENCE, child, n, (struct span){0});
+            if (i % 4 == 0)
+                clip_by_solids(&m, o, off[k / 4]);
+            struct transform t = transform_translate(somewhere(&m, 2));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 // Bounds that are smaller than the object cull: what packets keep is what one ray keeps.
 static void bounded(void **state)
 {
@@ -726,6 +755,7 @@ int main(void)
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(clear_products),
+        cmocka_unit_test(rings),
         cmocka_unit_test(bounded),
         cmocka_unit_test(clipped),
         cmocka_unit_test(large_products),
