@@ -211,6 +211,18 @@ static bool is_carved(const struct world *w, const struct accel *accel,
     return solids == 1 && (closed || !shown);
 }
 
+static bool is_merge(const struct world *w, const struct accel *accel,
+                     const struct world_object *o)
+{
+    if (!o->is_csg || w->node[o->root].op != NODE_MERGE ||
+        o->node_count != o->leaf_count + 1 || !is_product(accel, o))
+        return false;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+        if (!w->leaf[i].drawn)
+            return false;
+    return true;
+}
+
 static bool is_ring(const struct world *w, const struct accel *accel,
                     const struct world_object *o)
 {
@@ -292,6 +304,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = PACKET_PRODUCT;
         else if (is_carved(w, accel, o))
             accel->object_shape[i] = PACKET_CARVED;
+        else if (is_merge(w, accel, o))
+            accel->object_shape[i] = PACKET_MERGE;
         else if (is_ring(w, accel, o))
             accel->object_shape[i] = PACKET_RING;
         else

@@ -22,6 +22,7 @@ enum packet_shape {
     PACKET_LANES,   // the shape takes eight rays itself
     PACKET_PRODUCT, // of objects: an intersection of such shapes and their complements
     PACKET_SPONGE,  // of objects: an intersection of few solids less many spheres
+    PACKET_MERGE,   // of objects: a merge of such shapes and their complements
     PACKET_CLIPPED, // of objects: one such shape, clipped by what may be part of a product
     PACKET_CLIPPED_PRODUCT, // of objects: a product, clipped likewise
     PACKET_RING, // of objects: an intersection of a ring torus, or its complement, with what

@@ -97,9 +97,9 @@ static unsigned clipped_product(struct eight *e, unsigned bits, uint32_t object,
     const struct world_object *o = &e->p->w->object[object];
     struct product x;
     product_begin(&x, e->t_min, e->t_max);
-    bits = exact_leaves(e, &x, false, o, bits);
+    bits = exact_leaves(e, &x, false, false, o, bits);
     product_solids_end(&x);
-    bits = exact_leaves(e, &x, true, o, bits);
+    bits = exact_leaves(e, &x, true, false, o, bits);
     if (!bits)
         return 0;
     struct mask8 ends = m8_of(0);

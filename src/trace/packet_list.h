@@ -2,10 +2,8 @@
 #define TRACE_PACKET_LIST_H
 
 // All crossings of eight rays with objects that packets know, on one walk of the tree.
-#include "trace/packet_objects.h"
+#include "trace/packet_any.h"
 #include "trace/packet_tree.h"
-
-static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object);
 
 // Keeps a crossing in the order of t; of equal ones, that declared first is first.
 static void list_put(struct crossings8 *c, int lane, double t, uint32_t leaf)

@@ -285,34 +285,36 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
 }
 
 // The spans of the drawn leaves that are complements, or of those that are not; returns the
-// lanes that can still meet the object.
+// lanes that can still meet the object. merge: of what lies outside the object.
 static unsigned exact_leaves(struct eight *e, struct product *x, bool complements,
-                             const struct world_object *o, unsigned bits)
+                             bool merge, const struct world_object *o, unsigned bits)
 {
     const struct world *w = e->p->w;
     for (uint32_t i = 0; i < o->leaf_count && bits; i++) {
         const struct leaf *l = &w->leaf[o->first_leaf + i];
-        if (l->inverted != complements || !l->drawn)
+        if ((l->inverted != merge) != complements || !l->drawn)
             continue;
         const enum packet_shape shape = w->accel->leaf_shape[o->first_leaf + i];
         struct mask8 odd;
         struct ray8 own;
         const struct span8 s = leaf_span(e, l, shape, leaf_ray(l, &e->ray, &own), &odd);
         x->unsure = m8_or(x->unsure, odd);
-        bits &= product_add(x, i, l->inverted, shape != PACKET_PLANE, &s);
+        bits &= product_add(x, i, complements, shape != PACKET_PLANE, &s);
     }
     return bits;
 }
 
+// A merge has the boundaries of what lies outside of it, which is a product.
 static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
     const struct world_object *o = &p->w->object[object];
+    const bool merge = p->w->accel->object_shape[object] == PACKET_MERGE;
     struct product x;
     product_begin(&x, e->t_min, e->t_max);
-    bits = exact_leaves(e, &x, false, o, bits);
+    bits = exact_leaves(e, &x, false, merge, o, bits);
     product_solids_end(&x);
-    bits = exact_leaves(e, &x, true, o, bits);
+    bits = exact_leaves(e, &x, true, merge, o, bits);
     if (!bits)
         return 0;
     struct real8 t, at;
@@ -320,6 +322,16 @@ static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
     const unsigned found = product_first(&x, bits, &t, &at, &unsure);
     const unsigned won = take_leaves(e, found, t, at, object);
     return unsure ? won | packet_try_object(p, unsure, object) : won;
+}
+
+static unsigned merge8(struct eight *e, unsigned bits, uint32_t object)
+{
+    if (!e->boxed)
+        bits &= box_lanes(e, &e->p->w->object[object].bounds);
+    if (!bits)
+        return 0;
+    e->p->s->stats.csg_tests++;
+    return product_exact(e, bits, object);
 }
 
 // ---- hits -----------------------------------------------------------------------------------

@@ -34,8 +34,8 @@ struct maker {
     uint32_t count;
     uint64_t random;
     int crossed; // surfaces in lists of all that a ray crosses
-    bool alone; // the one-ray form is the reference, not all crossings
-    bool grid; // coordinates are multiples of 1/4, nothing is turned: faces coincide
+    bool alone;  // the one-ray form is the reference, not all crossings
+    bool grid;   // coordinates are multiples of 1/4, nothing is turned: faces coincide
 };
 
 static double between(struct maker *m, double lo, double hi)
@@ -207,9 +207,9 @@ static void fill(struct maker *m, struct ray_batch *b, int kind)
     const struct vec3 eye = vec3_scale(kind == 3 ? 1e5 : 3, somewhere(m, 4));
     b->count = 0;
     for (int i = 0; i < RAYS; i++) {
-        const struct vec3 to = kind == 0 || kind == 3
-                                   ? vec3(8. * (i % 32) / 32 - 4, 8. * (i / 32) / 32 - 4, 0)
-                                   : somewhere(m, 6);
+        const struct vec3 to = kind == 0 || kind == 3 ? vec3(8. * (i % 32) / 32 - 4,
+                                                             8. * (i / 32) / 32 - 4, 0)
+                                                      : somewhere(m, 6);
         struct vec3 o = kind == 0 || kind == 3 ? eye : somewhere(m, 9);
         struct vec3 d = vec3_sub(to, o);
         if (kind == 2)
@@ -418,9 +418,9 @@ static void every_kernel(void **state)
                                : kind == 4 ? of(&m, &disc_ops, &d)
                                : kind == 5 ? random_triangle(&m, c)
                                : kind == 8 ? random_torus(&m, r, i)
-                               : kind == 6 ? i % 2 ? of(&m, &box_ops, &b)
-                                                   : of(&m, &plane_ops, &p)
-                                           : of(&m, &sphere_ops, &s);
+                               : kind == 6
+                                   ? i % 2 ? of(&m, &box_ops, &b) : of(&m, &plane_ops, &p)
+                                   : of(&m, &sphere_ops, &s);
             if (i % 4 == 0) {
                 struct transform t = transform_scale(vec3(1, 1.5, .75));
                 object_transform(m.a, o, &t);
@@ -533,6 +533,33 @@ static void clip_by_solids(struct maker *m, struct object *o, double off)
     o->clip_count = n;
 }
 
+// Merges of solids that overlap, touch and coincide.
+static void merges(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9, .01};
+    for (uint64_t k = 0; k < 12; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 600 + k, .grid = k % 2 == 0};
+        for (int i = 0; i < 16; i++) {
+            const uint32_t n = 2 + (uint32_t)(4 * chance(&m));
+            const struct object **child = arena_new_array(m.a, const struct object *, n);
+            for (uint32_t j = 0; j < n; j++) {
+                child[j] = random_solid(&m, somewhere(&m, .75), .5 + .5 * chance(&m),
+                                        off[k / 3], j % 2);
+                if (i % 4 == 3 && j == 0)
+                    ((struct object *)child[j])->texture =
+                        (struct attached_texture){&clear_texture, &transform_identity};
+            }
+            struct object *o = object_new_csg(m.a, CSG_MERGE, child, n, (struct span){0});
+            struct transform t = transform_translate(somewhere(&m, 3));
+            object_transform(m.a, o, &t);
+            m.object[m.count++] = o;
+        }
+        check_scene(&m);
+        arena_free(m.a);
+    }
+}
+
 // A ring cut by solids and cutting them, by drawn ones and clips.
 static void rings(void **state)
 {
@@ -549,8 +576,9 @@ static void rings(void **state)
                                         off[k / 4], j % 2);
             child[first] = m.grid ? of(&m, &torus_ops, &(struct torus){1, .25})
                                   : random_torus(&m, 1, 0);
-            struct object *o = object_new_csg(
-                m.a, i % 2 ? CSG_INTERSECTION : CSG_DIFFERENCE, child, n, (struct span){0});
+            struct object *o =
+                object_new_csg(m.a, i % 2 ? CSG_INTERSECTION : CSG_DIFFERENCE, child, n,
+                               (struct span){0});
             if (i % 4 == 0)
                 clip_by_solids(&m, o, off[k / 4]);
             struct transform t = transform_translate(somewhere(&m, 2));
@@ -653,7 +681,10 @@ static void sponges(void **state)
         const uint32_t n = k < 4 ? 40 : 400;
         const struct object **child = arena_new_array(m.a, const struct object *, n);
         for (uint32_t i = 0; i < n; i++) {
-            const struct sphere s = {somewhere(&m, 2.25), k < 2 ? .75 : k < 4 ? .5 : .25,
+            const struct sphere s = {somewhere(&m, 2.25),
+                                     k < 2   ? .75
+                                     : k < 4 ? .5
+                                             : .25,
                                      transform_identity.linear};
             child[i] = of(&m, &sphere_ops, &s);
         }
@@ -664,8 +695,8 @@ static void sponges(void **state)
             object_transform(m.a, solid, &t);
         }
         child[0] = solid;
-        m.object[m.count++] = object_new_csg(m.a, CSG_DIFFERENCE, child, n,
-                                             (struct span){0});
+        m.object[m.count++] =
+            object_new_csg(m.a, CSG_DIFFERENCE, child, n, (struct span){0});
         m.object[m.count++] = random_shape(&m);
         check_scene(&m);
         arena_free(m.a);
@@ -755,6 +786,7 @@ int main(void)
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
         cmocka_unit_test(clear_products),
+        cmocka_unit_test(merges),
         cmocka_unit_test(rings),
         cmocka_unit_test(bounded),
         cmocka_unit_test(clipped),
