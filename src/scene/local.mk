@@ -42,7 +42,7 @@ liblambert_a_SOURCES += \
 	%D%/patterns/crackle.c %D%/patterns/facets.c \
 	%D%/density_grid.c %D%/density_grid.h %D%/patterns/density_file.c \
 	%D%/image_map.c %D%/image_map.h %D%/patterns/image_pattern.c \
-	%D%/patterns/pavement.c %D%/patterns/pavement.def %D%/patterns/tiling.c \
+	%D%/patterns/pavement.c %D%/patterns/pavement.def %D%/patterns/paving.c %D%/patterns/paving.h %D%/patterns/tiling.c \
 	%D%/patterns/tiling.h %D%/patterns/tiling_mixed.c %D%/patterns/tiling_penrose.c
 # The noise tables are computed, not written down.
 noinst_PROGRAMS += gen_noise_tables

@@ -29,3 +29,7 @@ check_PROGRAMS += test_pattern_bounds
 test_pattern_bounds_SOURCES = %D%/test_pattern_bounds.c
 test_pattern_bounds_CPPFLAGS = $(test_cppflags)
 test_pattern_bounds_LDADD = $(test_ldadd)
+check_PROGRAMS += test_pavings
+test_pavings_SOURCES = %D%/test_pavings.c
+test_pavings_CPPFLAGS = $(test_cppflags)
+test_pavings_LDADD = $(test_ldadd)
