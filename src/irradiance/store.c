@@ -5,22 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct store_kernels *kernels_named(const char *isa)
-{
-#ifdef LAMBERT_X86
-    if (strcmp(isa, store_kernels_avx512.name) == 0)
-        return &store_kernels_avx512;
-    if (strcmp(isa, store_kernels_avx2.name) == 0)
-        return &store_kernels_avx2;
-#else
-    (void)isa;
-#endif
-    return &store_kernels_base;
-}
+#include "math/isa.h"
 
 void store_init(struct store *s, const char *isa)
 {
-    *s = (struct store){.kernels = kernels_named(isa)};
+    *s = (struct store){.kernels = ISA_NAMED(isa, store_kernels)};
     for (int i = 0; i < STORE_DEPTHS; i++) {
         s->size_low[i] = INT16_MAX;
         s->size_high[i] = INT16_MIN;

@@ -26,7 +26,7 @@ liblambert_a_SOURCES += \
 	%D%/pattern_function.h %D%/pattern_math.h %D%/pigment.c %D%/pigment_tape.c %D%/pigment_tape.h %D%/surface_eval.h %D%/texture.c \
 	%D%/warp.c %D%/warp.h
 liblambert_a_SOURCES += \
-	%D%/patterns/agate.c %D%/patterns/aoi.c %D%/patterns/boxed.c %D%/patterns/bozo.c \
+	%D%/patterns/agate.c %D%/patterns/aoi.c %D%/patterns/boxed.c %D%/patterns/bozo.c %D%/patterns/plain_noise.c %D%/patterns/plain_noise.h \
 	%D%/patterns/brick.c %D%/patterns/bumps.c %D%/patterns/cells.c \
 	%D%/patterns/checker.c %D%/patterns/cubic.c %D%/patterns/cylindrical.c \
 	%D%/patterns/dents.c %D%/patterns/function.c %D%/patterns/gradient.c \

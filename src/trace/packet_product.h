@@ -78,10 +78,9 @@ LANES_INLINE unsigned product_add(struct product *p, uint32_t i, bool complement
 
 LANES_INLINE void product_solids_end(struct product *p) { p->solids = p->count; }
 
-// Lanes where the rays begin within the bounds of the crossing at t, and those of another
-// touch these.
-LANES_INLINE struct mask8 product_parts(const struct product *p, struct real8 t,
-                                        struct real8 e, struct real8 at)
+// Lanes where the bounds of another crossing than `at` touch those of one at t.
+LANES_INLINE struct mask8 product_near(const struct product *p, struct real8 t,
+                                       struct real8 e, struct real8 at)
 {
     struct mask8 near = m8_of(0);
     for (uint32_t i = 0; i < p->count; i++) {
@@ -91,7 +90,15 @@ LANES_INLINE struct mask8 product_parts(const struct product *p, struct real8 t,
         near = m8_or(near, m8_without(in, r8_eq(at, l->in_at)));
         near = m8_or(near, m8_without(out, r8_eq(at, l->out_at)));
     }
-    return m8_and(r8_le(r8_abs(r8_sub(t, p->t_min)), e), near);
+    return near;
+}
+
+// Lanes where the rays begin within the bounds of the crossing at t, and those of another
+// touch these.
+LANES_INLINE struct mask8 product_parts(const struct product *p, struct real8 t,
+                                        struct real8 e, struct real8 at)
+{
+    return m8_and(r8_le(r8_abs(r8_sub(t, p->t_min)), e), product_near(p, t, e, at));
 }
 
 // Of the lanes of p->begins.
@@ -165,15 +172,8 @@ LANES_INLINE unsigned product_first(const struct product *p, unsigned lanes,
         e = r8_select(within, end_e, e);
         *at = r8_select(within, end_at, *at);
     }
-    struct mask8 near = r8_le(r8_abs(r8_sub(p->t_max, *t)), e);
-    for (uint32_t i = 0; i < p->count; i++) {
-        const struct product_leaf *l = &p->leaf[i];
-        const struct mask8 in = r8_le(r8_abs(r8_sub(l->in, *t)), r8_add(l->in_e, e));
-        const struct mask8 out = r8_le(r8_abs(r8_sub(l->out, *t)), r8_add(l->out_e, e));
-        near = m8_or(near, m8_without(in, r8_eq(*at, l->in_at)));
-        near = m8_or(near, m8_without(out, r8_eq(*at, l->out_at)));
-    }
-    *unsure |= hit & m8_bits(near);
+    const struct mask8 last = r8_le(r8_abs(r8_sub(p->t_max, *t)), e);
+    *unsure |= hit & m8_bits(m8_or(last, product_near(p, *t, e, *at)));
     return hit & ~*unsure;
 }
 

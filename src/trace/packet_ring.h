@@ -70,21 +70,6 @@ static struct real8 ring_error(const struct ring *r, struct real8 t, struct real
                              r8_max(slope, r8_mul(r8_set(GAMMA(12)), v8_max_abs(d)))));
 }
 
-// Lanes where a crossing within `e` of t may be one with another of the others.
-LANES_INLINE struct mask8 ring_near(const struct product *p, struct real8 t,
-                                    struct real8 e, struct real8 at)
-{
-    struct mask8 near = m8_of(0);
-    for (uint32_t i = 0; i < p->count; i++) {
-        const struct product_leaf *l = &p->leaf[i];
-        const struct mask8 in = r8_le(r8_abs(r8_sub(l->in, t)), r8_add(l->in_e, e));
-        const struct mask8 out = r8_le(r8_abs(r8_sub(l->out, t)), r8_add(l->out_e, e));
-        near = m8_or(near, m8_without(in, r8_eq(at, l->in_at)));
-        near = m8_or(near, m8_without(out, r8_eq(at, l->out_at)));
-    }
-    return near;
-}
-
 // Lanes where the crossing `at` is of a drawn leaf.
 static struct mask8 ring_drawn(const struct ring *r, struct real8 at)
 {
@@ -132,7 +117,7 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
     const struct real8 none = r8_set(-1);
     struct mask8 touches = r8_le(r8_sub(x.t[1], x.t[0]), r8_add(dt[0], dt[1]));
     for (int i = 0; i < 2; i++)
-        touches = m8_or(touches, ring_near(&r->others, x.t[i], dt[i], none));
+        touches = m8_or(touches, product_near(&r->others, x.t[i], dt[i], none));
     const struct mask8 tube = m8_and(x.met, r8_lt(r->from, x.t[1]));
     const struct mask8 within = m8_and(tube, r8_le(x.t[0], r->from));
     const struct mask8 inside =
@@ -143,10 +128,10 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
         m8_and(m8_and(inside, r8_le(r8_set(0), r->at)), ring_drawn(r, r->at));
     const struct mask8 ends =
         m8_without(m8_and(inside, ring_drawn(r, r->end_at)), crosses);
-    const struct mask8 begun =
-        m8_and(r8_le(r8_set(0), r->at), ring_near(&r->others, r->from, r->from_e, r->at));
+    const struct mask8 begun = m8_and(
+        r8_le(r8_set(0), r->at), product_near(&r->others, r->from, r->from_e, r->at));
     const struct mask8 ended =
-        m8_and(ends, ring_near(&r->others, r->to, r->to_e, r->end_at));
+        m8_and(ends, product_near(&r->others, r->to, r->to_e, r->end_at));
     const struct mask8 near =
         m8_or(ended, m8_and(begun, m8_or(begins, m8_or(crosses, ends))));
     r->unsure |=

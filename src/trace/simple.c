@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/isa.h"
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
@@ -14,19 +15,6 @@
 #include "trace/shade_kernel.h"
 
 // ---- which surfaces -------------------------------------------------------------------
-
-static const struct shade_kernels *kernels_named(const char *name)
-{
-#ifdef LAMBERT_X86
-    if (strcmp(name, shade_kernels_avx512.name) == 0)
-        return &shade_kernels_avx512;
-    if (strcmp(name, shade_kernels_avx2.name) == 0)
-        return &shade_kernels_avx2;
-#else
-    (void)name;
-#endif
-    return &shade_kernels_base;
-}
 
 static bool is_solid(struct rgbft c) { return c.filter == 0 && c.transmit == 0; }
 
@@ -191,7 +179,7 @@ void simple_compile(struct job *job, struct arena *a)
     struct pigment_compiler compiler = {.arena = a};
     const bool general = job->general;
     const struct camera *c = job->camera;
-    job->kernels = kernels_named(w->accel->kernels->name);
+    job->kernels = ISA_NAMED(w->accel->kernels->name, shade_kernels);
     // Where light by way of others is collected, the order of hits counts: the camera's are left to
     // the general rule, others ask before they are kept (simple_ask).
     const bool collects =
