@@ -10,6 +10,7 @@
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/isosurface_open.h"
 #include "scene/shapes/plane.h"
+#include "scene/shapes/revolve.h"
 #include "scene/shapes/sphere.h"
 #include "scene/shapes/torus.h"
 #include "trace/carve.h"
@@ -188,8 +189,11 @@ static bool is_closed(const struct leaf *l)
     const struct shape_ops *ops = l->ops;
     if (ops == &isosurface_ops)
         return !isosurface_is_open(l->shape);
+    if (ops == &lathe_ops || ops == &sor_ops)
+        return revolve_is_closed(l->shape); // both begin with one
     return ops == &blob_ops || ops == &text_ops || ops == &poly_ops ||
-           ops == &cubic_ops || ops == &quartic_ops || ops == &polynomial_ops;
+           ops == &cubic_ops || ops == &quartic_ops || ops == &polynomial_ops ||
+           ops == &ovus_ops || ops == &superellipsoid_ops || ops == &sphere_sweep_ops;
 }
 
 static bool is_carved(const struct world *w, const struct accel *accel,

@@ -506,6 +506,23 @@ static const char *const carved[] = {
     "object { " WAVES
     " clipped_by { sphere { 0, .6 inverse } plane { <1, 1, 1>, .4 } } }",
     "object { " BLOB " clipped_by { box { <-.3, -2, -2>, <.3, 2, 2> inverse } } }",
+    "difference { lathe { cubic_spline 6 <0, -1>, <0, -.8>, <.6, -.5>, <.3, .1>, <0, "
+    ".7>, <0, 1> "
+    "rotate 20*x } box { <0, -1, -1>, 1 } }",
+    "difference { lathe { linear_spline 5 <.2, -.5>, <.7, -.4>, <.6, .4>, <.3, .3>, <.2, "
+    "-.5> } "
+    "plane { x, .1 } cylinder { -y, y, .4 } }",
+    "intersection { box { -.5, .5 rotate 20 } sor { 5 <.3, -1>, <.5, -.7>, <.3, 0>, <.6, "
+    ".5>, "
+    "<.4, 1> } }",
+    "difference { sphere { 0, .8 } sor { 5 <.3, -1>, <.5, -.7>, <.3, 0>, <.6, .5>, <.4, "
+    "1> } }",
+    "difference { ovus { .6, .3 translate -.3*y } plane { x + y, .1 } }",
+    "difference { superellipsoid { <.3, .6> scale .7 rotate 20 } cylinder { -y, y, .4 } "
+    "}",
+    "difference { sphere_sweep { cubic_spline 5 <-1, 0, 0>, .3, <-.6, .2, 0>, .3, <0, "
+    "-.2, .2>, "
+    ".2, <.6, .2, 0>, .35, <1, 0, 0>, .2 } box { <-.2, -1, -1>, <.1, 1, 1> } }",
     "difference { text { ttf FONT \"g&8\" .4, <-.3, 0> } plane { x, .3 } sphere { <.8, "
     ".3, 0>, "
     ".3 } }",

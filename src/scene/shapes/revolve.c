@@ -462,6 +462,12 @@ static struct line line_of(const struct revolve *r, const struct ray *ray,
     return l;
 }
 
+bool revolve_is_closed(const struct revolve *r)
+{
+    return r->closed || r->caps_drawn || !r->count ||
+           (r->segment[0].r2_end[0] == 0 && r->segment[r->count - 1].r2_end[1] == 0);
+}
+
 static void meet_caps(const struct line *l)
 {
     const struct revolve *r = l->r;

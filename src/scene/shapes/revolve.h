@@ -52,6 +52,8 @@ enum { REVOLVE_FIRST_CAP, REVOLVE_LAST_CAP, REVOLVE_SEGMENT };
 
 // Fills bounds and blocks from the segments.
 void revolve_prepare(struct revolve *r, struct arena *a);
+// Whether every boundary is drawn: there are no caps, or none that is not.
+bool revolve_is_closed(const struct revolve *r);
 struct aabb revolve_bounds(const struct revolve *r);
 bool revolve_inside(const struct revolve *r, struct vec3 p);
 void revolve_intersect(const struct revolve *r, const struct ray *ray,
