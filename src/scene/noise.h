@@ -20,8 +20,7 @@ struct vec3 noise_vector(struct vec3 p);
 #define NOISE_SLOPE_SLACK 1e-6
 
 // Bounds of noise_value and of its partial derivatives over a box, with these slacks for
-// roundings; of component i of noise_vector for the generator NOISE_COMPONENT + i.
-enum { NOISE_COMPONENT = 8 };
+// roundings.
 void noise_bounds(const struct interval box[3], int generator, struct interval *v,
                   struct interval slope[3]);
 double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,

@@ -14,7 +14,6 @@ enum { CELLS_MAX = 8 };
 // one, so a corner's function is at most 3.5 in its cell and two differ by 7; the smooth
 // step rises by at most 1.5, and a corner's own slope adds one.
 #define SLOPE_MAX 12.0
-#define VALUE_MAX 3.5
 
 struct corners {
     double k[2][2][2], slope[2][2][2][3];
@@ -27,16 +26,14 @@ static unsigned cell_of(double whole)
     return (unsigned)((int64_t)whole + 10000) & 4095;
 }
 
-// `component`: of noise_vector; the first is that of noise_value.
-static struct corners value_corners(const double cell[3], int component)
+static struct corners value_corners(const double cell[3])
 {
     struct corners c;
     const unsigned x = cell_of(cell[0]), y = cell_of(cell[1]), z = cell_of(cell[2]);
     for (unsigned i = 0; i < 8; i++) {
         const unsigned a = i & 1, b = i >> 1 & 1, d = i >> 2;
         const unsigned h = noise_hash_table[noise_hash_table[x + a] ^ (y + b)];
-        const double *t =
-            noise_value_table + (noise_hash_table[h ^ (z + d)] & 255) + 4 * component;
+        const double *t = noise_value_table + (noise_hash_table[h ^ (z + d)] & 255);
         c.k[a][b][d] = 0.5 * t[0];
         for (int k = 0; k < 3; k++)
             c.slope[a][b][d][k] = t[k + 1];
@@ -158,12 +155,10 @@ static void set_place(struct cell *l, int k, double lo, double hi)
 }
 
 // Of the blend over the part of the box in one cell, before scaling.
-static void cell_bounds(const struct interval box[3], const double cell[3], int generator,
+static void cell_bounds(const struct interval box[3], const double cell[3], bool gradient,
                         struct interval *v, struct interval slope[3])
 {
-    const int component = generator >= NOISE_COMPONENT ? generator - NOISE_COMPONENT : 0;
-    struct cell l = {.c = generator == NOISE_PERLIN ? gradient_corners(cell)
-                                                    : value_corners(cell, component)};
+    struct cell l = {.c = gradient ? gradient_corners(cell) : value_corners(cell)};
     for (int k = 0; k < 3; k++)
         set_place(&l, k, fmin(fmax(box[k].lo - cell[k], 0), 1),
                   fmin(fmax(box[k].hi - cell[k], 0), 1));
@@ -183,9 +178,9 @@ static void cell_bounds(const struct interval box[3], const double cell[3], int 
     *v = interval(fmax(v->lo, mean.lo), fmin(v->hi, mean.hi));
 }
 
-static void whole_range(int generator, struct interval *v, struct interval slope[3])
+static void whole_range(struct interval *v, struct interval slope[3])
 {
-    *v = generator < NOISE_COMPONENT ? interval(0, 1) : interval(-VALUE_MAX, VALUE_MAX);
+    *v = interval(0, 1);
     for (int k = 0; k < 3; k++)
         slope[k] = interval(-SLOPE_MAX, SLOPE_MAX);
 }
@@ -205,7 +200,7 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
     }
     if (!(cells <= CELLS_MAX) || !(interval_size(at[0]) < 0x1p40) ||
         !(interval_size(at[1]) < 0x1p40) || !(interval_size(at[2]) < 0x1p40)) {
-        whole_range(generator, v, slope);
+        whole_range(v, slope);
         return;
     }
     bool first = true;
@@ -214,7 +209,7 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
         for (c[1] = floor(at[1].lo); c[1] <= at[1].hi; c[1]++)
             for (c[2] = floor(at[2].lo); c[2] <= at[2].hi; c[2]++) {
                 struct interval w, s[3];
-                cell_bounds(at, c, generator, &w, s);
+                cell_bounds(at, c, gradient, &w, s);
                 *v = first ? w : interval_hull(*v, w);
                 for (int k = 0; k < 3; k++)
                     slope[k] = first ? s[k] : interval_hull(slope[k], s[k]);
@@ -225,18 +220,14 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
                                                               : 1;
     const double add = gradient                             ? 0.4925
                        : generator == NOISE_RANGE_CORRECTED ? 1.05242 * 0.48985582
-                       : generator >= NOISE_COMPONENT       ? 0
                                                             : 0.5;
-    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK,
-                  v->hi * scale + add + NOISE_VALUE_SLACK);
-    const bool clamped = generator < NOISE_COMPONENT;
-    const bool cut = clamped && (v->lo < 0 || v->hi > 1);
+    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK, v->hi * scale + add + NOISE_VALUE_SLACK);
+    const bool cut = v->lo < 0 || v->hi > 1;
     for (int k = 0; k < 3; k++) {
         slope[k] = interval(slope[k].lo * scale - NOISE_SLOPE_SLACK,
                             slope[k].hi * scale + NOISE_SLOPE_SLACK);
         if (cut)
             slope[k] = interval_hull(slope[k], interval_point(0));
     }
-    if (clamped)
-        *v = interval(fmin(fmax(v->lo, 0), 1), fmin(fmax(v->hi, 0), 1));
+    *v = interval(fmin(fmax(v->lo, 0), 1), fmin(fmax(v->hi, 0), 1));
 }

@@ -25,17 +25,17 @@ LANES_INLINE unsigned cell_of(double whole)
     return (unsigned)((int64_t)whole + 10000) & 4095;
 }
 
-LANES_INLINE void load_corners(const double cell[3][8], int component, struct cell8 *out)
+LANES_INLINE void load_corners(const double cell[3][8], struct cell8 *out)
 {
-    const double *row[8][8], *table = noise_value_table + 4 * component;
+    const double *row[8][8];
     for (int l = 0; l < 8; l++) {
         const unsigned x = cell_of(cell[0][l]), y = cell_of(cell[1][l]),
                        z = cell_of(cell[2][l]);
         for (unsigned c = 0; c < 4; c++) {
             const unsigned h = noise_hash_table[x + (c & 1)];
             const unsigned xy = noise_hash_table[h ^ (y + (c >> 1))];
-            row[c][l] = table + (noise_hash_table[xy ^ z] & 255);
-            row[c + 4][l] = table + (noise_hash_table[xy ^ (z + 1)] & 255);
+            row[c][l] = noise_value_table + (noise_hash_table[xy ^ z] & 255);
+            row[c + 4][l] = noise_value_table + (noise_hash_table[xy ^ (z + 1)] & 255);
         }
     }
     for (int c = 0; c < 8; c++) {
@@ -145,11 +145,11 @@ LANES_INLINE struct real8 to_unit(struct real8 v)
 }
 
 LANES_INLINE void cell_bounds(const struct range8 box[3], const double cell[3][8],
-                              int component, struct range8 *v, struct range8 slope[3])
+                              struct range8 *v, struct range8 slope[3])
 {
     struct cell8 l;
     struct real8 middle[3], off = r8_set(0);
-    load_corners(cell, component, &l);
+    load_corners(cell, &l);
     for (int i = 0; i < 3; i++) {
         const struct real8 c = r8_load(cell[i]);
         l.at[i] =
@@ -177,7 +177,7 @@ LANES_INLINE void join(struct mask8 m, struct range8 *to, struct range8 v)
 }
 
 // Boxes of at most two cells along each axis; returns the lanes of the others.
-static unsigned small_boxes(const struct range8 box[3], int component, struct range8 *v,
+static unsigned small_boxes(const struct range8 box[3], struct range8 *v,
                             struct range8 slope[3])
 {
     struct real8 first[3];
@@ -206,7 +206,7 @@ static unsigned small_boxes(const struct range8 box[3], int component, struct ra
         if (!m8_bits(here))
             continue;
         struct range8 w, s[3];
-        cell_bounds(box, (const double(*)[8])cell, component, &w, s);
+        cell_bounds(box, (const double(*)[8])cell, &w, s);
         join(here, v, w);
         for (int i = 0; i < 3; i++)
             join(here, &slope[i], s[i]);
@@ -237,18 +237,14 @@ void OF_ISA(noise_bounds_)(const double lo[3][8], const double hi[3][8], int gen
         struct range8 box[3], v, slope[3];
         for (int i = 0; i < 3; i++)
             box[i] = (struct range8){r8_load(lo[i]), r8_load(hi[i])};
-        const bool clamped = generator < NOISE_COMPONENT;
-        rest = small_boxes(box, clamped ? 0 : generator - NOISE_COMPONENT, &v, slope);
+        rest = small_boxes(box, &v, slope);
         const bool corrected = generator == NOISE_RANGE_CORRECTED;
         const struct real8 scale = r8_set(corrected ? 0.48985582 : 1);
-        const struct real8 add = r8_set(corrected ? 1.05242 * 0.48985582
-                                        : clamped ? 0.5
-                                                  : 0);
+        const struct real8 add = r8_set(corrected ? 1.05242 * 0.48985582 : 0.5);
         const struct real8 slack = r8_set(NOISE_VALUE_SLACK), zero = r8_set(0);
         v.lo = r8_sub(r8_add(r8_mul(v.lo, scale), add), slack);
         v.hi = r8_add(r8_add(r8_mul(v.hi, scale), add), slack);
-        const struct mask8 cut = m8_and(m8_of(clamped ? 255 : 0),
-                                        m8_or(r8_lt(v.lo, zero), r8_lt(r8_set(1), v.hi)));
+        const struct mask8 cut = m8_or(r8_lt(v.lo, zero), r8_lt(r8_set(1), v.hi));
         for (int i = 0; i < 3; i++) {
             const struct real8 e = r8_set(NOISE_SLOPE_SLACK);
             const struct real8 low = r8_sub(r8_mul(slope[i].lo, scale), e);
@@ -256,8 +252,8 @@ void OF_ISA(noise_bounds_)(const double lo[3][8], const double hi[3][8], int gen
             r8_store(out->slope_lo[i], r8_select(cut, r8_min(low, zero), low));
             r8_store(out->slope_hi[i], r8_select(cut, r8_max(high, zero), high));
         }
-        r8_store(out->lo, clamped ? to_unit(v.lo) : v.lo);
-        r8_store(out->hi, clamped ? to_unit(v.hi) : v.hi);
+        r8_store(out->lo, to_unit(v.lo));
+        r8_store(out->hi, to_unit(v.hi));
     }
     for (; rest; rest &= rest - 1)
         one_box(lo, hi, generator, __builtin_ctz(rest), out);

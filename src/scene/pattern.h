@@ -77,8 +77,8 @@ struct pattern_ops {
     // The same at eight points, to the bit. NULL: by value, one after the other.
     void (*values)(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8]);
-    // The value as steps of a tape, for bounds (scene/pattern_formula.h). NULL: nothing is
-    // known of it.
+    // The value as steps of a tape, for bounds (scene/pattern_formula.h). NULL: nothing
+    // useful is known of it.
     uint32_t (*formula)(struct formula *f, const struct pattern *p, const uint32_t at[3]);
     // Told when all parameters are read: settles them, or says what is wrong. NULL: none.
     const char *(*finish)(struct pattern *p);

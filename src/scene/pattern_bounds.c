@@ -56,154 +56,12 @@ uint32_t formula_unknown(struct formula *f, double lo, double hi, const uint32_t
     return formula_extern(f, &unknown, range, at);
 }
 
-// ---- sums of noise --------------------------------------------------------------------
-
-struct octave_sum {
-    const struct pattern *p;
-    struct noise_octaves o;
-};
-
-struct sum {
-    struct interval v, d[3];
-};
-
-// What one octave's noise counts as, and the slope of that.
-static struct interval counted(const struct noise_octaves *o, int generator, bool first,
-                               struct interval n, struct interval *by)
-{
-    const bool clamped = generator == NOISE_RANGE_CORRECTED || generator == NOISE_PERLIN;
-    const struct interval twice = interval(2 * n.lo, 2 * n.hi);
-    struct interval v;
-    if (o->kind == OCTAVES_FOLDED) {
-        const struct interval off = clamped ? interval(1 - twice.hi, 1 - twice.lo)
-                                            : interval(0.5 - n.hi, 0.5 - n.lo);
-        const double slope = clamped ? 2 : 1;
-        v = interval_abs(off);
-        *by = interval(off.hi > 0 ? -slope : slope, off.lo < 0 ? slope : -slope);
-        if (clamped && v.hi > 0.5) {
-            *by = v.lo > 0.5 ? interval_point(0) : interval_hull(*by, interval_point(0));
-            v = interval(fmin(v.lo, 0.5), 0.5);
-        }
-        return v;
-    }
-    *by = interval_point(clamped ? 2 : 1);
-    v = clamped ? interval(twice.lo - 0.5, twice.hi - 0.5) : n;
-    if (clamped && (o->kind == OCTAVES_STRETCHED || first) && (v.lo < 0 || v.hi > 1)) {
-        *by = v.hi < 0 || v.lo > 1 ? interval_point(0) : interval(0, 2);
-        v = interval(clamp01(v.lo), clamp01(v.hi));
-    }
-    return v;
-}
-
-static void add_octave(struct sum *s, const struct noise_octaves *o, int generator,
-                       bool first, double weight, double scale, struct interval n,
-                       const struct interval slope[3])
-{
-    struct interval by;
-    const struct interval v = counted(o, generator, first, n, &by);
-    const struct interval w = interval_point(weight), ws = interval_point(weight * scale);
-    s->v = interval_add(s->v, interval_multiply(w, v));
-    for (int i = 0; i < 3; i++)
-        s->d[i] =
-            interval_add(s->d[i], interval_multiply(interval_multiply(ws, by), slope[i]));
-}
-
-static void octaves_bounds(const void *data, const struct interval *in,
-                           struct interval *out, struct interval *partial)
-{
-    const struct octave_sum *s = data;
-    const int generator = pattern_noise_generator(s->p);
-    struct sum sum = {0};
-    double scale = s->o.scale, weight = s->o.weight;
-    for (int i = 0; i < s->o.count || i == 0; i++) {
-        struct interval box[3], n, slope[3];
-        for (int k = 0; k < 3; k++)
-            box[k] = interval_multiply(in[k], interval_point(scale));
-        noise_bounds(box, generator, &n, slope);
-        add_octave(&sum, &s->o, generator, i == 0, weight, scale, n, slope);
-        scale *= s->o.lambda;
-        weight *= s->o.omega;
-    }
-    out[0] = around(sum.v, VALUE_SLACK);
-    for (int k = 0; partial && k < 3; k++)
-        partial[k] = sum.d[k];
-}
-
-// The box times a number.
-static void scaled8(const struct tape_range8 *in, double scale, double lo[3][TAPE_LANES],
-                    double hi[3][TAPE_LANES])
-{
-    for (int k = 0; k < 3; k++)
-        for (int l = 0; l < TAPE_LANES; l++) {
-            const struct interval v = interval_multiply(
-                interval(in[k].lo[l], in[k].hi[l]), interval_point(scale));
-            lo[k][l] = v.lo;
-            hi[k][l] = v.hi;
-        }
-}
-
-static struct interval slope_of(const struct noise_bounds8 *b, int k, int lane)
-{
-    return interval(b->slope_lo[k][lane], b->slope_hi[k][lane]);
-}
+// ---- noise ------------------------------------------------------------------------------
 
 static void set_lane(struct tape_range8 *to, int lane, struct interval v)
 {
     to->lo[lane] = v.lo;
     to->hi[lane] = v.hi;
-}
-
-static bool octaves_bounds8(const struct noise_kernels *k, const void *data,
-                            const struct tape_range8 *in, struct tape_range8 *out,
-                            struct tape_range8 *partial)
-{
-    const struct octave_sum *s = data;
-    const int generator = pattern_noise_generator(s->p);
-    struct sum sum[TAPE_LANES] = {0};
-    double scale = s->o.scale, weight = s->o.weight;
-    for (int i = 0; i < s->o.count || i == 0; i++) {
-        double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
-        struct noise_bounds8 b;
-        scaled8(in, scale, lo, hi);
-        k->bounds((const double(*)[TAPE_LANES])lo, (const double(*)[TAPE_LANES])hi,
-                  generator, &b);
-        for (int l = 0; l < TAPE_LANES; l++) {
-            const struct interval slope[3] = {slope_of(&b, 0, l), slope_of(&b, 1, l),
-                                              slope_of(&b, 2, l)};
-            add_octave(&sum[l], &s->o, generator, i == 0, weight, scale,
-                       interval(b.lo[l], b.hi[l]), slope);
-        }
-        scale *= s->o.lambda;
-        weight *= s->o.omega;
-    }
-    for (int l = 0; l < TAPE_LANES; l++) {
-        set_lane(out, l, around(sum[l].v, VALUE_SLACK));
-        for (int a = 0; partial && a < 3; a++)
-            set_lane(&partial[a], l, sum[l].d[a]);
-    }
-    return true;
-}
-
-static const struct tape_extern octaves = {.name = "octaves",
-                                           .arguments = 3,
-                                           .width = 1,
-                                           .bounds = octaves_bounds,
-                                           .bounds8 = octaves_bounds8};
-
-uint32_t formula_octaves(struct formula *f, const struct pattern *p,
-                         const struct noise_octaves *o, const uint32_t at[3])
-{
-    struct octave_sum *s = arena_new_struct(f->arena, struct octave_sum);
-    *s = (struct octave_sum){p, *o};
-    return formula_extern(f, &octaves, s, at);
-}
-
-uint32_t formula_turbulence(struct formula *f, const struct pattern *p,
-                            const struct turbulence *t, const uint32_t at[3])
-{
-    const struct noise_octaves o = {1,        t->lambda,  1,
-                                    t->omega, t->octaves, OCTAVES_TURBULENCE};
-    return formula_octaves(f, p, &o, at);
 }
 
 static void noise_extern_bounds(const void *data, const struct interval *in,
@@ -221,14 +79,17 @@ static bool noise_extern_bounds8(const struct noise_kernels *k, const void *data
 {
     double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
     struct noise_bounds8 b;
-    scaled8(in, 1, lo, hi);
+    for (int a = 0; a < 3; a++) {
+        memcpy(lo[a], in[a].lo, sizeof lo[a]);
+        memcpy(hi[a], in[a].hi, sizeof hi[a]);
+    }
     k->bounds((const double(*)[TAPE_LANES])lo, (const double(*)[TAPE_LANES])hi,
               pattern_noise_generator(data), &b);
     memcpy(out->lo, b.lo, sizeof b.lo);
     memcpy(out->hi, b.hi, sizeof b.hi);
     for (int a = 0; partial && a < 3; a++)
         for (int l = 0; l < TAPE_LANES; l++)
-            set_lane(&partial[a], l, slope_of(&b, a, l));
+            set_lane(&partial[a], l, interval(b.slope_lo[a][l], b.slope_hi[a][l]));
     return true;
 }
 
@@ -241,82 +102,6 @@ static const struct tape_extern noise_extern = {.name = "noise",
 uint32_t formula_noise(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
     return formula_extern(f, &noise_extern, p, at);
-}
-
-// ---- noise_dturbulence ------------------------------------------------------------------
-
-static void dturbulence_bounds(const void *data, const struct interval *in,
-                               struct interval *out, struct interval *partial)
-{
-    const struct turbulence *t = data;
-    for (int c = 0; c < 3; c++) {
-        struct interval v = interval_point(0), d[3] = {v, v, v};
-        double scale = 1, weight = 1;
-        for (int i = 0; i < t->octaves || i == 0; i++) {
-            struct interval box[3], n, slope[3];
-            for (int k = 0; k < 3; k++)
-                box[k] = interval_multiply(in[k], interval_point(scale));
-            noise_bounds(box, NOISE_COMPONENT + c, &n, slope);
-            v = interval_add(v, interval_multiply(interval_point(weight), n));
-            for (int k = 0; k < 3; k++)
-                d[k] = interval_add(
-                    d[k], interval_multiply(interval_point(weight * scale), slope[k]));
-            scale *= t->lambda;
-            weight *= t->omega;
-        }
-        out[c] = around(v, VALUE_SLACK);
-        for (int k = 0; partial && k < 3; k++)
-            partial[3 * c + k] = d[k];
-    }
-}
-
-static bool dturbulence_bounds8(const struct noise_kernels *kernels, const void *data,
-                                const struct tape_range8 *in, struct tape_range8 *out,
-                                struct tape_range8 *partial)
-{
-    const struct turbulence *t = data;
-    struct sum sum[3][TAPE_LANES] = {0};
-    double scale = 1, weight = 1;
-    for (int i = 0; i < t->octaves || i == 0; i++) {
-        double lo[3][TAPE_LANES], hi[3][TAPE_LANES];
-        scaled8(in, scale, lo, hi);
-        const struct interval w = interval_point(weight),
-                              ws = interval_point(weight * scale);
-        for (int c = 0; c < 3; c++) {
-            struct noise_bounds8 b;
-            kernels->bounds((const double(*)[TAPE_LANES])lo,
-                            (const double(*)[TAPE_LANES])hi, NOISE_COMPONENT + c, &b);
-            for (int l = 0; l < TAPE_LANES; l++) {
-                struct sum *s = &sum[c][l];
-                s->v =
-                    interval_add(s->v, interval_multiply(w, interval(b.lo[l], b.hi[l])));
-                for (int k = 0; partial && k < 3; k++)
-                    s->d[k] =
-                        interval_add(s->d[k], interval_multiply(ws, slope_of(&b, k, l)));
-            }
-        }
-        scale *= t->lambda;
-        weight *= t->omega;
-    }
-    for (int c = 0; c < 3; c++)
-        for (int l = 0; l < TAPE_LANES; l++) {
-            set_lane(&out[c], l, around(sum[c][l].v, VALUE_SLACK));
-            for (int k = 0; partial && k < 3; k++)
-                set_lane(&partial[3 * c + k], l, sum[c][l].d[k]);
-        }
-    return true;
-}
-
-static const struct tape_extern dturbulence = {.name = "turbulence",
-                                               .arguments = 3,
-                                               .width = 3,
-                                               .bounds = dturbulence_bounds,
-                                               .bounds8 = dturbulence_bounds8};
-
-void formula_dturbulence(struct formula *f, const struct turbulence *t,
-                         const uint32_t at[3], uint32_t out[3])
-{
-    tape_call_extern(f->b, &dturbulence, t, at, out);
 }
 
 // ---- waves ------------------------------------------------------------------------------

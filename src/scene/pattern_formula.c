@@ -49,11 +49,6 @@ uint32_t formula_wrap(struct formula *f, uint32_t v)
                          v);
 }
 
-uint32_t formula_cycloidal(struct formula *f, uint32_t v)
-{
-    return tape_unary(f->b, TAPE_SIN, formula_scale(f, v, 2 * PATTERN_PI));
-}
-
 // ---- warps ------------------------------------------------------------------------------
 
 static void move(struct formula *f, const struct transform *t, uint32_t at[3])
@@ -72,10 +67,10 @@ static void move(struct formula *f, const struct transform *t, uint32_t at[3])
 
 static void turbulence(struct formula *f, const struct turbulence *t, uint32_t at[3])
 {
-    uint32_t d[3];
-    formula_dturbulence(f, t, at, d);
+    const uint32_t moved = formula_octaves(f, at);
     for (int i = 0; i < 3; i++)
-        at[i] = formula_add(f, at[i], formula_scale(f, d[i], vec3_axis(t->amount, i)));
+        if (vec3_axis(t->amount, i) != 0)
+            at[i] = moved;
 }
 
 static void repeat(struct formula *f, const struct warp *w, uint32_t at[3])

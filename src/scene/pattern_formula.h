@@ -79,20 +79,19 @@ uint32_t formula_length3(struct formula *f, const uint32_t at[3]);
 // The small functions of scene/pattern_math.h.
 uint32_t formula_fade_out(struct formula *f, uint32_t v);
 uint32_t formula_wrap(struct formula *f, uint32_t v);
-uint32_t formula_cycloidal(struct formula *f, uint32_t v);
 uint32_t formula_triangle(struct formula *f, uint32_t v);
 
 // ---- externs (scene/pattern_bounds.c) ---------------------------------------------------
 // Anything between these, wherever the box is: opaque.
 uint32_t formula_unknown(struct formula *f, double lo, double hi, const uint32_t at[3]);
 uint32_t formula_noise(struct formula *f, const struct pattern *p, const uint32_t at[3]);
-// A sum over octaves, by the pattern's generator.
-uint32_t formula_octaves(struct formula *f, const struct pattern *p,
-                         const struct noise_octaves *o, const uint32_t at[3]);
-uint32_t formula_turbulence(struct formula *f, const struct pattern *p,
-                            const struct turbulence *t, const uint32_t at[3]);
-void formula_dturbulence(struct formula *f, const struct turbulence *t,
-                         const uint32_t at[3], uint32_t out[3]);
+// What is made of octaves of noise: unknown. Each octave counts as much for the slope, so
+// that bounds are of use only in boxes smaller than the cells of the finest, which cost
+// more than samples do.
+static inline uint32_t formula_octaves(struct formula *f, const uint32_t at[3])
+{
+    return formula_unknown(f, -INFINITY, INFINITY, at);
+}
 // From the raw value to that of the pattern: frequency, phase and wave.
 uint32_t formula_finished(struct formula *f, const struct pattern *p, uint32_t v);
 void formula_colors(struct formula *f, const struct color_map *m, uint32_t v,

@@ -1,6 +1,5 @@
 // agate: banded by a cycloid of turbulence (spec/textures 5.1)
 
-#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 static void init(struct pattern *p) { p->value[0] = 1; } // agate_turb
@@ -45,21 +44,5 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
         out[i] = out[i] < DBL_MIN ? 0 : powers[i];
 }
 
-static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
-{
-    const struct turbulence *t = p->turbulence ? p->turbulence : &usual;
-    const uint32_t turbulence = formula_turbulence(f, p, t, at);
-    const uint32_t s = formula_add(f, formula_scale(f, turbulence, 1.3 * p->value[0]),
-                                   formula_scale(f, at[2], 1.1));
-    uint32_t v = formula_scale(f, formula_offset(f, formula_cycloidal(f, s), 1), 0.5);
-    v = tape_binary(f->b, TAPE_MAX, v, formula_constant(f, 0));
-    v = tape_binary(f->b, TAPE_MIN, v, formula_constant(f, 1));
-    return tape_binary(f->b, TAPE_POW, v, formula_constant(f, 0.77));
-}
-
-const struct pattern_ops agate_pattern_ops = {.keyword = "agate",
-                                              .frequency = 1,
-                                              .init = init,
-                                              .value = value,
-                                              .formula = formula,
-                                              .values = values};
+const struct pattern_ops agate_pattern_ops = {
+    .keyword = "agate", .frequency = 1, .init = init, .value = value, .values = values};

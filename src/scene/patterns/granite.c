@@ -1,6 +1,5 @@
 // granite: six octaves of folded noise
 
-#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 enum { GRANITE_OCTAVES = 6 };
@@ -27,23 +26,13 @@ static double value(const struct pattern *p, struct vec3 at,
     return sum;
 }
 
-static const struct noise_octaves octaves = {
-    4, 2, 1, 0.5, GRANITE_OCTAVES, OCTAVES_FOLDED};
-
 // 4 and the scales are powers of two: products with them are exact.
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    k->values(at, &octaves, pattern_noise_generator(p), out);
+    static const struct noise_octaves o = {4, 2, 1, 0.5, GRANITE_OCTAVES, OCTAVES_FOLDED};
+    k->values(at, &o, pattern_noise_generator(p), out);
 }
 
-static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
-{
-    return formula_octaves(f, p, &octaves, at);
-}
-
-const struct pattern_ops granite_pattern_ops = {.keyword = "granite",
-                                                .frequency = 1,
-                                                .value = value,
-                                                .formula = formula,
-                                                .values = values};
+const struct pattern_ops granite_pattern_ops = {
+    .keyword = "granite", .frequency = 1, .value = value, .values = values};

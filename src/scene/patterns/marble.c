@@ -24,11 +24,7 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
 
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
-    const struct turbulence *t = p->turbulence;
-    if (!t)
-        return at[0];
-    const uint32_t moved = formula_turbulence(f, p, t, at);
-    return formula_add(f, at[0], formula_scale(f, moved, t->amount.x));
+    return p->turbulence ? formula_octaves(f, at) : at[0];
 }
 
 const struct pattern_ops marble_pattern_ops = {.keyword = "marble",

@@ -32,10 +32,8 @@ static inline uint32_t spiral_formula(struct formula *f, const struct pattern *p
     angle = formula_where(f, formula_less(f, zero, r), angle, zero);
     uint32_t v = formula_add(f, formula_add(f, at[2], r),
                              formula_scale(f, angle, p->integer[0] / (2 * PATTERN_PI)));
-    if (p->turbulence) {
-        const uint32_t moved = formula_turbulence(f, p, p->turbulence, at);
-        v = formula_add(f, v, formula_scale(f, moved, p->turbulence->amount.x));
-    }
+    if (p->turbulence)
+        v = formula_octaves(f, at);
     *radius = r;
     return v;
 }

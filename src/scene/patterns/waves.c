@@ -1,6 +1,5 @@
 // waves: rings around number_of_waves points, each of its own width
 
-#include "scene/pattern_formula.h"
 #include "scene/patterns/rings.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -34,26 +33,9 @@ static void perturbs(const struct pattern *p, const struct noise_kernels *k, flo
     k->ring_slopes(at, &r, amount, n);
 }
 
-static void bounds(const void *data, const struct interval *in, struct interval *out,
-                   struct interval *partial)
-{
-    const struct noise_rings r = rings_of(data, true);
-    rings_bounds(&r, in, out, partial);
-}
-
-static const struct tape_extern waves_bounds = {
-    .name = "waves", .arguments = 3, .width = 1, .bounds = bounds};
-
-static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
-{
-    const uint32_t mean = formula_extern(f, &waves_bounds, p, at);
-    return formula_scale(f, formula_offset(f, mean, 2.5), 0.2);
-}
-
 const struct pattern_ops waves_pattern_ops = {.keyword = "waves",
                                               .frequency = 1,
                                               .value = value,
-                                              .formula = formula,
                                               .values = values,
                                               .perturb = perturb,
                                               .perturbs = perturbs};

@@ -47,17 +47,7 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
 
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
-    const struct turbulence *t = p->turbulence;
-    if (!t)
-        return formula_length(f, at[0], at[1]);
-    uint32_t d[3], v[2];
-    formula_dturbulence(f, t, at, d);
-    for (int i = 0; i < 2; i++) {
-        const uint32_t moved =
-            formula_scale(f, formula_add(f, at[i], d[i]), vec3_axis(t->amount, i));
-        v[i] = formula_add(f, at[i], formula_cycloidal(f, moved));
-    }
-    return formula_length(f, v[0], v[1]);
+    return p->turbulence ? formula_octaves(f, at) : formula_length(f, at[0], at[1]);
 }
 
 const struct pattern_ops wood_pattern_ops = {.keyword = "wood",

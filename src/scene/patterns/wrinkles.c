@@ -1,6 +1,5 @@
 // wrinkles: ten octaves of noise; as a normal, of folded vector noise
 
-#include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
 enum { WRINKLES_OCTAVES = 10 };
@@ -38,14 +37,13 @@ static struct vec3 perturb(const struct pattern *p, float amount, struct vec3 n,
     return vec3_mad(n, amount, sum);
 }
 
-static const struct noise_octaves octaves = {
-    1, 2, 1, 0.5, WRINKLES_OCTAVES, OCTAVES_STRETCHED};
-
 // Divisions by powers of two are products here: the same bits.
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    k->values(at, &octaves, pattern_noise_generator(p), out);
+    static const struct noise_octaves o = {
+        1, 2, 1, 0.5, WRINKLES_OCTAVES, OCTAVES_STRETCHED};
+    k->values(at, &o, pattern_noise_generator(p), out);
     for (int i = 0; i < 8; i++)
         out[i] /= 2;
 }
@@ -63,15 +61,9 @@ static void perturbs(const struct pattern *p, const struct noise_kernels *k, flo
             n[a][i] += amount * sum[a][i];
 }
 
-static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
-{
-    return formula_scale(f, formula_octaves(f, p, &octaves, at), 0.5);
-}
-
 const struct pattern_ops wrinkles_pattern_ops = {.keyword = "wrinkles",
                                                  .frequency = 1,
                                                  .value = value,
-                                                 .formula = formula,
                                                  .values = values,
                                                  .perturb = perturb,
                                                  .perturbs = perturbs};

@@ -36,10 +36,10 @@ static const struct rgbft colors[] = {{0.1f, 0.9f, 0, 0, 0},
                                       {0, 1, 0.25f, 0, 0}};
 static const float keys[] = {0.1f, 0.4f, 0.4f, 0.9f};
 static const struct color_map colours = {4, keys, colors};
-static const struct pattern granite = {
-    .ops = &granite_pattern_ops, .frequency = 1, .noise_generator = 2};
+static const struct pattern bozo = {
+    .ops = &bozo_pattern_ops, .frequency = 1, .noise_generator = 2};
 static const struct pigment colored = {
-    .kind = PIGMENT_COLORS, .pattern = &granite, .colors = &colours};
+    .kind = PIGMENT_COLORS, .pattern = &bozo, .colors = &colours};
 static const struct pigment plain = {.kind = PIGMENT_SOLID,
                                      .color = {0.2f, 0.4f, 0.9f, 0, 0}};
 static const struct pigment *const entries[] = {&plain, &colored, &plain};
@@ -276,12 +276,14 @@ static void every_pigment(void **state)
         }
 }
 
-// Nothing useful is known of these.
+// Nothing useful is known of these; bounds of sums of octaves and rings cost more than
+// samples do.
 static bool is_opaque(const struct pattern_ops *ops)
 {
-    static const char *const names[] = {"density_file", "julia",     "magnet",
-                                        "mandel",       "object",    "pavement",
-                                        "tiling",       "triangular"};
+    static const char *const names[] = {
+        "agate",      "density_file", "granite",  "julia",   "magnet",
+        "mandel",     "object",       "pavement", "ripples", "tiling",
+        "triangular", "waves",        "wrinkles"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (is(ops, names[i]))
             return true;
@@ -319,12 +321,39 @@ static void small_boxes_have_small_bounds(void **state)
     }
 }
 
+static bool function_is_opaque(const struct pattern_ops *ops, const struct turbulence *t)
+{
+    struct arena *a = arena_new(4096);
+    struct pattern p = variant(a, ops, 0);
+    p.turbulence = t;
+    const bool opaque = pattern_extern.opaque(pattern_function(a, a, &p));
+    arena_free(a);
+    return opaque;
+}
+
+// Turbulence is octaves, too, unless the function asks for nothing that it moves.
+static void turbulence_is_opaque(void **state)
+{
+    (void)state;
+    const struct pattern_ops *const ops[] = {&bozo_pattern_ops,    &checker_pattern_ops,
+                                             &crackle_pattern_ops, &marble_pattern_ops,
+                                             &spiral1_pattern_ops, &wood_pattern_ops};
+    for (size_t i = 0; i < sizeof ops / sizeof ops[0]; i++) {
+        assert_false(function_is_opaque(ops[i], NULL));
+        assert_true(function_is_opaque(ops[i], &moved));
+    }
+    static const struct turbulence up = {{0, 0.4, 0}, 4, 2.2f, 0.6f};
+    assert_false(function_is_opaque(&cylindrical_pattern_ops, &up));
+    assert_true(function_is_opaque(&spherical_pattern_ops, &up));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pattern),
         cmocka_unit_test(every_pigment),
         cmocka_unit_test(small_boxes_have_small_bounds),
+        cmocka_unit_test(turbulence_is_opaque),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
