@@ -67,7 +67,8 @@ struct brush {
     const struct surface *surface;
     const struct paint_surface *paint;
     struct paint_group *group;
-    double seen[3][8]; // the normal of the layer before
+    const struct transform *moved; // of the texture that is being painted
+    double seen[3][8];             // the normal of the layer before
 };
 
 // Where a texture is looked up, as struct texture_point and struct texture_chain.
@@ -112,7 +113,7 @@ static void layer_normals(struct brush *b, const struct spot *spot,
     for (const struct spot *s = spot; s->map; s = s->outer)
         if (s->map->kind != TEXTURE_UV)
             k->normal_out(s->map->pattern, v);
-    b->t->job->kernels->world_normals(b->surface, v);
+    b->t->job->kernels->world_normals(b->surface, b->moved, v);
     lanes_copy(b->seen, (const double(*)[8])v, live);
 }
 
@@ -362,25 +363,38 @@ static void brush_flush(struct brush *b)
     s->group_count = s->sheet_count = s->coat_count = 0;
 }
 
+// Paints the lanes of `live` with a texture of the surface.
+static void paint_side(struct brush *b, const struct paint_texture *x,
+                       const struct transform *moved, unsigned live)
+{
+    static const double whole[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    struct spot spot = {.map = NULL};
+    b->moved = moved;
+    b->t->job->kernels->texture_space(b->surface, moved, &b->group->hits, spot.place,
+                                      spot.normal);
+    paint_texture(b, x, &spot, live, whole);
+}
+
 // Paints up to eight hits.
 static void brush_paint(struct brush *b, const uint16_t *ray, uint32_t count)
 {
-    static const double whole[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     struct paint_scratch *s = b->t->paint;
-    const struct shade_kernels *kernels = b->t->job->kernels;
+    const struct surface *surface = b->surface;
     if (s->group_count == PAINT_GROUPS ||
         s->sheet_count + 8 * PAINT_LAYERS > PAINT_SHEETS ||
         s->coat_count + 8 * PAINT_PARTS > PAINT_COATS)
         brush_flush(b);
     struct paint_group *g = b->group = &s->group[s->group_count++];
-    struct spot spot = {.map = NULL};
-    g->surface = b->surface;
+    g->surface = surface;
     g->sheet = s->sheet_count;
     g->coat = s->coat_count;
-    kernels->points(b->t, ray, count, b->surface->wants_uv, &g->hits);
-    kernels->texture_space(b->surface, &g->hits, spot.place, spot.normal);
+    b->t->job->kernels->points(b->t, ray, count, surface->wants_uv, &g->hits);
     memcpy(b->seen, g->hits.n, sizeof b->seen);
-    paint_texture(b, b->paint->top, &spot, g->hits.live, whole);
+    const unsigned live = g->hits.live, back = b->paint->back ? live & g->hits.turned : 0;
+    if (live & ~back)
+        paint_side(b, b->paint->top, &surface->texture_transform, live & ~back);
+    if (back)
+        paint_side(b, b->paint->back, &surface->interior_texture_transform, back);
     g->sheet_count = s->sheet_count - g->sheet;
     g->coat_count = s->coat_count - g->coat;
 }

@@ -46,9 +46,10 @@ struct paint_texture {
 };
 
 struct paint_surface {
-    uint32_t number;                 // of its list of hits
-    const struct paint_texture *top; // NULL: its hits are not painted
-    bool lit;                        // its light is found eight hits at a time
+    uint32_t number;                  // of its list of hits
+    const struct paint_texture *top;  // NULL: its hits are not painted
+    const struct paint_texture *back; // seen from inside; NULL: the same
+    bool lit;                         // its light is found eight hits at a time
 };
 
 // The most at one hit.

@@ -134,18 +134,26 @@ static bool has_work(const struct job *job, const struct texture *x)
     return x->kind != TEXTURE_PLAIN;
 }
 
+static const struct paint_texture *side_compile(struct build *b, const struct texture *x)
+{
+    struct paint_texture *out = arena_new_struct(b->pigments.arena, struct paint_texture);
+    struct paint_size size;
+    b->mapped = false;
+    return texture_compile(b, x, 0, out, &size) ? out : NULL;
+}
+
 static struct paint_surface surface_compile(struct build *b, const struct surface *s)
 {
-    const struct texture *x = s->texture;
+    const struct texture *x = s->texture, *back = s->interior_texture;
     struct paint_surface p = {.lit = paint_lights_surface(b->job, s) &&
-                                     paint_lights_texture(b->job, x)};
-    struct paint_size size;
-    if (s->parts || s->cutaway || s->interior_texture || !(p.lit || has_work(b->job, x)))
+                                     paint_lights_texture(b->job, x) &&
+                                     (!back || paint_lights_texture(b->job, back))};
+    const bool works = has_work(b->job, x) || (back && has_work(b->job, back));
+    if (s->parts || s->cutaway || !(p.lit || works))
         return p;
-    struct paint_texture *top = arena_new_struct(b->pigments.arena, struct paint_texture);
-    b->mapped = false;
-    if (texture_compile(b, x, 0, top, &size))
-        p.top = top;
+    if (back && !(p.back = side_compile(b, back)))
+        return p;
+    p.top = side_compile(b, x);
     return p;
 }
 

@@ -47,32 +47,33 @@ LANES_INLINE struct pattern_packet packet_of(const struct tracer *t,
                                    t->job->simple_uv ? (const double(*)[8])g->uv : NULL};
 }
 
-static const struct transform *texture_place8(const struct surface *s,
-                                              const struct simple_group *g,
-                                              double place[3][8])
+// m: of the texture, which those of a uv mapped object have not.
+static const struct transform *
+texture_place8(const struct surface *s, const struct transform *m,
+               const struct simple_group *g, double place[3][8])
 {
     if (s->flags & OBJECT_UV_MAPPING) {
         memcpy(place, g->uv, sizeof g->uv);
         memset(place[2], 0, sizeof place[2]);
         return &transform_identity;
     }
-    v8_store(place, v8_inverse_point(&s->texture_transform,
-                                     v8_load((const double(*)[8])g->p)));
-    return &s->texture_transform;
+    v8_store(place, v8_inverse_point(m, v8_load((const double(*)[8])g->p)));
+    return m;
 }
 
-static void texture_space(const struct surface *s, const struct simple_group *g,
-                          double place[3][8], double normal[3][8])
+static void texture_space(const struct surface *s, const struct transform *m,
+                          const struct simple_group *g, double place[3][8],
+                          double normal[3][8])
 {
-    const struct transform *m = texture_place8(s, g, place);
+    m = texture_place8(s, m, g, place);
     v8_store(normal, v8_inverse_normal(m, v8_load((const double(*)[8])g->n)));
 }
 
-static void world_normals(const struct surface *s, double v[3][8])
+static void world_normals(const struct surface *s, const struct transform *m,
+                          double v[3][8])
 {
-    // Textures of a uv mapped object are not moved with it.
-    const struct transform *m =
-        s->flags & OBJECT_UV_MAPPING ? &transform_identity : &s->texture_transform;
+    if (s->flags & OBJECT_UV_MAPPING)
+        m = &transform_identity;
     v8_store(v, v8_normalize(v8_normal(m, v8_load((const double(*)[8])v))));
 }
 
@@ -84,7 +85,7 @@ static void normals8(const struct tracer *t, const struct surface *s,
     const struct pattern_packet packet = packet_of(t, g);
     const struct vec8 before = v8_load((const double(*)[8])g->n);
     double place[3][8], v[3][8];
-    const struct transform *m = texture_place8(s, g, place);
+    const struct transform *m = texture_place8(s, &s->texture_transform, g, place);
     v8_store(v, v8_inverse_normal(m, before));
     t->job->kernels->surface->perturb(x->normal, &packet, (const double(*)[8])place, bits, v);
     const struct vec8 n = v8_normal(m, v8_load((const double(*)[8])v));
@@ -98,7 +99,7 @@ static void tape8(const struct tracer *t, const struct surface *s,
     const struct pattern_packet packet = packet_of(t, g);
     double place[3][8];
     float color[5][8];
-    texture_place8(s, g, place);
+    texture_place8(s, &s->texture_transform, g, place);
     const unsigned found = t->job->kernels->surface->colors(x->tape, &packet, (const double(*)[8])place,
                                            bits, color);
     g->bare |= bits & ~found;

@@ -85,6 +85,7 @@ LANES_INLINE void group_points(struct tracer *t, const struct leaf *const leaf[8
     r8_store(g->error, x.error);
     const struct mask8 turned = r8_lt(r8_set(0), v8_dot(x.ns, d));
     v8_store(g->n, v8_select(turned, v8_neg(x.ns), x.ns));
+    g->turned = m8_bits(turned);
     g->in_row = rays_in_row;
     for (uint32_t i = 0; i < 8; i++)
         g->in_row &= g->slot[i] == g->slot[0] + i;
@@ -287,7 +288,7 @@ static uint32_t light_sheets(struct tracer *t, bool side_test, const struct lamp
         struct rgb8 sum = rgb8_set((struct rgb){0, 0, 0});
         unsigned lit = 0;
         for (uint32_t i = 0; i < g->sheet_count && live; i++)
-            lit |= sheet_lit(&s[i], h, side_test, lamp, v.to, live, &sum);
+            lit |= sheet_lit(t->job, &s[i], h, side_test, lamp, v.to, live, &sum);
         if (lit)
             queued = lamp_add(t, &shaded, h, lit, &v, sum, queued);
     }

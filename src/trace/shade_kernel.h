@@ -52,11 +52,13 @@ struct shade_kernels {
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,
                    struct simple_group *g);
-    // Points and normals as the textures of a surface see them, and those normals again in
-    // the world, unit.
-    void (*texture_space)(const struct surface *s, const struct simple_group *g,
-                          double place[3][8], double normal[3][8]);
-    void (*world_normals)(const struct surface *s, double v[3][8]);
+    // Points and normals as a texture of a surface sees them, which m has moved, and those
+    // normals again in the world, unit.
+    void (*texture_space)(const struct surface *s, const struct transform *m,
+                          const struct simple_group *g, double place[3][8],
+                          double normal[3][8]);
+    void (*world_normals)(const struct surface *s, const struct transform *m,
+                          double v[3][8]);
     // Puts a layer, whose colours and normals are known, below those of the coat, as
     // shade_plain. mirror: what it mirrors if it conserves energy, else NULL. Returns the
     // lanes in which more than adc_bailout passes.

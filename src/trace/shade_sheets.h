@@ -2,6 +2,9 @@
 #define TRACE_SHADE_SHEETS_H
 
 // Layers of painted hits: shade_plain, add_own and layers_lit in lanes.
+#include "math/isa.h"
+#include "math/trig_lanes.h"
+#include "scene/noise_kernel.h"
 #include "trace/paint.h"
 #include "trace/shade_kernel.h"
 #include "trace/shade_lanes.h"
@@ -67,10 +70,38 @@ LANES_INLINE struct rgb8 sheet_own(const struct job *job, const struct paint_she
                     rgb8_scale(f8_load(s->att), rgb8_set(own)));
 }
 
+// irid_factor.
+static struct rgb8 irid8(const struct job *job, const struct finish *f,
+                         const struct simple_group *h, struct vec8 n, struct vec8 to)
+{
+    struct real8 thickness = r8_set((double)f->irid_thickness);
+    if (f->irid_turbulence != 0) {
+        double noise[8];
+        noise_turbulence8(&OF_ISA(noise_kernels_), (const double(*)[8])h->p, 2, 0.5, 5,
+                          job->scene->settings.noise_generator, noise);
+        const struct real8 uneven = r8_sub(r8_mul(r8_set(2), r8_load(noise)), r8_set(1));
+        thickness =
+            r8_mul(thickness,
+                   r8_add(r8_set(1), r8_mul(r8_set((double)f->irid_turbulence), uneven)));
+    }
+    const struct vec8 d = v8_load((const double(*)[8])h->d);
+    const struct real8 way = r8_mul(r8_mul(r8_set(2 * 3.14159265358979323846), thickness),
+                                    r8_add(r8_abs(v8_dot(n, to)), r8_abs(v8_dot(n, d))));
+    const struct rgb w = job->irid_wavelength;
+    const float length[3] = {w.r, w.g, w.b};
+    struct float8 c[3];
+    for (int k = 0; k < 3; k++)
+        c[k] = f8_add(f8_set(1),
+                      f8_mul(f8_set(f->irid),
+                             f8_of(det_cos8(r8_div(way, r8_set((double)length[k]))))));
+    return (struct rgb8){c[0], c[1], c[2]};
+}
+
 // Adds the light of a lamp that one layer sends on; returns the lanes that get some.
-LANES_INLINE unsigned sheet_lit(const struct paint_sheet *s, const struct simple_group *h,
-                                bool side_test, const struct lamp *lamp, struct vec8 to,
-                                unsigned live, struct rgb8 *sum)
+LANES_INLINE unsigned sheet_lit(const struct job *job, const struct paint_sheet *s,
+                                const struct simple_group *h, bool side_test,
+                                const struct lamp *lamp, struct vec8 to, unsigned live,
+                                struct rgb8 *sum)
 {
     live &= s->lanes;
     if (!live || !finish_takes_light(s->layer->finish))
@@ -78,8 +109,10 @@ LANES_INLINE unsigned sheet_lit(const struct paint_sheet *s, const struct simple
     const struct lit_layer l = {s->layer->finish, (const double(*)[8])h->d,
                                 (const double(*)[8])s->n, (const float(*)[8])s->color,
                                 s->att};
-    const struct rgb8 c = rgb8_mul(lit8(&l, side_test, lamp, to, &live),
-                                   rgb8_load((const float(*)[8])s->filter));
+    struct rgb8 c = lit8(&l, side_test, lamp, to, &live);
+    if (live && l.finish->irid != 0)
+        c = rgb8_mul(c, irid8(job, l.finish, h, v8_load(l.n), to));
+    c = rgb8_mul(c, rgb8_load((const float(*)[8])s->filter));
     sum->r = f8_select(live, f8_add(sum->r, c.r), sum->r);
     sum->g = f8_select(live, f8_add(sum->g, c.g), sum->g);
     sum->b = f8_select(live, f8_add(sum->b, c.b), sum->b);

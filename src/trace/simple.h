@@ -47,14 +47,15 @@ struct simple_group {
     uint16_t slot[8];
     uint32_t ray[8];
     unsigned live;
-    unsigned bare; // lanes whose pigment has no colour there: they are not live
-    bool in_row; // eight slots in a row
+    unsigned bare;   // lanes whose pigment has no colour there: they are not live
+    unsigned turned; // lanes that see the side that the surface's normal points away from
+    bool in_row;     // eight slots in a row
 };
 
 // Where the light of a group goes on: mirrored, and through the surface.
 struct simple_bounce {
     // Asked for:
-    double eta[8], index[8]; // ratio of ior, index of Fresnel's formula
+    double eta[8], index[8];     // ratio of ior, index of Fresnel's formula
     float from_weight[8], least; // weights of the rays that came; adc_bailout
     float pass[3][8];            // of the pigment, where the class is clear
     float fade[3][8];            // of the way here: what exp of `exponent` is multiplied
@@ -66,7 +67,7 @@ struct simple_bounce {
     // `through` and weight of rays that are mirrored, reflected totally, bent or straight on.
     float mirrored[3][8], mirror_weight[8];
     float back[3][8], bent[3][8], bent_weight[8], clarity[8]; // clarity: times through_t
-    unsigned total;          // lanes of total reflection
+    unsigned total;                                           // lanes of total reflection
     unsigned mirrors;        // lanes whose mirrored rays count
     unsigned passes, counts; // lanes where anything passes; where it counts
 };

@@ -227,6 +227,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/316-camera-mesh-uv.pov \
 	%D%/317-camera-mesh-distance.pov \
 	%D%/318-shapes-lanes.pov %D%/319-layers-lit.pov %D%/319-pigment-functions.pov \
+	%D%/320-texture-sides.pov \
 	%D%/320-media-intervals-unlit.pov \
 	%D%/321-media-spot-cylinder.pov \
 	%D%/322-media-spot-behind.pov \
