@@ -229,23 +229,47 @@ static void operation_by_lanes(const struct tape_step *s, const struct reg *r, i
     set(to, n, out);
 }
 
+// Of eight boxes one by one.
+static void extern_bounds_each(const struct tape_extern *f, const void *data,
+                               const struct tape_range8 *in, struct tape_range8 *out,
+                               struct tape_range8 *partial)
+{
+    const int partials = partial ? f->width * f->arguments : 0;
+    for (int l = 0; l < 8; l++) {
+        struct interval at[TAPE_EXTERN_ARGUMENTS], v[TAPE_WIDTH_MAX],
+            by[TAPE_WIDTH_MAX * TAPE_EXTERN_ARGUMENTS];
+        for (int i = 0; i < f->arguments; i++)
+            at[i] = interval(in[i].lo[l], in[i].hi[l]);
+        f->bounds(data, at, v, partial ? by : NULL);
+        for (int i = 0; i < f->width; i++) {
+            out[i].lo[l] = v[i].lo;
+            out[i].hi[l] = v[i].hi;
+        }
+        for (int i = 0; i < partials; i++) {
+            partial[i].lo[l] = by[i].lo;
+            partial[i].hi[l] = by[i].hi;
+        }
+    }
+}
+
 static bool call_in_lanes(const struct tape *t, const struct tape_step *s, struct reg *r,
                           int n)
 {
     const struct tape_extern *f = s->op == TAPE_EXTERN ? s->callee : NULL;
-    if (!f || !f->bounds8)
+    if (!f || !f->bounds)
         return false;
     struct tape_range8 in[TAPE_EXTERN_ARGUMENTS], out[TAPE_WIDTH_MAX],
         partial[TAPE_WIDTH_MAX * TAPE_EXTERN_ARGUMENTS];
     for (uint32_t i = 0; i < s->count; i++) {
         const struct reg *a = &r[t->list[s->list + i]];
-        if (m8_bits(r8_lt(size_of(a->v), r8_set(INFINITY))) != 255)
+        if (!f->anywhere && m8_bits(r8_lt(size_of(a->v), r8_set(INFINITY))) != 255)
             return false;
         r8_store(in[i].lo, a->v.lo);
         r8_store(in[i].hi, a->v.hi);
     }
-    if (!f->bounds8(&OF_ISA(noise_kernels_), s->data, in, out, n ? partial : NULL))
-        return false;
+    if (!f->bounds8 ||
+        !f->bounds8(&OF_ISA(noise_kernels_), s->data, in, out, n ? partial : NULL))
+        extern_bounds_each(f, s->data, in, out, n ? partial : NULL);
     struct reg v[TAPE_WIDTH_MAX];
     for (int i = 0; i < f->width; i++) {
         v[i].v = range_of(r8_load(out[i].lo), r8_load(out[i].hi));
