@@ -174,7 +174,7 @@ void paint_compile(struct job *job, struct arena *a)
         const struct surface *before = i ? &w->surface[i - 1] : NULL;
         if (!before || !last.top || before->texture != s->texture ||
             before->light_group != s->light_group || before->photons != s->photons ||
-            s->parts || s->cutaway || s->interior_texture)
+            s->parts || s->cutaway || s->interior_texture || last.back)
             last = surface_compile(&b, s);
         if (!last.top)
             continue;

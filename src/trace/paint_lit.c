@@ -10,7 +10,7 @@
 
 static bool lights_finish(const struct job *job, const struct finish *f)
 {
-    return f->crand <= 0 && !(f->has_subsurface && job->subsurface);
+    return !(f->has_subsurface && job->subsurface);
 }
 
 bool paint_lights_texture(const struct job *job, const struct texture *x)

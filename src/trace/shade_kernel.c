@@ -264,7 +264,7 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
             continue;
         const struct lit_layer l = {c->finish, (const double(*)[8])g->d,
                                     (const double(*)[8])g->n, (const float(*)[8])g->color,
-                                    g->att};
+                                    g->att, NULL};
         const struct rgb8 sum = lit8(&l, c->side_test, lamp, v.to, &live);
         if (live)
             queued = lamp_add(t, &shaded, g, live, &v, sum, queued);
@@ -288,7 +288,7 @@ static uint32_t light_sheets(struct tracer *t, bool side_test, const struct lamp
         struct rgb8 sum = rgb8_set((struct rgb){0, 0, 0});
         unsigned lit = 0;
         for (uint32_t i = 0; i < g->sheet_count && live; i++)
-            lit |= sheet_lit(t->job, &s[i], h, side_test, lamp, v.to, live, &sum);
+            lit |= sheet_lit(t, &s[i], h, side_test, lamp, v.to, live, &sum);
         if (lit)
             queued = lamp_add(t, &shaded, h, lit, &v, sum, queued);
     }

@@ -57,6 +57,7 @@ struct lit_layer {
     const double (*d)[8], (*n)[8]; // of the ray; of the layer, towards the ray
     const float (*color)[8];       // red, green, blue
     const float *att;
+    const float *crand; // the random number of each lane, if the finish has crand
 };
 
 // Metals tint their highlights.
@@ -94,8 +95,13 @@ LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test,
             cosine = r8_pow_single(cosine, (double)f->brilliance);
         const struct float8 strength = f8_select(back, f8_set(fmaxf(0, f->diffuse_back)),
                                                  f8_set(fmaxf(0, f->diffuse)));
-        c = rgb8_scale(f8_mul(f8_of(cosine), f8_mul(strength, f8_load(l->att))),
-                       rgb8_load(l->color));
+        struct float8 i = f8_mul(f8_of(cosine), f8_mul(strength, f8_load(l->att)));
+        if (f->crand > 0) {
+            const struct float8 less =
+                f8_sub(i, f8_mul(f8_set(f->crand), f8_load(l->crand)));
+            i = f8_select(f8_le(strength, f8_set(0)), i, less);
+        }
+        c = rgb8_scale(i, rgb8_load(l->color));
     }
     if (!lamp->dull) {
         const struct float8 sum = highlights8(f, v8_load(l->d), n, to, *live & ~back);

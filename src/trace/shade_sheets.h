@@ -98,7 +98,7 @@ static struct rgb8 irid8(const struct job *job, const struct finish *f,
 }
 
 // Adds the light of a lamp that one layer sends on; returns the lanes that get some.
-LANES_INLINE unsigned sheet_lit(const struct job *job, const struct paint_sheet *s,
+LANES_INLINE unsigned sheet_lit(const struct tracer *t, const struct paint_sheet *s,
                                 const struct simple_group *h, bool side_test,
                                 const struct lamp *lamp, struct vec8 to, unsigned live,
                                 struct rgb8 *sum)
@@ -106,12 +106,20 @@ LANES_INLINE unsigned sheet_lit(const struct job *job, const struct paint_sheet 
     live &= s->lanes;
     if (!live || !finish_takes_light(s->layer->finish))
         return 0;
-    const struct lit_layer l = {s->layer->finish, (const double(*)[8])h->d,
-                                (const double(*)[8])s->n, (const float(*)[8])s->color,
-                                s->att};
+    float crand[8] = {0};
+    if (s->layer->finish->crand > 0)
+        for (int i = 0; i < 8; i++)
+            crand[i] =
+                (float)hash_unit(hash_mix(wave_hash(t, h->slot[i]), lamp->index + 100));
+    const struct lit_layer l = {s->layer->finish,
+                                (const double(*)[8])h->d,
+                                (const double(*)[8])s->n,
+                                (const float(*)[8])s->color,
+                                s->att,
+                                crand};
     struct rgb8 c = lit8(&l, side_test, lamp, to, &live);
     if (live && l.finish->irid != 0)
-        c = rgb8_mul(c, irid8(job, l.finish, h, v8_load(l.n), to));
+        c = rgb8_mul(c, irid8(t->job, l.finish, h, v8_load(l.n), to));
     c = rgb8_mul(c, rgb8_load((const float(*)[8])s->filter));
     sum->r = f8_select(live, f8_add(sum->r, c.r), sum->r);
     sum->g = f8_select(live, f8_add(sum->g, c.g), sum->g);

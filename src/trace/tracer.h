@@ -214,6 +214,7 @@ void shade_hit(struct tracer *t, const struct path *path, const struct hit *hit)
 // The ray of a slot of the wave, and the interiors it is inside.
 struct path wave_path(const struct tracer *t, uint32_t slot);
 const struct inside *wave_inside(const struct tracer *t, uint32_t slot);
+uint32_t wave_hash(const struct tracer *t, uint32_t slot); // wave_path's
 
 struct path *path_queue_add(struct path_queue *q);
 // Room for `count` more.

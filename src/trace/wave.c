@@ -150,6 +150,13 @@ struct path wave_path(const struct tracer *t, uint32_t slot)
         .hash = tracer_position_hash(w->position[slot])};
 }
 
+uint32_t wave_hash(const struct tracer *t, uint32_t slot)
+{
+    const struct wavefront *w = &t->wave;
+    return w->path ? w->path[w->order[slot]].hash
+                   : tracer_position_hash(w->position[slot]);
+}
+
 const struct inside *wave_inside(const struct tracer *t, uint32_t slot)
 {
     const struct wavefront *w = &t->wave;
