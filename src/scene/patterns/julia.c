@@ -10,5 +10,16 @@ static double value(const struct pattern *p, struct vec3 at,
                          (struct complex_number){p->vector.x, p->vector.y});
 }
 
-const struct pattern_ops julia_pattern_ops = {
-    .keyword = "julia", .frequency = 1, .init = fractal_init, .value = value};
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    (void)k;
+    fractal_values(p, (struct complex8){r8_load(at[0]), r8_load(at[1])},
+                   (struct complex8){r8_set(p->vector.x), r8_set(p->vector.y)}, out);
+}
+
+const struct pattern_ops julia_pattern_ops = {.keyword = "julia",
+                                              .frequency = 1,
+                                              .init = fractal_init,
+                                              .value = value,
+                                              .values = values};

@@ -10,5 +10,16 @@ static double value(const struct pattern *p, struct vec3 at,
     return fractal_value(p, z, z);
 }
 
-const struct pattern_ops mandel_pattern_ops = {
-    .keyword = "mandel", .frequency = 1, .init = fractal_init, .value = value};
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    (void)k;
+    const struct complex8 z = {r8_load(at[0]), r8_load(at[1])};
+    fractal_values(p, z, z, out);
+}
+
+const struct pattern_ops mandel_pattern_ops = {.keyword = "mandel",
+                                               .frequency = 1,
+                                               .init = fractal_init,
+                                               .value = value,
+                                               .values = values};

@@ -140,6 +140,18 @@ static struct pattern variant(const struct pattern_ops *ops, unsigned turn)
         p.offset = turn % 4 ? 0 : 0.2f;
         p.solid = turn % 7 == 0;
     }
+    if (ops == &julia_pattern_ops || ops == &mandel_pattern_ops ||
+        ops == &magnet_pattern_ops) {
+        p.integer[1] = 1 + (int)(turn / 5 % 2);
+        p.integer[2] = (int)(turn / 7 % 2);
+        p.integer[0] = (int)(turn % 31);
+        p.fractal_exponent = 2 + (int)(turn / 3 % 4);
+        p.vector = vec3(0.35, 0.28, 0);
+        p.exterior_type = (int)(turn % 10);
+        p.interior_type = (int)(turn / 2 % 8);
+        p.exterior_factor = 3.5;
+        p.interior_factor = 0.7;
+    }
     return p;
 }
 
