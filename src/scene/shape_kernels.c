@@ -28,4 +28,5 @@ const struct shape_kernels OF_ISA(shape_kernels_) = {
     .revolve = OF_ISA(revolve_closest8_),
     .sphere_sweep = OF_ISA(sweep_closest8_),
     .superellipsoid = OF_ISA(superellipsoid_closest8_),
+    .superellipsoid_samples = OF_ISA(superellipsoid_samples8_),
 };

@@ -75,6 +75,10 @@ struct shape_kernels {
     unsigned (*superellipsoid)(const struct superellipsoid *s,
                                const struct shape_rays *rays, unsigned lanes, bool any,
                                struct shape_hits *out);
+    // F and its derivative at eight places o + t u of one line, of any superellipsoid.
+    void (*superellipsoid_samples)(const struct superellipsoid *s, struct vec3 o,
+                                   struct vec3 u, const double t[8], double f[8],
+                                   double slope[8]);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -177,6 +177,8 @@ static const char *const same_hits[] = {
     "superellipsoid { <1, 1> }",
     "superellipsoid { <2, 2> }",
     "superellipsoid { <.01, 1e-3> }",
+    "superellipsoid { <3, .5> }",
+    "superellipsoid { <2.5, 4> }",
 };
 
 enum {

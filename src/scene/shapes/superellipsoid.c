@@ -94,12 +94,14 @@ static void add(const struct line *l, double t, double slope, enum crossing c,
     *boundary_list_add(out, 0, 0, c, 0) = crossing_at(l, t, slope, c);
 }
 
-// The root between outside (F > 0) and inside, Newton kept in the bracket.
-static double root_between(const struct line *l, double outside, double inside)
+// The root between outside (F > 0) and inside, Newton from t on, kept in the bracket; *slope is
+// F's near it.
+static double root_between(const struct line *l, double outside, double inside, double t,
+                           double *slope)
 {
-    double t = outside;
     for (int i = 0; i < 100; i++) {
         const struct sample v = at(l, t);
+        *slope = v.slope;
         if (v.f > 0)
             outside = t;
         else
@@ -118,7 +120,8 @@ static double root_between(const struct line *l, double outside, double inside)
 // The root of a convex F next to the outside point t, looking towards `to`, by Newton's
 // method, which comes from outside and does not pass it; false: there is none. *slope is
 // F's there.
-static bool approach(const struct line *l, double t, double to, double *root, double *slope)
+static bool approach(const struct line *l, double t, double to, double *root,
+                     double *slope)
 {
     const double way = to > t ? 1 : -1, noise = l->noise;
     for (int i = 0; i < 100; i++) {
@@ -153,9 +156,9 @@ enum { STOPS = 11, PIECES = 4, CROSSINGS = 2 * STOPS * PIECES };
 
 static int kinks(const struct line *l, double a, double b, double stop[STOPS])
 {
-    static const struct vec3 plane[9] = {{1, 0, 0},  {0, 1, 0}, {0, 0, 1},
+    static const struct vec3 plane[9] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
                                          {1, 1, 0},  {1, -1, 0}, {1, 0, 1},
-                                         {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+                                         {1, 0, -1}, {0, 1, 1},  {0, 1, -1}};
     int n = 0;
     stop[n++] = a;
     for (int i = 0; i < 9; i++) {
@@ -173,58 +176,121 @@ static int kinks(const struct line *l, double a, double b, double stop[STOPS])
     return n;
 }
 
-// A point between a and b on the other side of F than both, where the slopes at the ends
-// say there may be one: F turns between them.
-static bool find_turn(const struct line *l, double a, double b, bool in, double *turn)
+// A place where F was looked at.
+struct place {
+    double t, f;
+};
+
+// The secant's root is nearer than the ends.
+static void cross(const struct line *l, struct place a, struct place b, bool enters,
+                  struct boundary_list *out)
 {
-    for (int i = 0; i < 24; i++) {
-        const double t = 0.5 * (a + b);
-        const struct sample v = at(l, t);
-        if ((v.f < 0) != in) {
-            *turn = t;
+    double start = a.t + (b.t - a.t) * (a.f / (a.f - b.f)), slope;
+    if (!(start > a.t && start < b.t)) // the line leaves the cube where F is below zero
+        start = 0.5 * (a.t + b.t);
+    const double root = enters ? root_between(l, a.t, b.t, start, &slope)
+                               : root_between(l, b.t, a.t, start, &slope);
+    add(l, root, slope, enters ? CROSS_ENTER : CROSS_EXIT, out);
+}
+
+// Where a line is sampled, and what F is there; eight places at a time, if there are kernels.
+enum { PLACES = (STOPS - 1) * PIECES + 1, ROOM = (PLACES + 7) / 8 * 8 };
+
+struct samples {
+    const struct line *line;
+    const struct shape_kernels *kernels; // NULL: one place at a time
+    int count;
+    double t[ROOM], f[ROOM], slope[ROOM];
+};
+
+static void samples_place(struct samples *s, double a, double b)
+{
+    double stop[STOPS];
+    const int n = kinks(s->line, a, b, stop);
+    s->count = 0;
+    s->t[s->count++] = a;
+    for (int i = 1; i < n; i++)
+        for (int k = 1; k <= PIECES; k++)
+            s->t[s->count++] = stop[i - 1] + (stop[i] - stop[i - 1]) * k / PIECES;
+    for (int i = s->count; i % 8; i++)
+        s->t[i] = b;
+}
+
+static struct sample sample_of(struct samples *s, int i)
+{
+    if (!s->kernels)
+        return at(s->line, s->t[i]);
+    if (i % 8 == 0)
+        s->kernels->superellipsoid_samples(s->line->s, s->line->o, s->line->u, s->t + i,
+                                           s->f + i, s->slope + i);
+    return (struct sample){s->f[i], s->slope[i]};
+}
+
+// F and its slope at eight places of the line.
+static void eight_samples(const struct line *l, const struct shape_kernels *k,
+                          const double t[8], double f[8], double slope[8])
+{
+    if (k) {
+        k->superellipsoid_samples(l->s, l->o, l->u, t, f, slope);
+        return;
+    }
+    for (int i = 0; i < 8; i++) {
+        const struct sample v = at(l, t[i]);
+        f[i] = v.f;
+        slope[i] = v.slope;
+    }
+}
+
+// A point between a and b on the other side of F than both, where the slopes at the ends
+// say there may be one: F turns between them, in one eighth of the stretch.
+static bool find_turn(const struct line *l, const struct shape_kernels *k, double a,
+                      double b, bool in, struct place *turn)
+{
+    for (int step = 0; step < 8; step++) {
+        double t[8], f[8], slope[8];
+        for (int i = 0; i < 8; i++)
+            t[i] = a + (b - a) * (i + 1) / 8; // the last is not looked at
+        eight_samples(l, k, t, f, slope);
+        int i = 0;
+        while (i < 7 && (f[i] < 0) == in && (slope[i] > 0) == in)
+            i++;
+        if (i < 7 && (f[i] < 0) != in) {
+            *turn = (struct place){t[i], f[i]};
             return true;
         }
-        if ((v.slope > 0) == in)
-            a = t;
-        else
-            b = t;
+        a = i ? t[i - 1] : a;
+        b = i < 7 ? t[i] : b;
     }
     return false;
 }
 
-static void cross(const struct line *l, double a, double b, bool enters,
-                  struct boundary_list *out)
-{
-    const double root = enters ? root_between(l, a, b) : root_between(l, b, a);
-    add(l, root, at(l, root).slope, enters ? CROSS_ENTER : CROSS_EXIT, out);
-}
-
 // Crossings up to the first behind `enough`.
-static void sampled(const struct line *l, double a, double b, double enough,
-                    struct boundary_list *out)
+static void sampled(const struct line *l, const struct shape_kernels *kernels, double a,
+                    double b, double enough, struct boundary_list *out)
 {
-    double stop[STOPS], last = a, turn;
-    const int n = kinks(l, a, b, stop);
-    struct sample before = at(l, a);
+    struct samples s;
+    s.line = l;
+    s.kernels = kernels;
+    samples_place(&s, a, b);
+    struct sample before = sample_of(&s, 0);
+    struct place last = {a, before.f}, turn;
     bool in = false;
-    for (int i = 1; i < n; i++)
-        for (int k = 1; k <= PIECES; k++) {
-            const double t = stop[i - 1] + (stop[i] - stop[i - 1]) * k / PIECES;
-            const struct sample here = at(l, t);
-            const bool now = here.f < 0 && !(i == n - 1 && k == PIECES);
-            if (now != in) {
-                cross(l, last, t, now, out);
-            } else if ((before.slope > 0) == in && (here.slope > 0) != in &&
-                       find_turn(l, last, t, in, &turn)) {
-                cross(l, last, turn, !in, out);
-                cross(l, turn, t, in, out);
-            }
-            in = now;
-            last = t;
-            before = here;
-            if (out->count && out->at[out->count - 1].t > enough)
-                return;
+    for (int i = 1; i < s.count; i++) {
+        const struct sample here = sample_of(&s, i);
+        const bool now = here.f < 0 && i + 1 < s.count;
+        if (now != in) {
+            cross(l, last, (struct place){s.t[i], here.f}, now, out);
+        } else if ((before.slope > 0) == in && (here.slope > 0) != in &&
+                   find_turn(l, kernels, last.t, s.t[i], in, &turn)) {
+            cross(l, last, turn, !in, out);
+            cross(l, turn, (struct place){s.t[i], here.f}, in, out);
         }
+        in = now;
+        last = (struct place){s.t[i], here.f};
+        before = here;
+        if (out->count && out->at[out->count - 1].t > enough)
+            return;
+    }
 }
 
 static struct line line_of(const void *shape, const struct ray *ray)
@@ -249,39 +315,51 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     if (is_convex(l.s))
         convex(&l, a, b, out);
     else
-        sampled(&l, a, b, HUGE_VAL, out);
+        sampled(&l, NULL, a, b, HUGE_VAL, out);
 }
 
 // The first crossing that the ray may see; those behind need not be found.
-static bool closest(const void *shape, const struct ray *ray, struct boundary *out)
+static bool closest_sampled(const struct shape_kernels *k, const void *shape,
+                            const struct ray *ray, struct boundary *out)
 {
     const struct line l = line_of(shape, ray);
-    const uint32_t leaf = out->leaf;
     struct boundary room[CROSSINGS];
     struct boundary_list list = {.at = room, .capacity = CROSSINGS};
     double a, b;
     if (!in_cube(&l, &a, &b))
         return false;
-    if (is_convex(l.s))
-        convex(&l, a, b, &list);
-    else
-        sampled(&l, a, b, ray->t_min, &list);
+    sampled(&l, k, a, b, ray->t_min, &list);
     for (uint32_t i = 0; i < list.count; i++)
         if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
             *out = room[i];
-            out->leaf = leaf;
             return true;
         }
     return false;
 }
 
-static bool has_lanes(const void *shape) { return is_convex(shape); }
+static bool has_lanes(const void *shape)
+{
+    (void)shape;
+    return true;
+}
 
 static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          const struct shape_rays *rays, unsigned lanes, bool any,
                          struct shape_hits *out)
 {
-    return k->superellipsoid(shape, rays, lanes, any, out);
+    if (is_convex(shape))
+        return k->superellipsoid(shape, rays, lanes, any, out);
+    unsigned met = 0;
+    for (; lanes && !shape_hits_give_up(out); lanes &= lanes - 1) {
+        const int lane = __builtin_ctz(lanes);
+        const struct ray ray = shape_rays_lane(rays, lane);
+        struct boundary b;
+        if (!closest_sampled(k, shape, &ray, &b))
+            continue;
+        shape_hits_put(out, lane, &b);
+        met |= lanes & -lanes;
+    }
+    return met;
 }
 
 static bool build(void *shape, struct args *args)
@@ -342,7 +420,6 @@ const struct shape_ops superellipsoid_ops = {
     .bounds = bounds,
     .inside = inside,
     .intersect = intersect,
-    .closest = closest,
     .closest8 = closest8,
     .has_lanes = has_lanes,
     .surface = surface,

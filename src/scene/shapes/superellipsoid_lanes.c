@@ -1,5 +1,5 @@
-// Eight rays and a superellipsoid that is convex: superellipsoid.c in lanes, operation by
-// operation, with the same bits. ISA names the instruction set.
+// Eight rays and a superellipsoid that is convex, or eight places of one line: superellipsoid.c
+// in lanes, operation by operation, with the same bits. ISA names the instruction set.
 #include "math/quick_lanes.h"
 #include "scene/shapes/lanes.h"
 #include "scene/shapes/superellipsoid.h"
@@ -130,4 +130,14 @@ unsigned OF_ISA(superellipsoid_closest8_)(const struct superellipsoid *s,
 {
     (void)any;
     return closest(s, rays, lanes, out);
+}
+
+void OF_ISA(superellipsoid_samples8_)(const struct superellipsoid *s, struct vec3 o,
+                                      struct vec3 u, const double t[8], double f[8],
+                                      double slope[8])
+{
+    const struct lines8 l = {.o = V8_SET(o), .u = V8_SET(u)};
+    const struct samples8 v = at(s, &l, r8_load(t));
+    r8_store(f, v.f);
+    r8_store(slope, v.slope);
 }
