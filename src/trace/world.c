@@ -23,6 +23,14 @@ struct context {
     float importance;
     const struct user_bound *bound; // of unions that were split
     uint32_t bound_count;
+    const struct outer_clip *clips; // of those, too
+};
+
+// What clips a union that was split clips each of its children.
+struct outer_clip {
+    const struct object *object;
+    struct context context;
+    const struct outer_clip *next;
 };
 
 // A node waiting to be flattened into its slot. A stack rather than recursion: trees may
@@ -431,8 +439,39 @@ static void flatten(struct build *b, uint32_t root, const struct object *o,
 
 static bool splits(const struct object *o)
 {
-    return o->kind == OBJECT_CSG && o->op == CSG_UNION && !o->clip_count &&
+    return o->kind == OBJECT_CSG && o->op == CSG_UNION &&
            !(o->flags & (OBJECT_NO_SPLIT | OBJECT_INVERSE));
+}
+
+// The clips of a union that is split, before those around it.
+static const struct outer_clip *join_clips(struct build *b, const struct object *o,
+                                           const struct context *c)
+{
+    const struct outer_clip *all = c->clips;
+    for (uint32_t i = 0; i < o->clip_count; i++) {
+        struct outer_clip *clip = arena_new_struct(b->arena, struct outer_clip);
+        *clip = (struct outer_clip){o->clip[i], *c, all};
+        clip->context.inverted = clip->context.drawn = false;
+        clip->context.clips = NULL;
+        all = clip;
+    }
+    return all;
+}
+
+// As flatten_clipped, of the clips of unions around the object.
+static void flatten_top(struct build *b, uint32_t root, const struct object *o,
+                        const struct context *c)
+{
+    struct context bare = *c;
+    uint32_t count = 0, first = root;
+    bare.clips = NULL;
+    for (const struct outer_clip *k = c->clips; k; k = k->next)
+        count++;
+    if (count)
+        first = add_children(b, root, NODE_INTERSECTION, count + 1);
+    for (const struct outer_clip *k = c->clips; k; k = k->next)
+        later(b, k->object, &k->context, first + count--);
+    flatten(b, first, o, &bare);
 }
 
 // Marks the leaves without which there is nothing of the object.
@@ -494,7 +533,7 @@ static void add_object(struct build *b, const struct object *o, const struct con
     const uint32_t root = b->node.count;
     vector_add(&b->node, 1);
     node_at(b, root)->parent = root;
-    flatten(b, root, o, c);
+    flatten_top(b, root, o, c);
     if (b->leaf.count == first_leaf) {
         b->node.count = root;
         return;
@@ -570,6 +609,7 @@ static void add_top(struct build *b, const struct object *o, const struct contex
     } else if (splits(o)) {
         struct context in = enter(b, o, &here);
         in.bound = join_bounds(b, o, &here, &in.bound_count);
+        in.clips = join_clips(b, o, &here);
         for (uint32_t i = 0; i < o->child_count; i++)
             add_top(b, o->child[i], &in);
     } else {
