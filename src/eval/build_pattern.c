@@ -526,7 +526,7 @@ bool build_pattern_modifier(struct args *a, struct body *body)
 
 void pattern_finish(struct args *a, struct pattern *p)
 {
-    const char *wrong = p->ops && p->ops->finish ? p->ops->finish(p) : NULL;
+    const char *wrong = p->ops && p->ops->finish ? p->ops->finish(p, a->b->arena) : NULL;
     if (wrong)
         args_error(a, a->owner ? a->owner->where : args_span(a), wrong);
 }

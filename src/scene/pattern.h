@@ -81,7 +81,7 @@ struct pattern_ops {
     // useful is known of it.
     uint32_t (*formula)(struct formula *f, const struct pattern *p, const uint32_t at[3]);
     // Told when all parameters are read: settles them, or says what is wrong. NULL: none.
-    const char *(*finish)(struct pattern *p);
+    const char *(*finish)(struct pattern *p, struct arena *a);
     // As a normal: n changed by this pattern's own rule (spec/textures 11.3). NULL:
     // by differences of the value (11.2).
     struct vec3 (*perturb)(const struct pattern *p, float amount, struct vec3 n,
@@ -125,6 +125,7 @@ struct pattern {
     const struct pigment *pigment;    // pigment_pattern
     const struct pigment_tape *tape;  // the same, compiled; NULL: its maps nest too deeply
     const struct image_map *image;    // image_pattern
+    const struct paving_map *paving;  // pavement, once it is finished
     const struct density_grid *density; // density_file; interpolation in integer[0]
     // function pattern: evaluates user code at a point
     double (*function)(const void *data, struct vec3 p);

@@ -65,11 +65,11 @@ END
 # SIG: while form factors are computed, once the first tenth has been told.
 solving()
 {
-  "$lambert" room.pov +W8 +H8 +WT1 --gi=radiosity --gi-patches=4000 --gi-solver=gauss-seidel -o room.png 2>err &
+  "$lambert" room.pov +W8 +H8 +WT1 --gi=radiosity --gi-patches=8000 --gi-solver=gauss-seidel -o room.png 2>err &
   pid=$!
   waited=0
-  while ! grep -q 'radiosity: [1-9]0* %' err && test $waited -lt 60; do
-    sleep 0.5
+  while ! grep -q 'radiosity: [1-9]0* %' err && test $waited -lt 300; do
+    sleep 0.1
     waited=$((waited + 1))
   done
   kill -$1 $pid

@@ -56,10 +56,10 @@ static double square_outside(const struct square *s, int corner, double r)
     return a >= 0 && b >= 0 ? most(r, least(sqrt(a * a + b * b), 1)) : r;
 }
 
-static double squares(const struct pattern *p, const struct paving *g, struct vec3 at)
+static double squares(const struct pattern *p, const struct paving_map *m, struct vec3 at)
 {
     const double fx = floor(at.x), fz = floor(at.z);
-    const struct square s = {.borders = paving_borders(g, whole(fx), whole(fz)),
+    const struct square s = {.borders = paving_borders(m, whole(fx), whole(fz)),
                              .u = 2 * (at.x - fx) - 1,
                              .w = 2 * (at.z - fz) - 1,
                              .form = p->integer[3],
@@ -89,7 +89,7 @@ struct view {
     int form, exterior, interior;
 };
 
-static struct view view_of(const struct paving *g, struct vec3 at)
+static struct view view_of(const struct paving_map *m, struct vec3 at)
 {
     const double h = HALF_ROOT3;
     const double bx = floor(at.x), bz = floor(at.z / ROOT3);
@@ -111,7 +111,7 @@ static struct view view_of(const struct paving *g, struct vec3 at)
         z = h - z;
         i++;
     }
-    return (struct view){.borders = paving_borders(g, i, j),
+    return (struct view){.borders = paving_borders(m, i, j),
                          .x = x,
                          .z = z,
                          .d = {1 - ROOT3 * fabs(ROOT3 * x - z),
@@ -190,9 +190,10 @@ static double bent(const struct view *v, double r)
     return r;
 }
 
-static double triangles(const struct pattern *p, const struct paving *g, struct vec3 at)
+static double triangles(const struct pattern *p, const struct paving_map *m,
+                        struct vec3 at)
 {
-    struct view v = view_of(g, at);
+    struct view v = view_of(m, at);
     v.form = p->integer[3];
     v.exterior = p->exterior_type;
     v.interior = p->interior_type;
@@ -202,7 +203,7 @@ static double triangles(const struct pattern *p, const struct paving *g, struct 
     for (int k = 0; k < 3; k++)
         if (v.borders & (unsigned)TRIANGLE_POST << k)
             r = most(r, at_post(&v, k));
-    if (g->sides == 3 && v.exterior)
+    if (m->paving->sides == 3 && v.exterior)
         r = outside(&v, r);
     return v.form ? bent(&v, r) : r;
 }
@@ -211,10 +212,9 @@ static void init(struct pattern *p)
 {
     p->integer[0] = 3;
     p->integer[1] = p->integer[2] = 1;
-    paving_prepare(3, 1, 1);
 }
 
-static const char *wrong(struct pattern *p)
+static const char *wrong(struct pattern *p, struct arena *a)
 {
     const int sides = p->integer[0];
     p->exterior_type %= 3;
@@ -226,16 +226,17 @@ static const char *wrong(struct pattern *p)
         return "pavement: number_of_sides is 3, 4 or 6";
     if (p->integer[1] > (sides == 6 ? 5 : 6))
         return "pavement: so many tiles cannot be joined";
-    return paving_prepare(sides, p->integer[1], p->integer[2])
-               ? NULL
-               : "pavement: there is no such pattern of these tiles";
+    p->paving = paving_map_new(a, sides, p->integer[1], p->integer[2]);
+    return p->paving ? NULL : "pavement: there is no such pattern of these tiles";
 }
 
-static const char *finish(struct pattern *p)
+static const char *finish(struct pattern *p, struct arena *a)
 {
-    const char *error = wrong(p);
-    if (error) // the scene is read on, and may ask for values
+    const char *error = wrong(p, a);
+    if (error) { // the scene is read on, and may ask for values
         init(p);
+        p->paving = paving_map_new(a, 3, 1, 1);
+    }
     return error;
 }
 
@@ -243,8 +244,8 @@ static double value(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c)
 {
     (void)c;
-    const struct paving *g = paving_find(p->integer[0], p->integer[1], p->integer[2]);
-    return g->sides == 4 ? squares(p, g, at) : triangles(p, g, at);
+    const struct paving_map *m = p->paving;
+    return m->paving->sides == 4 ? squares(p, m, at) : triangles(p, m, at);
 }
 
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])

@@ -1,7 +1,7 @@
 // Tables of what cells of pavements have around them (scene/patterns/paving.h)
 #include "scene/patterns/paving.h"
 
-#include <pthread.h>
+#include "base/arena.h"
 
 static const struct paving pavings[] = {
 #define PAVING(s, t, k, a, b, c, n, ...) {s, t, k, a, b, c, n, __VA_ARGS__},
@@ -9,13 +9,6 @@ static const struct paving pavings[] = {
 #undef PAVING
 };
 enum { PAVINGS = sizeof pavings / sizeof pavings[0] };
-
-// Of each paving, by the cells of one period: made when a scene first wants the paving.
-static struct {
-    bool ready;
-    uint16_t cell[PAVING_CELLS];
-} borders[PAVINGS];
-static pthread_mutex_t making = PTHREAD_MUTEX_INITIALIZER;
 
 // ---- pieces ------------------------------------------------------------------
 // Which piece a cell belongs to: one of the list, moved by a vector of the period.
@@ -225,33 +218,23 @@ static void fill(const struct paving *g, uint16_t cell[PAVING_CELLS])
                                                : round_triangle(g, k % a, k / a));
 }
 
-// The patterns of as many sides and tiles follow each other.
-const struct paving *paving_find(int sides, int tiles, int pattern)
-{
-    static const uint8_t first[3][7] = {{0, 0, 1, 2, 3, 6, 10},
-                                        {0, 22, 23, 24, 26, 31, 43},
-                                        {0, 78, 79, 80, 83, 90, 112}};
-    return &pavings[first[sides == 3 ? 0 : sides == 4 ? 1 : 2][tiles] + pattern - 1];
-}
-
-const struct paving *paving_prepare(int sides, int tiles, int pattern)
+const struct paving_map *paving_map_new(struct arena *a, int sides, int tiles,
+                                        int pattern)
 {
     for (int i = 0; i < PAVINGS; i++) {
         const struct paving *g = &pavings[i];
         if (g->sides != sides || g->tiles != tiles || g->pattern != pattern)
             continue;
-        pthread_mutex_lock(&making);
-        if (!borders[i].ready)
-            fill(g, borders[i].cell);
-        borders[i].ready = true;
-        pthread_mutex_unlock(&making);
-        return g;
+        struct paving_map *m = arena_new_struct(a, struct paving_map);
+        m->paving = g;
+        fill(g, m->cell);
+        return m;
     }
     return NULL;
 }
 
-unsigned paving_borders(const struct paving *g, int64_t i, int64_t j)
+unsigned paving_borders(const struct paving_map *m, int64_t i, int64_t j)
 {
-    const unsigned k = g->sides == 6 ? in_hexagon(g, i, j) : in_period(g, i, j);
-    return borders[g - pavings].cell[k];
+    const struct paving *g = m->paving;
+    return m->cell[g->sides == 6 ? in_hexagon(g, i, j) : in_period(g, i, j)];
 }

@@ -44,11 +44,16 @@ static const int8_t paving_corners[4][2] = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
 // A triangle's column and row: i - j even points up.
 static inline bool paving_points_up(int64_t i, int64_t j) { return ((i - j) & 1) == 0; }
 
-// NULL: there is no such pattern of these tiles. Else ready for paving_borders.
-const struct paving *paving_prepare(int sides, int tiles, int pattern);
-// A paving that was prepared.
-const struct paving *paving_find(int sides, int tiles, int pattern);
+// A paving and the borders of the cells of one period.
+struct paving_map {
+    const struct paving *paving;
+    uint16_t cell[PAVING_CELLS];
+};
+
+// In the arena; NULL: there is no such pattern of these tiles.
+const struct paving_map *paving_map_new(struct arena *a, int sides, int tiles,
+                                        int pattern);
 // Of the cell in column i and row j, both smaller than 1e15 in size.
-unsigned paving_borders(const struct paving *g, int64_t i, int64_t j);
+unsigned paving_borders(const struct paving_map *m, int64_t i, int64_t j);
 
 #endif

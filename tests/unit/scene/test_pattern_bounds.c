@@ -120,7 +120,7 @@ static struct pattern variant(struct arena *a, const struct pattern_ops *ops,
     if (is(ops, "pavement")) {
         p.integer[0] = 3 + (int)(turn % 3 == 0) + 3 * (int)(turn % 3 == 1);
         p.integer[1] = p.integer[2] = 1;
-        assert_null(ops->finish(&p));
+        assert_null(ops->finish(&p, a));
     }
     if (is(ops, "julia") || is(ops, "mandel") || is(ops, "magnet")) {
         p.integer[0] = 15;

@@ -3,6 +3,7 @@
 
 #include "test.h"
 
+#include "base/arena.h"
 #include "scene/patterns/paving.h"
 
 enum { CELLS_MOST = 64 };
@@ -12,9 +13,9 @@ struct cell {
 };
 
 // The neighbour across an edge, and the number that the edge has there.
-static struct cell across(const struct paving *g, struct cell c, int edge, int *back)
+static struct cell across(const struct paving_map *g, struct cell c, int edge, int *back)
 {
-    if (g->sides == 4) {
+    if (g->paving->sides == 4) {
         *back = edge ^ 1;
         const int step = edge % 2 ? 1 : -1;
         return edge < 2 ? (struct cell){c.i + step, c.j} : (struct cell){c.i, c.j + step};
@@ -25,16 +26,16 @@ static struct cell across(const struct paving *g, struct cell c, int edge, int *
                      : (struct cell){c.i + (edge == 0 ? -turn : turn), c.j};
 }
 
-static bool wall(const struct paving *g, struct cell c, int edge)
+static bool wall(const struct paving_map *g, struct cell c, int edge)
 {
     const unsigned first =
-        g->sides == 4 ? (unsigned)SQUARE_WALL : (unsigned)TRIANGLE_WALL;
+        g->paving->sides == 4 ? (unsigned)SQUARE_WALL : (unsigned)TRIANGLE_WALL;
     return paving_borders(g, c.i, c.j) & first << edge;
 }
 
-static int cells_reached(const struct paving *g, struct cell from)
+static int cells_reached(const struct paving_map *g, struct cell from)
 {
-    const int edges = g->sides == 4 ? 4 : 3;
+    const int edges = g->paving->sides == 4 ? 4 : 3;
     struct cell seen[CELLS_MOST] = {from};
     int n = 1;
     for (int k = 0; k < n; k++)
@@ -58,12 +59,13 @@ static void pieces_are_whole(void **state)
 {
     (void)state;
     static const int64_t far[] = {0, 1000003, -1000003, 99999999999989, -99999999999989};
+    struct arena *a = arena_new(1 << 14);
+    const struct paving_map *g;
     int count = 0;
     for (int sides = 3; sides <= 6; sides++)
         for (int tiles = 1; sides != 5 && tiles <= (sides == 6 ? 5 : 6); tiles++)
-            for (int pattern = 1; paving_prepare(sides, tiles, pattern); pattern++) {
-                const struct paving *g = paving_find(sides, tiles, pattern);
-                assert_ptr_equal(g, paving_prepare(sides, tiles, pattern));
+            for (int pattern = 1; (g = paving_map_new(a, sides, tiles, pattern));
+                 pattern++) {
                 count++;
                 for (int k = 0; k < 5; k++)
                     for (int i = -7; i <= 7; i++)
@@ -74,9 +76,10 @@ static void pieces_are_whole(void **state)
                         }
             }
     assert_int_equal(count, 112);
-    assert_null(paving_prepare(4, 7, 1));
-    assert_null(paving_prepare(5, 1, 1));
-    assert_null(paving_prepare(3, 1, 0));
+    assert_null(paving_map_new(a, 4, 7, 1));
+    assert_null(paving_map_new(a, 5, 1, 1));
+    assert_null(paving_map_new(a, 3, 1, 0));
+    arena_free(a);
 }
 
 int main(void)
