@@ -85,28 +85,17 @@ static struct dd reduce(double x, unsigned *quadrant)
 // pair on |r| <= pi/4.
 static struct dd sin_kernel(struct dd r)
 {
-    static const double c[] = {
-        -1. / 6,         1. / 120,         -1. / 5040,           1. / 362880,
-        -1. / 39916800., 1. / 6227020800., -1. / 1307674368000., 1. / 355687428096000.};
     double r2 = r.hi * r.hi, p = 0;
     for (int i = 7; i >= 0; i--)
-        p = p * r2 + c[i];
+        p = p * r2 + TRIG_SIN[i];
     return dd_fast_sum(r.hi, r.hi * r2 * p + r.lo * (1 - 0.5 * r2));
 }
 
 static struct dd cos_kernel(struct dd r)
 {
-    static const double c[] = {1. / 24,
-                               -1. / 720,
-                               1. / 40320,
-                               -1. / 3628800,
-                               1. / 479001600.,
-                               -1. / 87178291200.,
-                               1. / 20922789888000.,
-                               -1. / 6402373705728000.};
     double r2 = r.hi * r.hi, p = 0;
     for (int i = 7; i >= 0; i--)
-        p = p * r2 + c[i];
+        p = p * r2 + TRIG_COS[i];
     struct dd h = dd_two_prod(r.hi, r.hi);
     struct dd s = dd_fast_sum(1, -0.5 * h.hi);
     return dd_fast_sum(s.hi, s.lo + (r2 * r2 * p - r.hi * r.lo - 0.5 * h.lo));

@@ -4,6 +4,7 @@
 // det_sin and det_cos in lanes, operation by operation as math/trig.c: the same bits.
 #include "math/elementary.h"
 #include "math/lanes.h"
+#include "math/trig.h"
 
 // math/dd.h.
 struct dd8 {
@@ -60,10 +61,7 @@ LANES_INLINE struct real8 trig8_series(struct real8 r2, const double c[8])
 
 LANES_INLINE struct real8 trig8_sin_kernel(struct dd8 r)
 {
-    static const double c[] = {
-        -1. / 6,         1. / 120,         -1. / 5040,           1. / 362880,
-        -1. / 39916800., 1. / 6227020800., -1. / 1307674368000., 1. / 355687428096000.};
-    const struct real8 r2 = r8_mul(r.hi, r.hi), p = trig8_series(r2, c);
+    const struct real8 r2 = r8_mul(r.hi, r.hi), p = trig8_series(r2, TRIG_SIN);
     const struct real8 rest =
         r8_add(r8_mul(r8_mul(r.hi, r2), p),
                r8_mul(r.lo, r8_sub(r8_set(1), r8_mul(r8_set(0.5), r2))));
@@ -72,16 +70,8 @@ LANES_INLINE struct real8 trig8_sin_kernel(struct dd8 r)
 
 LANES_INLINE struct real8 trig8_cos_kernel(struct dd8 r)
 {
-    static const double c[] = {1. / 24,
-                               -1. / 720,
-                               1. / 40320,
-                               -1. / 3628800,
-                               1. / 479001600.,
-                               -1. / 87178291200.,
-                               1. / 20922789888000.,
-                               -1. / 6402373705728000.};
     const struct real8 half = r8_set(0.5), r2 = r8_mul(r.hi, r.hi),
-                       p = trig8_series(r2, c);
+                       p = trig8_series(r2, TRIG_COS);
     const struct dd8 h = dd8_square(r.hi);
     const struct dd8 s = dd8_fast_sum(r8_set(1), r8_mul(r8_set(-0.5), h.hi));
     const struct real8 rest =

@@ -91,9 +91,7 @@ static void lane_go_on(struct tracer *t, const struct paint_group *g, int i)
     const struct simple_group *h = &g->hits;
     struct path here = wave_path(t, h->slot[i]);
     t->slot = h->slot[i];
-    if (!(here.flags & PATH_CONTINUED))
-        here.level++;
-    here.flags &= (uint8_t)~PATH_OF_ONE_WAY;
+    path_meets(&here);
     struct shading s;
     s.t = t;
     s.path = &here;

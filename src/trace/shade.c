@@ -134,9 +134,7 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
         media_apply(t, &here, hit->b.t,
                     w->surface[w->leaf[hit->b.leaf].surface].light_group);
     }
-    if (!(here.flags & PATH_CONTINUED))
-        here.level++;
-    here.flags &= (uint8_t)~PATH_OF_ONE_WAY;
+    path_meets(&here);
     struct shading s;
     s.t = t;
     s.path = &here;

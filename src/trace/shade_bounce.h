@@ -46,8 +46,8 @@ LANES_INLINE void reflectivity8(const struct simple_class *k,
             share =
                 r8_pow_single(r8_max(r8_set(0), share), (double)f->reflection_falloff);
         const struct real8 less = r8_sub(share, r8_set(1));
-        share = r8_select(r8_lt(r8_abs(share), r8_set(zero)), r8_set(0), share);
-        share = r8_select(r8_lt(r8_abs(less), r8_set(zero)), r8_set(1), share);
+        share = r8_select(r8_lt(r8_abs(share), r8_set(NEAR_ZERO)), r8_set(0), share);
+        share = r8_select(r8_lt(r8_abs(less), r8_set(NEAR_ZERO)), r8_set(1), share);
     }
     const struct float8 part = f8_of(share);
     struct rgb8 r =

@@ -34,7 +34,7 @@ LANES_INLINE struct light8 direction8(const struct lamp *lamp, struct vec8 p)
 
 static bool is_black(struct rgb c)
 {
-    const float e = (float)zero;
+    const float e = (float)NEAR_ZERO;
     return fabsf(c.r) < e && fabsf(c.g) < e && fabsf(c.b) < e;
 }
 
@@ -109,7 +109,7 @@ LANES_INLINE unsigned attenuate(const struct lamp *lamp, const struct simple_gro
     if (dark == 255)
         return 0;
     v->color = rgb8_scale(f8_of(factor), v->color);
-    const struct float8 e = f8_set((float)zero), o = f8_set(0);
+    const struct float8 e = f8_set((float)NEAR_ZERO), o = f8_set(0);
     const unsigned seen = f8_le(e, f8_max(v->color.r, f8_sub(o, v->color.r))) |
                           f8_le(e, f8_max(v->color.g, f8_sub(o, v->color.g))) |
                           f8_le(e, f8_max(v->color.b, f8_sub(o, v->color.b)));

@@ -13,8 +13,7 @@
 #include "math/lanes_vec.h"
 #include "math/single.h"
 #include "math/transform.h"
-
-static const double zero = 1e-10; // spec/lighting.md 0
+#include "trace/near_zero.h"
 
 // x in the lanes of `bits`, else y.
 LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct float8 y)

@@ -1,11 +1,9 @@
 #include "math/elementary.h"
 #include "scene/noise.h"
 #include "trace/area.h"
+#include "trace/near_zero.h"
 #include "trace/photons.h"
 #include "trace/shade.h"
-
-// "Is zero" for colours and cosines, as the scene language has it (spec/lighting.md 0).
-static const double zero = 1e-10;
 
 float metal_angle(double cosine)
 {
@@ -97,7 +95,7 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
     const struct finish *f = l->finish;
     const double facing = vec3_dot(l->n, to);
     bool back = false;
-    if (side_test && facing < zero) {
+    if (side_test && facing < NEAR_ZERO) {
         if (f->diffuse_back == 0)
             return rgb(0, 0, 0);
         back = true;
@@ -137,7 +135,7 @@ struct rgb layers_lit(const struct shading *s, const struct lamp *lamp, struct v
 
 static bool is_black(struct rgb c)
 {
-    const float e = (float)zero;
+    const float e = (float)NEAR_ZERO;
     return fabsf(c.r) < e && fabsf(c.g) < e && fabsf(c.b) < e;
 }
 

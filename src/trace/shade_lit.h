@@ -80,7 +80,7 @@ LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test,
     const struct real8 facing = v8_dot(n, to);
     unsigned back = 0;
     if (side_test) {
-        back = *live & m8_bits(r8_lt(facing, r8_set(zero)));
+        back = *live & m8_bits(r8_lt(facing, r8_set(NEAR_ZERO)));
         if (f->diffuse_back == 0) {
             *live &= ~back;
             back = 0;

@@ -1,9 +1,8 @@
 #include "base/arena.h"
 #include "math/elementary.h"
 #include "trace/inside.h"
+#include "trace/near_zero.h"
 #include "trace/shade.h"
-
-static const double zero = 1e-10; // spec/lighting.md 0
 
 struct vec3 mirrored(struct vec3 d, struct vec3 n, struct vec3 surface)
 {
@@ -58,9 +57,9 @@ struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb
         double k = f->reflection_falloff == 1
                        ? base
                        : det_pow_single(fmax(0, base), f->reflection_falloff);
-        if (fabs(k) < zero)
+        if (fabs(k) < NEAR_ZERO)
             k = 0;
-        else if (fabs(k - 1) < zero)
+        else if (fabs(k - 1) < NEAR_ZERO)
             k = 1;
         r = mix(f->reflection_min, f->reflection_max, (float)k);
         *weight = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
@@ -94,7 +93,7 @@ static struct path path_from(const struct shading *s, struct vec3 d, uint32_t wa
 
 static bool same(struct vec3 a, struct vec3 b)
 {
-    return fabs(a.x - b.x) < zero && fabs(a.y - b.y) < zero && fabs(a.z - b.z) < zero;
+    return fabs(a.x - b.x) < NEAR_ZERO && fabs(a.y - b.y) < NEAR_ZERO && fabs(a.z - b.z) < NEAR_ZERO;
 }
 
 // The mirror terms of all layers; those along `except` are left out (spec/lighting.md
@@ -245,11 +244,11 @@ static bool refract(struct shading *s, const struct bending *b)
     const double eta = crossing_eta(c);
     const double spread = c->straight ? 1 : dispersion(c->from) / dispersion(c->to);
     const struct rgb white = {1, 1, 1};
-    if (fabs(eta - 1) < zero && fabs(spread - 1) < zero) {
+    if (fabs(eta - 1) < NEAR_ZERO && fabs(spread - 1) < NEAR_ZERO) {
         continue_straight(s, b);
         return true;
     }
-    if (fabs(spread - 1) < zero)
+    if (fabs(spread - 1) < NEAR_ZERO)
         return bend(s, b, eta, white, 1, s->path->wavelength, 0);
     if (s->path->wavelength > 0)
         return bend(s, b, eta * det_pow(spread, -(s->path->wavelength - 555) / 350.0),
@@ -271,7 +270,7 @@ static bool refract(struct shading *s, const struct bending *b)
 struct rgb way_fade(const struct interior *x, const struct inside *inside, double s)
 {
     struct rgb fade = rgb_gray(x->old_refraction);
-    if (fabs(x->fade_distance) > zero && inside_find(inside, x))
+    if (fabs(x->fade_distance) > NEAR_ZERO && inside_find(inside, x))
         fade = rgb_mul(fade, interior_fade(x, s));
     return fade;
 }

@@ -5,12 +5,11 @@
 #include "trace/inside.h"
 #include "trace/layers.h"
 #include "trace/media.h"
+#include "trace/near_zero.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
 #include "trace/shadow_list.h"
 #include "trace/sky.h"
-
-static const double zero = 1e-10; // spec/lighting.md 0
 
 // Shadow rays end this much before a lamp: half of the digits of a double. A surface that
 // the lamp lies on (a ceiling) is met within the rounding of its place, which the cosine
@@ -104,7 +103,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
     if (t->job->has_media && s->inside)
         pass = rgb_mul(pass, dim);
     if (inside_find(s->inside, x)) {
-        if (x->fade_power > 0 && fabs(x->fade_distance) > zero)
+        if (x->fade_power > 0 && fabs(x->fade_distance) > NEAR_ZERO)
             pass = rgb_mul(pass, interior_fade(x, hit->b.t - s->t));
         s->inside = inside_remove(t->arena, s->inside, x);
     } else {
@@ -112,7 +111,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
     }
     s->pass = rgb_mul(s->pass, pass);
     s->t = hit->b.t;
-    if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)zero)
+    if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)NEAR_ZERO)
         return true;
     s->pass = none;
     return false;

@@ -5,11 +5,10 @@
 #include "base/memory.h"
 #include "trace/accel.h"
 #include "trace/inside.h"
+#include "trace/near_zero.h"
 #include "trace/packet.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
-
-static const double zero = 1e-10; // spec/lighting.md 0
 
 enum {
     STEPS = 2048,        // that wait at most
@@ -49,7 +48,7 @@ static struct step *step_add(struct shadow_list *l, uint32_t ray, struct rgb pas
 static void fade_way(struct shadow_list *l, struct step *s, const struct interior *x,
                      double way)
 {
-    if (!(x->fade_power > 0 && fabs(x->fade_distance) > zero))
+    if (!(x->fade_power > 0 && fabs(x->fade_distance) > NEAR_ZERO))
         return;
     if (!interior_fades_exponentially(x)) {
         s->pass = rgb_mul(s->pass, interior_fade(x, way));
@@ -120,7 +119,7 @@ void shadow_list_end(struct tracer *t, const struct shadow_batch *b)
             pass = rgb_mul(pass, rgb(f[0], f[1], f[2]));
         }
         b->pass[s->ray] = rgb_mul(b->pass[s->ray], pass);
-        const float least = (float)zero;
+        const float least = (float)NEAR_ZERO;
         if (fabsf(pass.r) >= least || fabsf(pass.g) >= least || fabsf(pass.b) >= least)
             continue;
         b->pass[s->ray] = rgb(0, 0, 0);

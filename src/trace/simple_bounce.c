@@ -1,10 +1,9 @@
 // Rays that go on from simple surfaces: the directions come from the kernels, the rest is
 // bookkeeping ray by ray. The rules are those of trace/shade_transmit.c.
 #include "trace/inside.h"
+#include "trace/near_zero.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
-
-static const double zero = 1e-10; // spec/lighting.md 0
 
 // One lane of a group.
 struct lane {
@@ -79,7 +78,7 @@ static void ask_fade(struct simple_bounce *b, int i, const struct interior *x,
                      const struct inside *inside, double way)
 {
     struct rgb fade = rgb_gray(x->old_refraction);
-    if (fabs(x->fade_distance) > zero && inside_find(inside, x)) {
+    if (fabs(x->fade_distance) > NEAR_ZERO && inside_find(inside, x)) {
         if (interior_fades_exponentially(x)) {
             b->fading |= 1u << i;
             interior_fade_exponents(x, way, &b->exponent[0][i], 8);
@@ -146,7 +145,7 @@ static void lane_ask(struct tracer *t, const struct simple_class *c, int i, uint
     b->pass[0][i] = pass.r;
     b->pass[1][i] = pass.g;
     b->pass[2][i] = pass.b;
-    b->straight |= (unsigned)(fabs(known->eta - 1) < zero) << i;
+    b->straight |= (unsigned)(fabs(known->eta - 1) < NEAR_ZERO) << i;
     ask_fade(b, i, x, from->inside, t->hit->t[ray]);
 }
 

@@ -59,6 +59,13 @@ struct path {
     uint8_t key; // path_key_within; 0: none
 };
 
+// The ray has met a surface.
+static inline void path_meets(struct path *p)
+{
+    p->level += !(p->flags & PATH_CONTINUED);
+    p->flags &= (uint8_t)~PATH_OF_ONE_WAY;
+}
+
 // Rays inside the object that they start from, for the most part, stay together by that
 // object better than by their directions.
 enum { PATH_KEYS_WITHIN = 16, PATH_KEYS = 48 };

@@ -2,6 +2,7 @@
 // values of points in them, slopes the differences of two, with every instruction set; and
 // bounds of small boxes must be small where the pattern is continuous.
 
+#include "random.h"
 #include "test.h"
 
 #include <stdlib.h>
@@ -10,16 +11,6 @@
 #include "scene/noise_kernel.h"
 #include "scene/pattern_function.h"
 #include "scene/tape_build.h"
-
-static uint64_t state_of_random = 88172645463325252u;
-
-static double random_unit(void)
-{
-    state_of_random ^= state_of_random << 13;
-    state_of_random ^= state_of_random >> 7;
-    state_of_random ^= state_of_random << 17;
-    return (double)(state_of_random >> 11) * 0x1p-53;
-}
 
 static double between(double a, double b) { return a + (b - a) * random_unit(); }
 

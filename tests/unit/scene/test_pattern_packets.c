@@ -1,6 +1,7 @@
 // Every pattern at eight points: the bits must be those of one point after the other, with
 // every instruction set that the machine has.
 
+#include "random.h"
 #include "test.h"
 
 #include <stdlib.h>
@@ -10,16 +11,6 @@
 #include "scene/pattern.h"
 #include "scene/pigment_tape.h"
 #include "scene/texture.h"
-
-static uint64_t state_of_random = 88172645463325252u;
-
-static double random_unit(void)
-{
-    state_of_random ^= state_of_random << 13;
-    state_of_random ^= state_of_random >> 7;
-    state_of_random ^= state_of_random << 17;
-    return (double)(state_of_random >> 11) * 0x1p-53;
-}
 
 // Mostly near the origin, some close together, some on lattice planes, some far off.
 static void random_points(double p[3][8], unsigned turn)

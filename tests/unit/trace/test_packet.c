@@ -358,17 +358,29 @@ static void check_scene(struct maker *m)
 }
 
 // Returns the surfaces in lists of all crossings.
+// Adds an object somewhere within that distance of the middle.
+static void add_within(struct maker *m, struct object *o, double far)
+{
+    struct transform t = transform_translate(somewhere(m, far));
+    object_transform(m->a, o, &t);
+    m->object[m->count++] = o;
+}
+
+// The scene that was made, which is not needed any more.
+static void check_made(struct maker *m)
+{
+    check_scene(m);
+    arena_free(m->a);
+}
+
 static int check_random(uint64_t seed, int count, int depth, double apart, bool grid)
 {
     struct maker m = {.a = arena_new(1 << 16), .random = seed, .grid = grid};
     for (int i = 0; i < count; i++) {
         struct object *o = random_object(&m, depth);
-        struct transform t = transform_translate(somewhere(&m, apart));
-        object_transform(m.a, o, &t);
-        m.object[m.count++] = o;
+        add_within(&m, o, apart);
     }
-    check_scene(&m);
-    arena_free(m.a);
+    check_made(&m);
     return m.crossed;
 }
 
@@ -427,8 +439,7 @@ static void every_kernel(void **state)
             }
             m.object[m.count++] = o;
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -551,12 +562,9 @@ static void merges(void **state)
                         (struct attached_texture){&clear_texture, &transform_identity};
             }
             struct object *o = object_new_csg(m.a, CSG_MERGE, child, n, (struct span){0});
-            struct transform t = transform_translate(somewhere(&m, 3));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 3);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -581,12 +589,9 @@ static void rings(void **state)
                                (struct span){0});
             if (i % 4 == 0)
                 clip_by_solids(&m, o, off[k / 4]);
-            struct transform t = transform_translate(somewhere(&m, 2));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 2);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -605,12 +610,9 @@ static void bounded(void **state)
             struct transform t = transform_rotate(vec3(10 * (i % 5), 0, 25));
             if (i % 3 == 0)
                 object_transform(m.a, o, &t);
-            t = transform_translate(somewhere(&m, 2));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 2);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -629,12 +631,9 @@ static void clipped(void **state)
             struct transform t = transform_rotate(vec3(0, 0, m.grid ? 90 : 25));
             if (i % 3 == 0)
                 object_transform(m.a, o, &t);
-            t = transform_translate(somewhere(&m, 2));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 2);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -646,12 +645,9 @@ static void large_products(void **state)
         struct maker m = {.a = arena_new(1 << 16), .random = 150 + k, .grid = k < 3};
         for (int i = 0; i < 8; i++) {
             struct object *o = drilled(&m, 12 + 4 * (uint32_t)i, off[k % 3]);
-            struct transform t = transform_translate(somewhere(&m, 3));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 3);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -663,12 +659,9 @@ static void products(void **state)
         struct maker m = {.a = arena_new(1 << 16), .random = 100 + k, .grid = k < 9};
         for (int i = 0; i < 12; i++) {
             struct object *o = random_product(&m, off[k % 6]);
-            struct transform t = transform_translate(somewhere(&m, k < 6 ? 1 : 3));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, k < 6 ? 1 : 3);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -698,8 +691,7 @@ static void sponges(void **state)
         m.object[m.count++] =
             object_new_csg(m.a, CSG_DIFFERENCE, child, n, (struct span){0});
         m.object[m.count++] = random_shape(&m);
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -736,12 +728,9 @@ static void meshes(void **state)
                 struct transform t = transform_rotate(somewhere(&m, 90));
                 object_transform(m.a, o, &t);
             }
-            struct transform t = transform_translate(somewhere(&m, 3));
-            object_transform(m.a, o, &t);
-            m.object[m.count++] = o;
+            add_within(&m, o, 3);
         }
-        check_scene(&m);
-        arena_free(m.a);
+        check_made(&m);
     }
 }
 
@@ -764,8 +753,7 @@ static void many_spheres(void **state)
                                  transform_identity.linear};
         m.object[m.count++] = of(&m, &sphere_ops, &s);
     }
-    check_scene(&m);
-    arena_free(m.a);
+    check_made(&m);
 }
 
 static void the_environment_names_the_kernels(void **state)

@@ -1,0 +1,8 @@
+#ifndef TRACE_NEAR_ZERO_H
+#define TRACE_NEAR_ZERO_H
+
+// "Is zero" for colours, cosines and indices of refraction, as the scene language has it
+// (spec/lighting.md 0).
+static const double NEAR_ZERO = 1e-10;
+
+#endif
