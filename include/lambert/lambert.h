@@ -136,9 +136,10 @@ LAMBERT_API enum lambert_status lambert_check_file(struct lambert_context *ctx,
 LAMBERT_API enum lambert_status lambert_format_file(struct lambert_context *ctx,
                                                     const char *path, FILE *out);
 
-// Keeps finished tiles in this file while rendering, and removes it when the picture is
-// whole; NULL: none is kept. To be set before loading. With option `continue` tiles that an
-// interrupted render of the same scene and settings left there are taken over.
+// The file an interrupted render leaves its finished tiles in, removed when a picture is
+// whole; NULL: none. To be set before loading. With option `save-state` or `continue` tiles
+// are written as they are finished; with `continue` those that an interrupted render of the
+// same scene and settings left are taken over.
 LAMBERT_API void lambert_set_state_file(struct lambert_context *ctx, const char *path);
 
 struct lambert_image;

@@ -105,6 +105,13 @@ void lambert_set_state_file(struct lambert_context *ctx, const char *path)
     ctx->state_path = path ? arena_strndup(ctx->arena, path, strlen(path)) : NULL;
 }
 
+static enum state_mode state_mode_of(const struct lambert_context *ctx)
+{
+    if (option_flag(ctx, "continue"))
+        return STATE_RESUME;
+    return option_flag(ctx, "save-state") ? STATE_KEEP : STATE_AT_END;
+}
+
 enum lambert_status lambert_render(struct lambert_context *ctx,
                                    struct lambert_image **out)
 {
@@ -138,8 +145,7 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
         .tile = tile_done, .user = ctx, .cancel = &ctx->cancel};
     struct render_state state;
     if (ctx->state_path) {
-        render_state_open(&state, ctx, option_flag(ctx, "continue"), &settings,
-                          &image->im);
+        render_state_open(&state, ctx, state_mode_of(ctx), &settings, &image->im);
         render_state_attach(&state, &progress);
     }
     bool whole = render_world(ctx->world, &settings, &progress, &image->im, &stats);

@@ -199,35 +199,68 @@ static bool open_file(struct render_state *s, long good, const struct header *h)
     return s->file >= 0 && write_all(s->file, h, sizeof *h);
 }
 
-void render_state_open(struct render_state *s, struct lambert_context *ctx, bool resume,
-                       const struct render_settings *settings, struct image *picture)
+static struct header header_of(const struct render_state *s)
+{
+    struct header h = {.order = order, .tiles = s->tiles, .key = key_of(s->ctx)};
+    memcpy(h.magic, magic, sizeof magic);
+    return h;
+}
+
+void render_state_open(struct render_state *s, struct lambert_context *ctx,
+                       enum state_mode mode, const struct render_settings *settings,
+                       struct image *picture)
 {
     *s = (struct render_state){.ctx = ctx,
                                .path = ctx->state_path,
+                               .settings = settings,
                                .picture = picture,
                                .tiles = render_tile_count(settings),
                                .file = -1};
-    struct header h = {.order = order, .tiles = s->tiles, .key = key_of(ctx)};
-    memcpy(h.magic, magic, sizeof magic);
-    s->have = calloc((size_t)s->tiles + 1, 1);
-    long good = resume && s->have ? restore(s, &h, settings) : 0;
+    uint8_t *tiles = calloc((size_t)s->tiles + 1, 1);
+    if (mode == STATE_AT_END) {
+        s->done = tiles;
+        return;
+    }
+    s->have = tiles;
+    struct header h = header_of(s);
+    long good = mode == STATE_RESUME && s->have ? restore(s, &h, settings) : 0;
     if (!open_file(s, good, &h))
         give_up(s);
+}
+
+static void mark_tile(void *user, const struct render_tile *tile)
+{
+    struct render_state *s = user;
+    s->done[tile->index] = 1;
 }
 
 void render_state_attach(struct render_state *s, struct render_progress *progress)
 {
     progress->have = s->have;
-    progress->keep = keep_tile;
+    progress->keep = s->done ? mark_tile : keep_tile;
     progress->keep_user = s;
+}
+
+static void write_done(struct render_state *s)
+{
+    struct header h = header_of(s);
+    if (!open_file(s, 0, &h))
+        give_up(s);
+    for (uint32_t i = 0; i < s->tiles; i++) {
+        struct render_tile tile = render_tile_at(s->settings, i);
+        if (s->done[i])
+            keep_tile(s, &tile);
+    }
 }
 
 void render_state_close(struct render_state *s, bool whole)
 {
-    if (s->file >= 0) {
+    if (s->done && !whole && memchr(s->done, 1, s->tiles))
+        write_done(s);
+    if (s->file >= 0)
         close(s->file);
-        if (whole)
-            unlink(s->path);
-    }
+    if (whole)
+        unlink(s->path);
     free(s->have);
+    free(s->done);
 }

@@ -17,8 +17,10 @@ struct render_settings;
 struct render_state {
     struct lambert_context *ctx;
     const char *path;
+    const struct render_settings *settings;
     struct image *picture;
-    uint8_t *have;     // by tile; NULL: none are here
+    uint8_t *have;     // by tile, from the file; NULL: none are here
+    uint8_t *done;     // by tile, when all are to be written at the end; NULL: at once
     uint32_t tiles;    // in the whole picture
     uint32_t restored; // of them, from the file
     int file;          // -1: nothing is kept any more
@@ -30,13 +32,20 @@ uint64_t digest_add(uint64_t digest, const void *data, size_t n);
 // Of a file's bytes; that it cannot be read counts as well.
 uint64_t digest_add_file(uint64_t digest, const char *path);
 
-// Opens the state at ctx->state_path and, with `resume`, puts its tiles into the picture. A
-// state of another scene, other settings or version is reported and begun anew.
-void render_state_open(struct render_state *s, struct lambert_context *ctx, bool resume,
-                       const struct render_settings *settings, struct image *picture);
+enum state_mode {
+    STATE_AT_END, // written when the picture ends before it is whole
+    STATE_KEEP,   // tiles are written as they are finished: these outlive any end
+    STATE_RESUME, // the same, after the file's tiles are put into the picture
+};
+
+// Prepares the state at ctx->state_path. One of another scene, other settings or version is
+// reported and begun anew. `settings` and `picture` stay valid until it is closed.
+void render_state_open(struct render_state *s, struct lambert_context *ctx,
+                       enum state_mode mode, const struct render_settings *settings,
+                       struct image *picture);
 // Adds what the tracer needs to know to its progress functions.
 void render_state_attach(struct render_state *s, struct render_progress *progress);
-// Removes the file when the picture is whole.
+// Removes the file when the picture is whole, else writes what is not there yet.
 void render_state_close(struct render_state *s, bool whole);
 
 #endif

@@ -64,6 +64,13 @@ static void say_picture(struct cmd *c, FILE *out, const char *name,
             s->parse_seconds + s->build_seconds + s->trace_seconds);
 }
 
+static uint32_t tiles_done(const struct cmd *c)
+{
+    struct lambert_stats s;
+    lambert_get_stats(c->ctx, &s);
+    return s.tiles_done;
+}
+
 static void say_done(struct cmd *c, const char *path, bool whole)
 {
     struct lambert_stats s;
@@ -93,13 +100,12 @@ static void say_stats(struct cmd *c, const char *path)
         stats_print(c, json ? stdout : stderr, json, path);
 }
 
-// Beside the picture; standard output and devices have no beside.
+// Beside the picture; standard output and devices have no beside. Unless tiles are to be kept
+// as they are finished, the file is made only when the picture is interrupted.
 static void keep_state(struct cmd *c, const char *path)
 {
     bool file = path && strcmp(path, "-") != 0 && strncmp(path, "/dev/", 5) != 0;
-    if (!asked(c, "continue") && !asked(c, "save-state"))
-        return;
-    if (!file)
+    if (!file && (asked(c, "continue") || asked(c, "save-state")))
         cmd_warn(c, "no file is written, so that nothing can be kept to continue");
     char *state = file ? text_format("%s.lambert-state", path) : NULL;
     lambert_set_state_file(c->ctx, state);
@@ -138,10 +144,14 @@ static int render_to(struct cmd *c, const char *scene, const char *path)
     c->stage = STAGE_WRITE;
     if (!image)
         return report(c, status);
-    int code = path ? write_picture(c, image, path) : CMD_OK;
+    bool empty = status == LAMBERT_CANCELLED && !tiles_done(c);
+    int code = path && !empty ? write_picture(c, image, path) : CMD_OK;
     lambert_image_free(image);
     if (code)
         return code;
+    if (empty)
+        return cmd_fail(CMD_INTERRUPTED,
+                        "interrupted before the first tile was done; nothing is written");
     say_done(c, path, status == LAMBERT_OK);
     say_stats(c, path);
     c->stage = STAGE_START;

@@ -64,6 +64,29 @@ check "stopped with an image" stop_midway "$@" +C -o a.png
 printf 'P2 2 1 255 9 255\n' >im.pgm
 mv $state kept
 check "another image begins anew" other "$@" +C -o a.png
+# How far it is when it is told to stop depends on the machine: later, until a tile is done.
+unasked()
+{
+  "$lambert" "$@" -q -o whole.png || return 1
+  rm -f a.png $state
+  for delay in 0.1 0.2 0.4 0.8 1.6; do
+    "$lambert" "$@" -o a.png 2>err &
+    pid=$!
+    sleep $delay
+    kill -INT $pid
+    wait $pid
+    test -s $state && break
+  done
+  has err 'continue goes on from here' && exits 0 "$lambert" "$@" +C -q -o a.png &&
+    cmp a.png whole.png && test ! -e $state
+}
+check "an interrupted picture goes on that was begun without +C" unasked "$@"
+stale()
+{
+  cp kept $state
+  exits 0 "$lambert" "$@" -q -o a.png && test ! -e $state
+}
+check "a whole picture leaves no old state" stale "$@"
 check "standard output keeps nothing" exits 0 "$lambert" sphere.pov +W8 +H8 +C -o -
 frames()
 {
