@@ -47,119 +47,114 @@ static double unpremultiply(double c[3], double alpha)
 }
 
 // ---- tables -----------------------------------------------------------------------------
-// The encoding is monotone, so a code is found by comparing with the least value of each
-// code: the same result as the formula, without a power per sample.
+// The encoding is monotone, so the code of a float is found by comparing with the least
+// float of each code: the same result as the formula, without a power per sample.
 
-// So fine that buckets mostly have one border between 8 bit codes at most.
-enum { BUCKET_BITS = 15, BUCKETS = 13 << (23 - BUCKET_BITS), EXPONENT_LEAST = 127 - 13 };
+// Samples are looked up by the upper bits of the float, so fine that a bucket mostly has
+// one border between 8 bit codes at most.
+enum { BUCKET_SHIFT = 15 };
+
+enum { PLAIN_FLOATS = 256 }; // of so many a row is looked up at a time
 
 // A table costs more than it saves for files of more bits.
 enum { TABLE_BITS_MAX = 10 };
 
 struct quantizer {
     double max;
-    double *least; // least[i]: the least value with code >= i; least[codes] = infinity
-    struct dither *dither; // NULL: none, and then the table
-    uint16_t *guess;       // the code at the low end of a bucket of float bit patterns
+    struct dither *dither; // NULL: none
+    // border[i]: the bits of the least float with code >= i; border[codes] is above all.
+    // NULL: the formula.
+    uint32_t *border;
+    uint16_t *guess; // the code just below each bucket, the first and all before it
+    uint32_t first;  // the bucket of border[1]
+    bool single;     // no bucket has two borders
 };
 
-static double from_bits(uint64_t bits)
+static uint32_t to_bits(float v)
 {
-    double v;
-    memcpy(&v, &bits, sizeof v);
-    return v;
-}
-
-static uint64_t to_bits(double v)
-{
-    uint64_t bits;
+    uint32_t bits;
     memcpy(&bits, &v, sizeof bits);
     return bits;
 }
 
-// The least double whose code is at least i: bisection over bit patterns, which are
-// ordered like the positive numbers. It begins around the inverse of the encoding, where
-// that is as near as it should be.
-static double least_of(const struct image_write_options *o, double max, int i)
+static float from_bits(uint32_t bits)
 {
-    static const double nearly = 0x1p-36;
-    uint64_t lo = 0, hi = 0x3ff8000000000000u; // 1.5
-    const double about =
-        o->unmanaged || transfer_equal(o->working, o->transfer)
-            ? (i - 0.5) / max
-            : transfer_encode(o->working, transfer_decode(o->transfer, (i - 0.5) / max));
-    const double below = about * (1 - nearly), above = about * (1 + nearly);
-    if (below > 0 && quantize(encode(o, below), max) < i)
-        lo = to_bits(below);
-    if (above < 1.5 && quantize(encode(o, above), max) >= i)
-        hi = to_bits(above);
+    float v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+// The bits of the least float whose code is at least i > 0: bisection over bit patterns,
+// which are ordered like the positive numbers. It begins around the inverse of the
+// encoding, where that is as near as it should be.
+static uint32_t border_of(const struct image_write_options *o, double max, int i)
+{
+    enum { NEARLY = 8 };
+    const double plain = (i - 0.5) / max;
+    const bool same = o->unmanaged || transfer_equal(o->working, o->transfer);
+    const uint32_t about = to_bits(
+        (float)(same ? plain
+                     : transfer_encode(o->working, transfer_decode(o->transfer, plain))));
+    uint32_t lo = 0, hi = to_bits(1);
+    if (about > NEARLY && about < hi - NEARLY) {
+        if (quantize(encode(o, (double)from_bits(about - NEARLY)), max) < i)
+            lo = about - NEARLY;
+        if (quantize(encode(o, (double)from_bits(about + NEARLY)), max) >= i)
+            hi = about + NEARLY;
+    }
     while (lo < hi) {
-        const uint64_t mid = lo + (hi - lo) / 2;
-        if (quantize(encode(o, from_bits(mid)), max) >= i)
+        const uint32_t mid = lo + (hi - lo) / 2;
+        if (quantize(encode(o, (double)from_bits(mid)), max) >= i)
             hi = mid;
         else
             lo = mid + 1;
     }
-    return from_bits(lo);
+    return lo;
 }
 
-static uint32_t bucket_of(float v)
+static bool fill_table(struct quantizer *q, const struct image_write_options *o)
 {
-    uint32_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    const uint32_t first = (uint32_t)EXPONENT_LEAST << (23 - BUCKET_BITS);
-    bits >>= BUCKET_BITS;
-    return bits <= first ? 0 : bits - first >= BUCKETS ? BUCKETS - 1 : bits - first;
-}
-
-static struct quantizer *dithering(const struct image_write_options *o, int width)
-{
-    struct quantizer *q = calloc(1, sizeof *q);
-    struct dither *d = dither_new(o->dither, width);
-    if (q && d) {
-        q->max = (1 << o->bits) - 1;
-        q->dither = d;
-        return q;
+    const int codes = 1 << o->bits;
+    q->border = malloc(((size_t)codes + 1) * sizeof *q->border);
+    if (!q->border)
+        return false;
+    q->border[0] = 0;
+    for (int i = 1; i < codes; i++)
+        q->border[i] = border_of(o, q->max, i);
+    q->border[codes] = UINT32_MAX;
+    q->first = q->border[1] >> BUCKET_SHIFT;
+    const uint32_t buckets = (to_bits(1) >> BUCKET_SHIFT) - q->first + 1;
+    q->guess = malloc(buckets * sizeof *q->guess);
+    if (!q->guess)
+        return false;
+    q->single = true;
+    int code = 0;
+    for (uint32_t b = 0; b < buckets; b++) {
+        q->guess[b] = (uint16_t)code;
+        const uint32_t end = (q->first + b + 1) << BUCKET_SHIFT;
+        const int before = code;
+        while (q->border[code + 1] < end)
+            code++;
+        q->single = q->single && code <= before + 1;
     }
-    free(q);
-    dither_free(d);
-    return NULL;
+    return true;
 }
 
 struct quantizer *quantizer_new(const struct image_write_options *o, int width)
 {
-    if (o->dither)
-        return dithering(o, width);
-    const int codes = 1 << o->bits;
-    struct quantizer *q = malloc(sizeof *q);
-    if (q && o->bits > TABLE_BITS_MAX) {
-        *q = (struct quantizer){.max = codes - 1};
-        return q;
-    }
-    double *least = malloc(((size_t)codes + 1) * sizeof *least);
-    uint16_t *guess = malloc(BUCKETS * sizeof *guess);
-    if (!q || !least || !guess) {
-        free(q);
-        free(least);
-        free(guess);
+    struct quantizer *q = calloc(1, sizeof *q);
+    if (!q)
         return NULL;
-    }
-    *q = (struct quantizer){.max = codes - 1, .least = least, .guess = guess};
-    least[0] = -INFINITY;
-    for (int i = 1; i < codes; i++)
-        least[i] = least_of(o, q->max, i);
-    least[codes] = INFINITY;
-    int code = 0;
-    for (uint32_t b = 0; b < BUCKETS; b++) {
-        const uint32_t bits = (b + ((uint32_t)EXPONENT_LEAST << (23 - BUCKET_BITS)))
-                              << BUCKET_BITS;
-        float v;
-        memcpy(&v, &bits, sizeof v);
-        while (least[code + 1] <= (double)v)
-            code++;
-        guess[b] = (uint16_t)code;
-    }
-    return q;
+    q->max = (1 << o->bits) - 1;
+    bool ok = true;
+    if (o->dither)
+        ok = (q->dither = dither_new(o->dither, width)) != NULL;
+    else if (o->bits <= TABLE_BITS_MAX)
+        ok = fill_table(q, o);
+    if (ok)
+        return q;
+    quantizer_free(q);
+    return NULL;
 }
 
 void quantizer_free(struct quantizer *q)
@@ -167,25 +162,51 @@ void quantizer_free(struct quantizer *q)
     if (!q)
         return;
     dither_free(q->dither);
-    free(q->least);
+    free(q->border);
     free(q->guess);
     free(q);
 }
 
+// The bits of v as a colour: NaN becomes 0.
+static inline uint32_t color_bits(float v)
+{
+    v = v > 0 ? v : 0;
+    v = v < 1 ? v : 1;
+    return to_bits(v);
+}
+
+static inline uint32_t bucket_of(const struct quantizer *q, uint32_t bits)
+{
+    const uint32_t bucket = bits >> BUCKET_SHIFT;
+    return (bucket > q->first ? bucket : q->first) - q->first;
+}
+
+static inline unsigned code_in(const struct quantizer *q, uint32_t bits, uint32_t bucket,
+                               bool single)
+{
+    unsigned code = q->guess[bucket];
+    if (single) // no branch: noise is hard to predict
+        return code + (bits >= q->border[code + 1]);
+    while (bits >= q->border[code + 1])
+        code++;
+    return code;
+}
+
+// A number that is no float has the code of the float it is rounded to, but where a
+// border may lie between the two.
 static uint16_t code_of(const struct quantizer *q, const struct image_write_options *o,
                         double v)
 {
     if (!(v > 0))
         return 0; // NaN too
-    if (!q->least)
+    if (!q->border)
         return quantize(encode(o, v), q->max);
-    int i = q->guess[bucket_of((float)v)];
-    i += v >= q->least[i + 1]; // no branch: noise is hard to predict
-    while (v < q->least[i])
-        i--;
-    while (v >= q->least[i + 1])
-        i++;
-    return (uint16_t)i;
+    const float f = (float)v;
+    const uint32_t bits = color_bits(f);
+    const unsigned code = code_in(q, bits, bucket_of(q, bits), false);
+    if ((double)f != v && (bits == q->border[code] || bits + 1 == q->border[code + 1]))
+        return quantize(encode(o, v), q->max);
+    return (uint16_t)code;
 }
 
 // Of a sample of the pixel (x, y).
@@ -198,9 +219,41 @@ static uint16_t sample_code(const struct quantizer *q,
     return code_of(q, o, v);
 }
 
+// The first three of each pixel's floats as they are. The part that the compiler can do in
+// lanes comes first.
+static inline uint16_t *plain_codes(const struct quantizer *q, const float *p, int count,
+                                    int channels, bool single, uint16_t *out)
+{
+    uint32_t bits[PLAIN_FLOATS], bucket[PLAIN_FLOATS];
+    for (int i = 0; i < count; i++)
+        bits[i] = color_bits(p[i]);
+    for (int i = 0; i < count; i++)
+        bucket[i] = bucket_of(q, bits[i]);
+    for (int i = 0; i < count; i += channels)
+        for (int k = 0; k < 3; k++)
+            *out++ = (uint16_t)code_in(q, bits[i + k], bucket[i + k], single);
+    return out;
+}
+
+static void plain_row(const struct quantizer *q, const struct image *im, int y,
+                      uint16_t *out)
+{
+    const int step = PLAIN_FLOATS / im->channels;
+    for (int x = 0; x < im->width; x += step) {
+        const int n = im->width - x < step ? im->width - x : step;
+        const float *p = image_at(im, x, y);
+        out = q->single ? plain_codes(q, p, n * im->channels, im->channels, true, out)
+                        : plain_codes(q, p, n * im->channels, im->channels, false, out);
+    }
+}
+
 void quantize_row(const struct quantizer *q, const struct image *im, int y,
                   const struct image_write_options *o, uint16_t *out)
 {
+    if (q->border && im->channels >= 3 && !o->alpha && !o->grey) {
+        plain_row(q, im, y, out);
+        return;
+    }
     for (int x = 0; x < im->width; x++) {
         const float *p = image_at(im, x, y);
         double c[3], alpha = 1;
@@ -243,14 +296,18 @@ void sample_rows_end(struct sample_rows *r)
 const uint8_t *sample_rows_bytes(struct sample_rows *r, int y, int shift)
 {
     quantize_row(r->quantizer, r->im, y, &r->o, r->samples);
+    const uint16_t *from = r->samples;
     uint8_t *to = r->bytes;
-    for (size_t i = 0; i < r->count; i++) {
-        const unsigned v = (unsigned)r->samples[i] << shift;
-        if (r->o.bits > 8)
-            *to++ = (uint8_t)(v >> 8);
-        *to++ = (uint8_t)v;
+    const size_t count = r->count;
+    const int bits = r->o.bits;
+    for (size_t i = 0; bits <= 8 && i < count; i++)
+        to[i] = (uint8_t)(from[i] << shift);
+    for (size_t i = 0; bits > 8 && i < count; i++) {
+        const unsigned v = (unsigned)from[i] << shift;
+        to[2 * i] = (uint8_t)(v >> 8);
+        to[2 * i + 1] = (uint8_t)v;
     }
-    return r->bytes;
+    return to;
 }
 
 const uint8_t *sample_rows_bgr(struct sample_rows *r, int y)

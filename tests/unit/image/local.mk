@@ -1,4 +1,7 @@
-check_PROGRAMS += test_image test_texels
+check_PROGRAMS += test_image test_quantize test_texels
+test_quantize_SOURCES = %D%/test_quantize.c
+test_quantize_CPPFLAGS = $(test_cppflags)
+test_quantize_LDADD = $(test_ldadd)
 test_image_SOURCES = %D%/test_image.c
 test_image_CPPFLAGS = $(test_cppflags)
 test_image_LDADD = $(test_ldadd)
