@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/arena.h"
 #include "base/memory.h"
 #include "trace/projected.h"
 #include "trace/shade_kernel.h"
@@ -21,109 +20,142 @@ struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
     return lamp_grid_point(lamp, grid, fu, fv);
 }
 
-// ---- rays ----------------------------------------------------------------------------
+// ---- the grids of many places -----------------------------------------------------------
 
-// The corners of grids come first, those of many places at once.
-enum { CORNERS = 4, PLACES = BATCH_SIZE / CORNERS };
+// A part of a place's grid. Where its corners differ, it is cut into four.
+struct area_cell {
+    int u[2], v[2];
+    uint32_t corner[4]; // values at (u0, v0), (u1, v0), (u0, v1), (u1, v1)
+    uint32_t part;      // the first of its four parts, cells behind it; 0: none
+    uint32_t place;
+    struct rgb mean;
+};
 
 struct area_queue {
-    struct area_request *at;
+    struct area_request *at; // that wait
     uint32_t count, capacity;
-    // Rays to one lamp, either as requests or, where it shines from points through clear
-    // air, as places.
-    uint32_t ray_count;
-    struct shadow_request ray[BATCH_SIZE];
-    struct area_rays place;
+    // Places of one lamp, whose grids are asked for level by level: cells of all places
+    // together, so that rays to one point of the grid make packets.
+    const struct lamp *lamp;
+    struct area_places place;
+    uint32_t slot[BATCH_SIZE];
+    uint8_t photons[BATCH_SIZE];
+    uint32_t *known, known_capacity; // by place and point: 1 + its value; 0: not asked for
+    struct rgb *value;               // room as for rays
+    uint32_t value_count;
+    struct area_ray *ray, *sorted; // of this level
+    uint32_t ray_count, ray_capacity;
+    struct area_cell *cell;
+    uint32_t cell_count, cell_capacity;
+    uint32_t *begin, begin_capacity; // of each point's rays among the sorted
+};
+
+static void *grow(void *at, uint32_t capacity, size_t size)
+{
+    at = realloc(at, capacity * size);
+    if (!at)
+        abort();
+    return at;
+}
+
+static uint32_t points_of(const struct light *l) { return (uint32_t)(l->size1 * l->size2); }
+
+// The value of a point of a place's grid, which is asked for unless it has been.
+static uint32_t point_ask(struct area_queue *q, uint32_t place, int u, int v)
+{
+    const struct light *light = q->lamp->light;
+    const uint32_t point = (uint32_t)(u * light->size2 + v);
+    uint32_t *known = &q->known[place * points_of(light) + point];
+    if (*known)
+        return *known - 1;
+    q->ray[q->ray_count++] = (struct area_ray){place, point, q->value_count};
+    *known = ++q->value_count;
+    return *known - 1;
+}
+
+static void cell_add(struct area_queue *q, uint32_t place, int u0, int v0, int u1, int v1)
+{
+    q->cell[q->cell_count++] = (struct area_cell){
+        .u = {u0, u1},
+        .v = {v0, v1},
+        .corner = {point_ask(q, place, u0, v0), point_ask(q, place, u1, v0),
+                   point_ask(q, place, u0, v1), point_ask(q, place, u1, v1)},
+        .place = place};
+}
+
+// Room for `count` more cells and their corners.
+static void cells_reserve(struct area_queue *q, uint32_t count)
+{
+    while (q->cell_count + count > q->cell_capacity) {
+        q->cell_capacity = q->cell_capacity ? 2 * q->cell_capacity : BATCH_SIZE;
+        q->cell = grow(q->cell, q->cell_capacity, sizeof *q->cell);
+    }
+    while (q->value_count + 4 * count > q->ray_capacity) {
+        q->ray_capacity = q->ray_capacity ? 2 * q->ray_capacity : 4 * BATCH_SIZE;
+        q->value = grow(q->value, q->ray_capacity, sizeof *q->value);
+        q->ray = grow(q->ray, q->ray_capacity, sizeof *q->ray);
+        q->sorted = grow(q->sorted, q->ray_capacity, sizeof *q->sorted);
+    }
+}
+
+// Brings rays to the same point side by side.
+static void rays_sort(struct area_queue *q)
+{
+    const uint32_t points = points_of(q->lamp->light);
+    uint32_t *begin = q->begin, n = 0;
+    memset(begin, 0, points * sizeof *begin);
+    for (uint32_t i = 0; i < q->ray_count; i++)
+        begin[q->ray[i].point]++;
+    for (uint32_t i = 0; i < points; i++) {
+        const uint32_t here = begin[i];
+        begin[i] = n;
+        n += here;
+    }
+    for (uint32_t i = 0; i < q->ray_count; i++)
+        q->sorted[begin[q->ray[i].point]++] = q->ray[i];
+}
+
+// What comes along the rays that stand in `near`.
+static void rays_light(struct tracer *t, uint32_t count, struct rgb *out)
+{
+    const struct area_queue *q = t->area;
+    const struct ray_batch *b = t->near.rays;
+    if (!q->lamp->light->projected_through) {
+        shadow_factors_near(t, q->lamp->index, count, out);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t slot = t->near.slot[i];
+        const struct shadow_request r = {.o = {b->o[0][i], b->o[1][i], b->o[2][i]},
+                                         .d = {b->d[0][i], b->d[1][i], b->d[2][i]},
+                                         .t_max = b->t_max[i],
+                                         .inside = wave_inside(t, slot),
+                                         .slot = slot,
+                                         .lamp = q->lamp->index,
+                                         .photons = t->near.photons[i]};
+        out[i] = projected_shadow(t, q->lamp, &r);
+    }
+}
+
+// Finds the values of the points asked for.
+static void rays_trace(struct tracer *t)
+{
+    struct area_queue *q = t->area;
     struct rgb value[BATCH_SIZE];
-};
-
-static bool is_plain(const struct job *job, const struct light *l)
-{
-    return !job->has_air && !l->projected_through && !l->parallel &&
-           l->kind != LIGHT_CYLINDER;
-}
-
-// Puts the shadow ray to a point of the grid behind the others.
-static void ray_put(struct tracer *t, const struct area_request *r,
-                    const struct lamp_grid *grid, int u, int v)
-{
-    struct area_queue *q = t->area;
-    const uint32_t i = q->ray_count++;
-    const struct vec3 at = area_point(r->lamp, grid, r->hash, u, v);
-    if (is_plain(t->job, r->lamp->light)) {
-        const struct vec3 from[3] = {at, r->at.p, r->at.ng};
-        double(*const to[3])[BATCH_SIZE] = {q->place.to, q->place.p, q->place.ng};
-        for (int k = 0; k < 3; k++) {
-            to[k][0][i] = from[k].x;
-            to[k][1][i] = from[k].y;
-            to[k][2][i] = from[k].z;
+    rays_sort(q);
+    for (uint32_t first = 0, n; first < q->ray_count; first += n) {
+        const struct area_ray *ray = q->sorted + first;
+        n = q->ray_count - first < BATCH_SIZE ? q->ray_count - first : BATCH_SIZE;
+        t->job->kernels->toward(q->lamp, &q->place, ray, n, t->near.rays);
+        for (uint32_t i = 0; i < n; i++) {
+            t->near.slot[i] = (uint16_t)q->slot[ray[i].place];
+            t->near.photons[i] = q->photons[ray[i].place];
         }
-        q->place.error[i] = r->at.error;
-        t->near.slot[i] = (uint16_t)r->shadow.slot;
-        t->near.photons[i] = r->shadow.photons;
-        return;
-    }
-    struct lamp_view view;
-    lamp_direction(r->lamp, at, r->at.p, &view);
-    q->ray[i] = r->shadow;
-    q->ray[i].d = view.l;
-    q->ray[i].t_max = view.distance;
-    q->ray[i].o = trace_offset(&r->at, view.l);
-}
-
-// What of the light comes along the rays, into `value`.
-static void rays_trace(struct tracer *t, const struct lamp *lamp)
-{
-    struct area_queue *q = t->area;
-    const uint32_t n = q->ray_count;
-    q->ray_count = 0;
-    if (!n)
-        return;
-    if (is_plain(t->job, lamp->light)) {
-        t->job->kernels->toward(&q->place, n, t->near.rays);
-        shadow_factors_near(t, n, q->value);
-    } else if (lamp->light->projected_through) {
+        rays_light(t, n, value);
         for (uint32_t i = 0; i < n; i++)
-            q->value[i] = projected_shadow(t, lamp, &q->ray[i]);
-    } else {
-        shadow_factors(t, q->ray, n, q->value);
+            q->value[ray[i].value] = value[i];
     }
-}
-
-// ---- one grid ------------------------------------------------------------------------
-
-// The grid as seen from one point; each of its points is traced when first asked for.
-struct grid {
-    struct tracer *t;
-    const struct area_request *to;
-    struct lamp_grid place;
-    struct rgb *value;
-    bool *known;
-};
-
-// Finds the values of the corners of `count` cells that are not known, together: rays from
-// one point to one lamp make good packets.
-static void grid_ask(struct grid *g, const int (*cell)[4], int count)
-{
-    int at[16];
-    uint32_t n = 0;
-    for (int i = 0; i < 4 * count; i++) {
-        const int u = cell[i / 4][i & 1 ? 2 : 0], v = cell[i / 4][i & 2 ? 3 : 1];
-        const int k = u * g->to->lamp->light->size2 + v;
-        if (g->known[k])
-            continue;
-        g->known[k] = true;
-        at[n++] = k;
-        ray_put(g->t, g->to, &g->place, u, v);
-    }
-    rays_trace(g->t, g->to->lamp);
-    for (uint32_t i = 0; i < n; i++)
-        g->value[at[i]] = g->t->area->value[i];
-}
-
-static struct rgb grid_value(const struct grid *g, int u, int v)
-{
-    return g->value[u * g->to->lamp->light->size2 + v];
+    q->ray_count = 0;
 }
 
 static float difference(struct rgb a, struct rgb b, struct rgb color)
@@ -132,63 +164,123 @@ static float difference(struct rgb a, struct rgb b, struct rgb color)
            fabsf(color.b * (a.b - b.b));
 }
 
-// The mean over a cell {u1, v1, u2, v2} whose corners are known.
-static struct rgb grid_mean(struct grid *g, const int cell[4], int level)
+// Whether a cell whose corners are known is cut.
+static bool wants_parts(const struct area_queue *q, const struct area_cell *c, int level)
 {
     static const float notable = 0.1f; // difference of corners that calls for more
-    const int u1 = cell[0], v1 = cell[1], u2 = cell[2], v2 = cell[3];
-    struct rgb a = grid_value(g, u1, v1), b = grid_value(g, u2, v1),
-               c = grid_value(g, u1, v2), d = grid_value(g, u2, v2);
-    const struct rgb k = g->to->lamp->light->color;
-    if ((u2 - u1 > 1 || v2 - v1 > 1) &&
-        (level < g->to->lamp->light->adaptive || difference(a, b, k) > notable ||
-         difference(c, d, k) > notable || difference(a, c, k) > notable ||
-         difference(b, d, k) > notable)) {
-        const int ul = (u1 + u2) / 2, uh = (u1 + u2 + 1) / 2;
-        const int vl = (v1 + v2) / 2, vh = (v1 + v2 + 1) / 2;
-        const int part[4][4] = {
-            {u1, v1, ul, vl}, {uh, v1, u2, vl}, {u1, vh, ul, v2}, {uh, vh, u2, v2}};
-        grid_ask(g, part, 4);
-        a = grid_mean(g, part[0], level + 1);
-        b = grid_mean(g, part[1], level + 1);
-        c = grid_mean(g, part[2], level + 1);
-        d = grid_mean(g, part[3], level + 1);
-    }
-    return rgb_scale(0.25f, rgb_add(rgb_add(a, b), rgb_add(c, d)));
+    const struct light *l = q->lamp->light;
+    if (c->u[1] - c->u[0] <= 1 && c->v[1] - c->v[0] <= 1)
+        return false;
+    if (level < l->adaptive)
+        return true;
+    const struct rgb v[4] = {q->value[c->corner[0]], q->value[c->corner[1]],
+                             q->value[c->corner[2]], q->value[c->corner[3]]};
+    return difference(v[0], v[1], l->color) > notable ||
+           difference(v[2], v[3], l->color) > notable ||
+           difference(v[0], v[2], l->color) > notable ||
+           difference(v[1], v[3], l->color) > notable;
 }
 
-enum { FEW = 400 };
-
-// Room for the values of a grid: `few` and `known`, or more of them.
-static struct grid grid_of(struct tracer *t, const struct area_request *r,
-                           struct rgb *few, bool *known)
+// Cuts the cells from `first` to `end` that want it.
+static void cells_cut(struct area_queue *q, uint32_t first, uint32_t end, int level)
 {
-    const struct light *light = r->lamp->light;
-    const size_t count = (size_t)light->size1 * (size_t)light->size2;
-    struct grid g = {t, r, lamp_grid_of(r->lamp, r->at.p), few, known};
-    if (count > FEW) {
-        g.value = arena_new_array(t->arena, struct rgb, count);
-        g.known = arena_new_array(t->arena, bool, count);
+    for (uint32_t i = first; i < end; i++) {
+        if (!wants_parts(q, &q->cell[i], level))
+            continue;
+        cells_reserve(q, 4);
+        q->cell[i].part = q->cell_count;
+        const struct area_cell c = q->cell[i];
+        const int u = c.u[0] + c.u[1], v = c.v[0] + c.v[1];
+        cell_add(q, c.place, c.u[0], c.v[0], u / 2, v / 2);
+        cell_add(q, c.place, (u + 1) / 2, c.v[0], c.u[1], v / 2);
+        cell_add(q, c.place, c.u[0], (v + 1) / 2, u / 2, c.v[1]);
+        cell_add(q, c.place, (u + 1) / 2, (v + 1) / 2, c.u[1], c.v[1]);
     }
-    for (size_t i = 0; i < count; i++)
-        g.known[i] = false;
-    return g;
 }
 
-struct rgb area_shadow(struct tracer *t, const struct area_request *r)
+// The means of all cells; parts stand behind what they are parts of.
+static void cells_mean(struct area_queue *q)
 {
-    struct rgb few[FEW];
-    bool known[FEW];
-    struct grid g = grid_of(t, r, few, known);
-    const int whole[1][4] = {
-        {0, 0, r->lamp->light->size1 - 1, r->lamp->light->size2 - 1}};
-    grid_ask(&g, whole, 1);
-    return grid_mean(&g, whole[0], 0);
+    for (uint32_t i = q->cell_count; i-- > 0;) {
+        struct area_cell *c = &q->cell[i];
+        struct rgb v[4];
+        for (uint32_t k = 0; k < 4; k++)
+            v[k] = c->part ? q->cell[c->part + k].mean : q->value[c->corner[k]];
+        c->mean =
+            rgb_scale(0.25f, rgb_add(rgb_add(v[0], v[1]), rgb_add(v[2], v[3])));
+    }
 }
 
-// ---- together ------------------------------------------------------------------------
+static void place_put(struct area_queue *q, uint32_t i, const struct area_request *r)
+{
+    struct area_places *to = &q->place;
+    const struct lamp_grid grid = lamp_grid_of(r->lamp, r->p);
+    const struct vec3 from[4] = {r->p, r->ng, grid.axis1, grid.axis2};
+    double(*const at[4])[BATCH_SIZE] = {to->p, to->ng, to->axis1, to->axis2};
+    for (int k = 0; k < 4; k++) {
+        at[k][0][i] = from[k].x;
+        at[k][1][i] = from[k].y;
+        at[k][2][i] = from[k].z;
+    }
+    to->error[i] = r->error;
+    to->hash[i] = hash_mix(r->hash, r->lamp->index);
+    q->slot[i] = r->slot;
+    q->photons[i] = r->photons;
+}
 
-// The corners of grids come first, those of many places at once.
+// At most places_most of them.
+static void places_light(struct tracer *t, const struct area_request *const *r,
+                         uint32_t count, struct rgb *out)
+{
+    struct area_queue *q = t->area;
+    const struct light *light = r[0]->lamp->light;
+    const uint32_t points = points_of(light);
+    q->lamp = r[0]->lamp;
+    q->value_count = q->cell_count = 0;
+    if (count * points > q->known_capacity) {
+        q->known_capacity = count * points;
+        q->known = grow(q->known, q->known_capacity, sizeof *q->known);
+    }
+    if (points > q->begin_capacity) {
+        q->begin_capacity = points;
+        q->begin = grow(q->begin, points, sizeof *q->begin);
+    }
+    memset(q->known, 0, count * points * sizeof *q->known);
+    cells_reserve(q, count);
+    for (uint32_t i = 0; i < count; i++) {
+        place_put(q, i, r[i]);
+        cell_add(q, i, 0, 0, light->size1 - 1, light->size2 - 1);
+    }
+    for (uint32_t first = 0, end, level = 0; first < q->cell_count; first = end, level++) {
+        rays_trace(t);
+        end = q->cell_count;
+        cells_cut(q, first, end, (int)level);
+    }
+    cells_mean(q);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = q->cell[i].mean;
+}
+
+// How many places are lit together: what is known of their grids should stay near.
+static uint32_t places_most(const struct light *light)
+{
+    enum { NEAR = 16384, LEAST = 8 };
+    const uint32_t most = NEAR / points_of(light);
+    return most < LEAST ? LEAST : most > BATCH_SIZE ? BATCH_SIZE : most;
+}
+
+void area_shadows(struct tracer *t, const struct area_request *const *r, uint32_t count,
+                  struct rgb *out)
+{
+    if (!count)
+        return;
+    const uint32_t most = places_most(r[0]->lamp->light);
+    for (uint32_t i = 0; i < count; i += most)
+        places_light(t, r + i, count - i < most ? count - i : most, out + i);
+}
+
+// ---- places that wait -------------------------------------------------------------------
+
 void area_init(struct tracer *t)
 {
     const struct job *job = t->job;
@@ -199,92 +291,55 @@ void area_init(struct tracer *t)
 
 void area_end(struct tracer *t)
 {
-    if (t->area)
-        free(t->area->at);
-    free(t->area);
+    struct area_queue *q = t->area;
+    if (!q)
+        return;
+    free(q->at);
+    free(q->known);
+    free(q->value);
+    free(q->ray);
+    free(q->sorted);
+    free(q->cell);
+    free(q->begin);
+    free(q);
 }
 
 void area_add(struct tracer *t, const struct area_request *r)
 {
     struct area_queue *q = t->area;
     if (q->count == q->capacity) {
-        q->capacity = q->capacity ? 2 * q->capacity : PLACES;
-        q->at = realloc(q->at, q->capacity * sizeof *q->at);
-        if (!q->at)
-            abort();
+        q->capacity = q->capacity ? 2 * q->capacity : BATCH_SIZE;
+        q->at = grow(q->at, q->capacity, sizeof *q->at);
     }
     q->at[q->count++] = *r;
 }
 
-// The corners of a lamp's grid that are not the same.
-struct corners {
-    int u[CORNERS], v[CORNERS];
-    uint32_t count;
-};
-
-static struct corners corners_of(const struct light *l)
+static void lit_add(struct tracer *t, const struct area_request *const *r, uint32_t count)
 {
-    struct corners c = {.count = 0};
-    for (int k = 0; k < CORNERS; k++) {
-        if ((k & 1 && l->size1 == 1) || (k & 2 && l->size2 == 1))
-            continue;
-        c.u[c.count] = k & 1 ? l->size1 - 1 : 0;
-        c.v[c.count++] = k & 2 ? l->size2 - 1 : 0;
-    }
-    return c;
-}
-
-// The mean over a grid whose corners are known.
-static struct rgb cornered(struct tracer *t, const struct area_request *r,
-                           const struct corners *c, const struct rgb *value)
-{
-    struct rgb few[FEW];
-    bool known[FEW];
-    const int u = r->lamp->light->size1, v = r->lamp->light->size2;
-    struct grid g = grid_of(t, r, few, known);
-    for (uint32_t i = 0; i < c->count; i++) {
-        g.value[c->u[i] * v + c->v[i]] = value[i];
-        g.known[c->u[i] * v + c->v[i]] = true;
-    }
-    return grid_mean(&g, (const int[4]){0, 0, u - 1, v - 1}, 0);
-}
-
-// At most PLACES of one lamp.
-static void places_light(struct tracer *t, const struct area_request *const *r,
-                         uint32_t count)
-{
-    const struct lamp *lamp = r[0]->lamp;
-    const struct corners c = corners_of(lamp->light);
-    struct rgb value[BATCH_SIZE]; // the queue's is needed on the way
-    for (uint32_t i = 0; i < count; i++) {
-        const struct lamp_grid place = lamp_grid_of(lamp, r[i]->at.p);
-        for (uint32_t k = 0; k < c.count; k++)
-            ray_put(t, r[i], &place, c.u[k], c.v[k]);
-    }
-    rays_trace(t, lamp);
-    memcpy(value, t->area->value, c.count * count * sizeof *value);
+    struct rgb factor[BATCH_SIZE];
+    area_shadows(t, r, count, factor);
     for (uint32_t i = 0; i < count; i++)
-        tracer_lit(
-            t, r[i]->shadow.slot,
-            rgb_mul(r[i]->shadow.value, cornered(t, r[i], &c, &value[c.count * i])));
+        tracer_lit(t, r[i]->slot, rgb_mul(r[i]->value, factor[i]));
 }
 
 void area_flush(struct tracer *t)
 {
     struct area_queue *q = t->area;
-    const struct area_request *of_lamp[PLACES];
+    const struct area_request *of_lamp[BATCH_SIZE];
     if (!q)
         return;
     for (uint32_t l = 0; l < t->job->lamp_count && q->count; l++) {
         uint32_t n = 0;
         for (uint32_t i = 0; i < q->count; i++) {
-            if (q->at[i].lamp->index == l)
-                of_lamp[n++] = &q->at[i];
-            if (n == PLACES || (n && i + 1 == q->count)) {
-                places_light(t, of_lamp, n);
+            if (q->at[i].lamp->index != l)
+                continue;
+            of_lamp[n++] = &q->at[i];
+            if (n == BATCH_SIZE) {
+                lit_add(t, of_lamp, n);
                 n = 0;
             }
         }
+        lit_add(t, of_lamp, n);
     }
     q->count = 0;
 }

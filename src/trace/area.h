@@ -9,13 +9,16 @@ struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
 // A place that an area light may shine on.
 struct area_request {
     const struct lamp *lamp;
-    struct shadow_request shadow; // to the middle of the lamp
-    struct interaction at;        // its p, error and ng: where rays to the others begin
-    uint32_t hash;
+    struct vec3 p, ng; // as in interaction, as is error: where rays to the lamp begin
+    double error;
+    struct rgb value; // what is added to the slot of what comes of the lamp
+    uint32_t slot, hash;
+    uint8_t photons; // photons_instead
 };
 
-// How much of the light reaches the place (spec/lighting.md 8.4).
-struct rgb area_shadow(struct tracer *t, const struct area_request *r);
+// How much of the light of one lamp reaches the places (spec/lighting.md 8.4).
+void area_shadows(struct tracer *t, const struct area_request *const *r, uint32_t count,
+                  struct rgb *out);
 // The same later, together with other places: then the request's value is added to its slot.
 void area_add(struct tracer *t, const struct area_request *r);
 // Answers what waits.

@@ -14,32 +14,37 @@ struct lighting {
     uint32_t count;
 };
 
-// Whether a lamp's shadow at a point takes more than one ray.
-static bool is_special(const struct job *job, const struct light *light)
+// The grids of all places together.
+static void area_lights(struct lighting *l)
 {
-    return (light->area && job->area_lights) || light->projected_through;
-}
-
-static struct rgb special_shadow(const struct media_march *m, const struct lamp *lamp,
-                                 const struct shadow_request *r, uint32_t hash)
-{
-    if (!lamp->light->area || !m->t->job->area_lights)
-        return projected_shadow(m->t, lamp, r);
-    // A place in the open air: no surface to start from.
-    const struct area_request place = {lamp, *r, {.p = r->o}, hash};
-    return area_shadow(m->t, &place);
+    struct area_request place[64];
+    const struct area_request *at[64];
+    for (uint32_t i = 0; i < l->count; i++) {
+        const struct shadow_request *r = &l->request[i];
+        // A place in the open air: no surface to start from.
+        place[i] = (struct area_request){
+            .lamp = l->lamp,
+            .p = r->o,
+            .slot = r->slot,
+            .hash = hash_mix(l->m->way->hash, ~l->sample[i]),
+            .photons = r->photons};
+        at[i] = &place[i];
+    }
+    area_shadows(l->m->t, at, l->count, l->factor);
 }
 
 static void shadows(struct lighting *l)
 {
     const struct job *job = l->m->t->job;
+    const struct light *light = l->lamp->light;
     if (!job->shadows) {
         for (uint32_t i = 0; i < l->count; i++)
             l->factor[i] = rgb(1, 1, 1);
-    } else if (is_special(job, l->lamp->light)) {
+    } else if (light->area && job->area_lights) {
+        area_lights(l);
+    } else if (light->projected_through) {
         for (uint32_t i = 0; i < l->count; i++)
-            l->factor[i] = special_shadow(l->m, l->lamp, &l->request[i],
-                                          hash_mix(l->m->way->hash, ~l->sample[i]));
+            l->factor[i] = projected_shadow(l->m->t, l->lamp, &l->request[i]);
     } else {
         shadow_factors(l->m->t, l->request, l->count, l->factor);
     }

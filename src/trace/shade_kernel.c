@@ -5,6 +5,7 @@
 
 #include "math/isa.h"
 #include "trace/shade_air.h"
+#include "trace/shade_area.h"
 #include "trace/shade_bounce.h"
 #include "trace/shade_camera.h"
 #include "trace/shade_color.h"
@@ -357,38 +358,6 @@ static unsigned meets(const struct aabb *box, uint32_t count,
         met |= m8_bits(r8_le(t0, t1));
     }
     return met;
-}
-
-// ---- rays to area lights ------------------------------------------------------------------
-
-LANES_INLINE struct vec8 eight_of(const double (*v)[BATCH_SIZE], uint32_t i)
-{
-    return (struct vec8){r8_load(v[0] + i), r8_load(v[1] + i), r8_load(v[2] + i)};
-}
-
-LANES_INLINE void eight_put(double *const v[3], uint32_t i, struct vec8 x)
-{
-    r8_store(v[0] + i, x.x);
-    r8_store(v[1] + i, x.y);
-    r8_store(v[2] + i, x.z);
-}
-
-static void toward(const struct area_rays *places, uint32_t count, struct ray_batch *out)
-{
-    const struct real8 none = r8_set(0), one = r8_set(1);
-    for (uint32_t i = 0; i < count; i += 8) {
-        const struct vec8 p = eight_of(places->p, i), ng = eight_of(places->ng, i);
-        const struct vec8 to = v8_sub(eight_of(places->to, i), p);
-        const struct real8 length = r8_sqrt(v8_dot(to, to));
-        const struct real8 k = r8_select(r8_lt(none, length), r8_div(one, length), one);
-        const struct vec8 d = {r8_mul(k, to.x), r8_mul(k, to.y), r8_mul(k, to.z)};
-        const struct real8 side = r8_select(r8_lt(v8_dot(d, ng), none), r8_set(-1), one);
-        const struct real8 by =
-            r8_mul(r8_mul(r8_set(2), side), r8_load(places->error + i));
-        eight_put(out->d, i, d);
-        eight_put(out->o, i, v8_mad(p, by, ng));
-        r8_store(out->t_max + i, length);
-    }
 }
 
 const struct shade_kernels OF_ISA(shade_kernels_) = {

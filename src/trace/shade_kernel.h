@@ -8,10 +8,17 @@ struct paint_coat;
 struct paint_group;
 struct paint_sheet;
 
-// Rays from places on surfaces to points, BATCH_SIZE at most.
-struct area_rays {
-    double to[3][BATCH_SIZE];
-    double p[3][BATCH_SIZE], ng[3][BATCH_SIZE], error[BATCH_SIZE]; // as in interaction
+// Places on surfaces that an area light may shine on: as in interaction; the grid's axes as
+// they see them; hash of the way there and the lamp.
+struct area_places {
+    double p[3][BATCH_SIZE], ng[3][BATCH_SIZE], error[BATCH_SIZE];
+    double axis1[3][BATCH_SIZE], axis2[3][BATCH_SIZE];
+    uint32_t hash[BATCH_SIZE];
+};
+
+// From a place to a point of the grid, u * size2 + v.
+struct area_ray {
+    uint32_t place, point, value; // value: where what it brings is kept
 };
 
 // What shading compiles once per instruction set, as trace/packet.h.
@@ -45,9 +52,9 @@ struct shade_kernels {
                       const struct ray_batch *rays, uint32_t first);
     // What the fogs of the scene do to the rays of the wave (trace/sky.h).
     void (*fogs)(struct tracer *t);
-    // The rays, which end at their points: as lamp_direction and trace_offset say.
-    void (*toward)(const struct area_rays *places, uint32_t count,
-                   struct ray_batch *out);
+    // The rays to points of an area light: as area_point, lamp_direction and trace_offset say.
+    void (*toward)(const struct lamp *lamp, const struct area_places *places,
+                   const struct area_ray *ray, uint32_t count, struct ray_batch *out);
     // ---- painted hits (trace/paint.h)
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,

@@ -194,7 +194,9 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
                                      .lamp = lamp->index,
                                      .photons = photons_instead(job, s->at.surface, light)};
     if (area && !light->shadowless)
-        area_add(s->t, &(struct area_request){lamp, r, s->at, s->path->hash});
+        area_add(s->t,
+                 &(struct area_request){lamp, s->at.p, s->at.ng, s->at.error, value,
+                                        r.slot, s->path->hash, r.photons});
     else if (light->projected_through)
         tracer_add(s->t, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
     else

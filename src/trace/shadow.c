@@ -1,4 +1,5 @@
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "math/elementary.h"
@@ -267,9 +268,10 @@ bool air_counts(const struct job *job, uint32_t lamp)
 }
 
 // What passes of light that nothing stops and that the air dims.
-static struct rgb airy(struct tracer *t, const struct shadow_request *r)
+static struct rgb airy(struct tracer *t, const struct inside *inside, struct vec3 o,
+                       struct vec3 d, double length)
 {
-    return inside_hollow(r->inside) ? air_filter(t, r->o, r->d, r->t_max) : all;
+    return inside_hollow(inside) ? air_filter(t, o, d, length) : all;
 }
 
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
@@ -283,7 +285,7 @@ struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r)
     const bool air = air_counts(t->job, r->lamp);
     if (t->job->world->has_transparent)
         return walk_alone(t, r, air);
-    return air ? airy(t, r) : all;
+    return air ? airy(t, r->inside, r->o, r->d, r->t_max) : all;
 }
 
 // ---- batches -------------------------------------------------------------------------
@@ -401,23 +403,34 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
     for (uint32_t i = 0; i < count; i++) {
         out[i] = b->occluded[i]   ? none
                  : b->pass        ? b->pass[i]
-                 : air_end[i] > 0 ? airy(t, &r[i])
+                 : air_end[i] > 0 ? airy(t, r[i].inside, r[i].o, r[i].d, r[i].t_max)
                                   : all;
         if (!(r[i].t_max > 0))
             out[i] = all;
     }
 }
 
-void shadow_factors_near(struct tracer *t, uint32_t count, struct rgb *out)
+void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct rgb *out)
 {
     struct shadow_batch *b = &t->near;
-    const double *end = b->rays->t_max;
-    batch_trace(t, b, count, NULL);
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = !(end[i] > 0)    ? all
-                 : b->occluded[i] ? none
-                 : b->pass        ? b->pass[i]
-                                  : all;
+    const bool air = air_counts(t->job, lamp);
+    double air_end[BATCH_SIZE];
+    if (air)
+        memcpy(air_end, b->rays->t_max, count * sizeof *air_end);
+    batch_trace(t, b, count, air ? air_end : NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(b->rays->t_max[i] > 0))
+            out[i] = all;
+        else if (b->occluded[i])
+            out[i] = none;
+        else if (b->pass)
+            out[i] = b->pass[i];
+        else if (air) {
+            const struct ray ray = batch_ray(b->rays, i);
+            out[i] = airy(t, wave_inside(t, b->slot[i]), ray.o, ray.d, air_end[i]);
+        } else
+            out[i] = all;
+    }
 }
 
 // Rays to the same lamp side by side, so that packets stay together.
@@ -465,7 +478,7 @@ void shadow_flush(struct tracer *t)
         if (b->pass)
             c = rgb_mul(c, b->pass[k]);
         else if (air_end[k] > 0)
-            c = rgb_mul(c, airy(t, r));
+            c = rgb_mul(c, airy(t, r->inside, r->o, r->d, r->t_max));
         tracer_lit(t, r->slot, c);
     }
 }

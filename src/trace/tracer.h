@@ -246,8 +246,8 @@ void shadow_flush(struct tracer *t);
 void shadow_flush_simple(struct tracer *t, uint32_t count);
 // What passes of light that runs along the request's ray.
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r);
-// The same of the rays that stand in `near`, where there is no air.
-void shadow_factors_near(struct tracer *t, uint32_t count, struct rgb *out);
+// The same of the rays to one lamp that stand in `near`.
+void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct rgb *out);
 // The same for at most BATCH_SIZE requests.
 void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
                     struct rgb *out);
