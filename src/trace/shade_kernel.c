@@ -4,6 +4,7 @@
 #include "trace/shade_kernel.h"
 
 #include "math/isa.h"
+#include "trace/area.h"
 #include "trace/shade_air.h"
 #include "trace/shade_area.h"
 #include "trace/shade_bounce.h"
@@ -165,11 +166,12 @@ LANES_INLINE unsigned black8(struct rgb8 c)
 }
 
 // Queues the shadow rays of the lanes (trace_offset).
-LANES_INLINE uint32_t queue8(struct tracer *t, const struct simple_group *g,
-                             unsigned live, const struct light8 *v, struct rgb8 value,
-                             uint32_t queued)
+LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
+                             const struct simple_group *g, unsigned live,
+                             const struct light8 *v, struct rgb8 value, uint32_t queued)
 {
     struct shadow_batch *b = &t->simple;
+    memset(b->air + queued, air_counts(t->job, lamp->index), 8);
     const struct vec8 ng = v8_load((const double(*)[8])g->ng);
     const struct real8 side =
         r8_select(r8_lt(v8_dot(v->to, ng), r8_set(0)), r8_set(-1), r8_set(1));
@@ -214,15 +216,37 @@ LANES_INLINE uint32_t queue8(struct tracer *t, const struct simple_group *g,
 // What shade_lamp asks of the lamp alone.
 struct shaded_lamp {
     const struct lamp *lamp;
-    bool even, shadowed;
+    bool even, shadowed, area;
 };
 
 static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp)
 {
     const struct light *l = lamp->light;
+    const bool shadowed = t->job->shadows && !l->shadowless;
     return (struct shaded_lamp){
         lamp, l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0),
-        t->job->shadows && !l->shadowless};
+        shadowed, shadowed && l->area && t->job->area_lights};
+}
+
+// Keeps the lanes as places of an area light.
+static void area_add8(struct tracer *t, const struct lamp *lamp,
+                      const struct simple_group *g, unsigned live, struct rgb8 value)
+{
+    float c[3][8];
+    f8_store(c[0], value.r);
+    f8_store(c[1], value.g);
+    f8_store(c[2], value.b);
+    for (; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        area_add(t, &(struct area_request){
+                        .lamp = lamp,
+                        .p = {g->p[0][i], g->p[1][i], g->p[2][i]},
+                        .ng = {g->ng[0][i], g->ng[1][i], g->ng[2][i]},
+                        .error = g->error[i],
+                        .value = {c[0][i], c[1][i], c[2][i]},
+                        .slot = g->slot[i],
+                        .hash = lamp->light->jitter ? wave_hash(t, g->slot[i]) : 0});
+    }
 }
 
 // The rest of shade_lamp, once it is known what the surfaces make of the light.
@@ -241,13 +265,17 @@ LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
     if (bare)
         add_own(t, g, bare, value);
     live &= ~bare;
+    if (live && lamp->area) {
+        area_add8(t, lamp->lamp, g, live, value);
+        return queued;
+    }
     if (!live)
         return queued;
     if (queued + 8 > BATCH_SIZE) {
         shadow_flush_simple(t, queued);
         queued = 0;
     }
-    return queue8(t, g, live, v, value, queued);
+    return queue8(t, lamp->lamp, g, live, v, value, queued);
 }
 
 // shade_lamp.

@@ -349,16 +349,32 @@ static void batch_trace(struct tracer *t, struct shadow_batch *b, uint32_t count
         walk_batch(t, b, count, air_end);
 }
 
+// What of light that nothing opaque stops gets past the rest along ray k of a batch.
+static struct rgb rest_passes(struct tracer *t, const struct shadow_batch *b, uint32_t k,
+                              double air_end)
+{
+    if (b->pass)
+        return b->pass[k];
+    if (!(air_end > 0))
+        return all;
+    const struct ray ray = batch_ray(b->rays, k);
+    return airy(t, wave_inside(t, b->slot[k]), ray.o, ray.d, air_end);
+}
+
 void shadow_flush_simple(struct tracer *t, uint32_t count)
 {
     struct shadow_batch *b = &t->simple;
-    batch_trace(t, b, count, NULL);
+    double air_end[BATCH_SIZE];
+    const bool air = t->job->has_air;
+    for (uint32_t k = 0; k < count && air; k++)
+        air_end[k] = b->air[k] ? b->rays->t_max[k] : 0;
+    batch_trace(t, b, count, air ? air_end : NULL);
     for (uint32_t k = 0; k < count; k++) {
         if (b->occluded[k])
             continue;
         struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
-        if (b->pass)
-            c = rgb_mul(c, b->pass[k]);
+        if (b->pass || air)
+            c = rgb_mul(c, rest_passes(t, b, k, air ? air_end[k] : 0));
         tracer_lit(t, b->slot[k], c);
     }
 }
@@ -400,14 +416,10 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
         air_end[i] = air_end_of(t->job, &r[i]);
     }
     batch_trace(t, b, count, t->job->has_air ? air_end : NULL);
-    for (uint32_t i = 0; i < count; i++) {
-        out[i] = b->occluded[i]   ? none
-                 : b->pass        ? b->pass[i]
-                 : air_end[i] > 0 ? airy(t, r[i].inside, r[i].o, r[i].d, r[i].t_max)
-                                  : all;
-        if (!(r[i].t_max > 0))
-            out[i] = all;
-    }
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = !(r[i].t_max > 0) ? all
+                 : b->occluded[i]  ? none
+                                   : rest_passes(t, b, i, air_end[i]);
 }
 
 void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct rgb *out)
@@ -418,19 +430,10 @@ void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct
     if (air)
         memcpy(air_end, b->rays->t_max, count * sizeof *air_end);
     batch_trace(t, b, count, air ? air_end : NULL);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!(b->rays->t_max[i] > 0))
-            out[i] = all;
-        else if (b->occluded[i])
-            out[i] = none;
-        else if (b->pass)
-            out[i] = b->pass[i];
-        else if (air) {
-            const struct ray ray = batch_ray(b->rays, i);
-            out[i] = airy(t, wave_inside(t, b->slot[i]), ray.o, ray.d, air_end[i]);
-        } else
-            out[i] = all;
-    }
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = !(b->rays->t_max[i] > 0) ? all
+                 : b->occluded[i]         ? none
+                                          : rest_passes(t, b, i, air ? air_end[i] : 0);
 }
 
 // Rays to the same lamp side by side, so that packets stay together.
@@ -474,11 +477,6 @@ void shadow_flush(struct tracer *t)
         if (b->occluded[k])
             continue;
         const struct shadow_request *r = &t->shadow[i];
-        struct rgb c = r->value;
-        if (b->pass)
-            c = rgb_mul(c, b->pass[k]);
-        else if (air_end[k] > 0)
-            c = rgb_mul(c, airy(t, r->inside, r->o, r->d, r->t_max));
-        tracer_lit(t, r->slot, c);
+        tracer_lit(t, r->slot, rgb_mul(r->value, rest_passes(t, b, k, air_end[k])));
     }
 }

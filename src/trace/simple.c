@@ -44,9 +44,9 @@ bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
 {
     for (uint32_t i = 0; i < list->count; i++) {
         const struct light *l = list->lamp[i]->light;
-        if (!list->lamp[i]->inert &&
-            (l->projected_through || (l->area && job->area_lights && job->shadows) ||
-             air_counts(job, list->lamp[i]->index)))
+        const bool lightlets =
+            l->area && l->area_illumination && job->area_lights && job->shadows;
+        if (!list->lamp[i]->inert && (l->projected_through || lightlets))
             return false;
     }
     return true;

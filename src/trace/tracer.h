@@ -131,6 +131,7 @@ struct shadow_batch {
     uint16_t slot[BATCH_SIZE];
     uint8_t occluded[BATCH_SIZE];
     uint8_t photons[BATCH_SIZE]; // photons_instead
+    uint8_t air[BATCH_SIZE];     // air_counts, of rays of simple surfaces
     struct rgb *pass; // what transparent things and fog let through; NULL: all
 };
 
