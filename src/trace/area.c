@@ -40,8 +40,9 @@ struct area_queue {
     struct area_places place;
     uint32_t slot[BATCH_SIZE];
     uint8_t photons[BATCH_SIZE];
-    uint32_t *known, known_capacity; // by place and point: 1 + its value; 0: not asked for
-    struct rgb *value;               // room as for rays
+    uint32_t *known,
+        known_capacity; // by place and point: 1 + its value; 0: not asked for
+    struct rgb *value;  // room as for rays
     uint32_t value_count;
     struct area_ray *ray, *sorted; // of this level
     uint32_t ray_count, ray_capacity;
@@ -58,7 +59,10 @@ static void *grow(void *at, uint32_t capacity, size_t size)
     return at;
 }
 
-static uint32_t points_of(const struct light *l) { return (uint32_t)(l->size1 * l->size2); }
+static uint32_t points_of(const struct light *l)
+{
+    return (uint32_t)(l->size1 * l->size2);
+}
 
 // The value of a point of a place's grid, which is asked for unless it has been.
 static uint32_t point_ask(struct area_queue *q, uint32_t place, int u, int v)
@@ -206,8 +210,7 @@ static void cells_mean(struct area_queue *q)
         struct rgb v[4];
         for (uint32_t k = 0; k < 4; k++)
             v[k] = c->part ? q->cell[c->part + k].mean : q->value[c->corner[k]];
-        c->mean =
-            rgb_scale(0.25f, rgb_add(rgb_add(v[0], v[1]), rgb_add(v[2], v[3])));
+        c->mean = rgb_scale(0.25f, rgb_add(rgb_add(v[0], v[1]), rgb_add(v[2], v[3])));
     }
 }
 
@@ -251,7 +254,8 @@ static void places_light(struct tracer *t, const struct area_request *const *r,
         place_put(q, i, r[i]);
         cell_add(q, i, 0, 0, light->size1 - 1, light->size2 - 1);
     }
-    for (uint32_t first = 0, end, level = 0; first < q->cell_count; first = end, level++) {
+    for (uint32_t first = 0, end, level = 0; first < q->cell_count;
+         first = end, level++) {
         rays_trace(t);
         end = q->cell_count;
         cells_cut(q, first, end, (int)level);

@@ -22,12 +22,11 @@ static void area_lights(struct lighting *l)
     for (uint32_t i = 0; i < l->count; i++) {
         const struct shadow_request *r = &l->request[i];
         // A place in the open air: no surface to start from.
-        place[i] = (struct area_request){
-            .lamp = l->lamp,
-            .p = r->o,
-            .slot = r->slot,
-            .hash = hash_mix(l->m->way->hash, ~l->sample[i]),
-            .photons = r->photons};
+        place[i] = (struct area_request){.lamp = l->lamp,
+                                         .p = r->o,
+                                         .slot = r->slot,
+                                         .hash = hash_mix(l->m->way->hash, ~l->sample[i]),
+                                         .photons = r->photons};
         at[i] = &place[i];
     }
     area_shadows(l->m->t, at, l->count, l->factor);

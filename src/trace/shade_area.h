@@ -58,9 +58,8 @@ LANES_INLINE struct vec8 area_point8(const struct light *l, const struct area_ei
     if (l->circular) {
         u = r8_add(u, shift);
         v = r8_add(v, shift);
-        const struct real8 squash =
-            r8_div(r8_max(r8_abs(u), r8_abs(v)),
-                   r8_sqrt(r8_add(r8_mul(u, u), r8_mul(v, v))));
+        const struct real8 squash = r8_div(r8_max(r8_abs(u), r8_abs(v)),
+                                           r8_sqrt(r8_add(r8_mul(u, u), r8_mul(v, v))));
         u = r8_mul(u, squash);
         v = r8_mul(v, squash);
     }

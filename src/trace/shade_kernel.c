@@ -291,9 +291,12 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
         unsigned live = shaded.even ? g->live : attenuate(lamp, g, &v);
         if (!live)
             continue;
-        const struct lit_layer l = {c->finish, (const double(*)[8])g->d,
-                                    (const double(*)[8])g->n, (const float(*)[8])g->color,
-                                    g->att, NULL};
+        const struct lit_layer l = {c->finish,
+                                    (const double(*)[8])g->d,
+                                    (const double(*)[8])g->n,
+                                    (const float(*)[8])g->color,
+                                    g->att,
+                                    NULL};
         const struct rgb8 sum = lit8(&l, c->side_test, lamp, v.to, &live);
         if (live)
             queued = lamp_add(t, &shaded, g, live, &v, sum, queued);

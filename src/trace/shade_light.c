@@ -108,7 +108,8 @@ static struct rgb layer_lit(const struct shading *s, const struct layer *l,
             (float)(f->brilliance == 1 ? cosine : det_pow_single(cosine, f->brilliance));
         i *= d * l->att;
         if (f->crand > 0)
-            i -= f->crand * (float)hash_unit(hash_mix(s->path->hash, lamp ? lamp->index + 100 : 99));
+            i -= f->crand *
+                 (float)hash_unit(hash_mix(s->path->hash, lamp ? lamp->index + 100 : 99));
         c = rgb_scale(i, l->color);
     }
     if (!back && !(lamp ? lamp->dull : s->t->job->settings.purpose == RENDER_GATHER))
@@ -192,11 +193,11 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
                                      .inside = s->path->inside,
                                      .slot = s->t->slot,
                                      .lamp = lamp->index,
-                                     .photons = photons_instead(job, s->at.surface, light)};
+                                     .photons =
+                                         photons_instead(job, s->at.surface, light)};
     if (area && !light->shadowless)
-        area_add(s->t,
-                 &(struct area_request){lamp, s->at.p, s->at.ng, s->at.error, value,
-                                        r.slot, s->path->hash, r.photons});
+        area_add(s->t, &(struct area_request){lamp, s->at.p, s->at.ng, s->at.error, value,
+                                              r.slot, s->path->hash, r.photons});
     else if (light->projected_through)
         tracer_add(s->t, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
     else

@@ -120,7 +120,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/155-area-circular-orient.pov \
 	%D%/156-area-1x7.pov \
 	%D%/157-area-illumination.pov \
-	%D%/158-area-jitter.pov \
+	%D%/158-area-jitter.pov %D%/159-area-fog-layers.pov \
 	%D%/160-looks-like.pov \
 	%D%/161-projected-through.pov \
 	%D%/162-light-group.pov \
