@@ -34,10 +34,11 @@ void byte_buffer_write(struct byte_buffer *b, size_t offset, const void *data, s
             b->failed = true;
             return;
         }
-        memset(p + b->capacity, 0, capacity - b->capacity);
         b->data = p;
         b->capacity = capacity;
     }
+    if (offset > b->size) // what is left out is zero
+        memset(b->data + b->size, 0, offset - b->size);
     memcpy(b->data + offset, data, n);
     if (offset + n > b->size)
         b->size = offset + n;

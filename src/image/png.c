@@ -1,10 +1,16 @@
-// PNG files through libpng. No time stamp: equal pictures give equal bytes.
+// PNG files through libpng, by default with their pixels packed by libdeflate. No time
+// stamp: equal pictures give equal bytes.
+#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/png_error.h"
 
-static const int usual_level = 3;
+// libdeflate's fastest level with rows as differences to the row above: a third of the time
+// of zlib's level 3 for files about as large.
+static const int usual_level = 1;
+static const uint8_t filter_up = 2;
+static const size_t chunk_most = 1 << 30; // a chunk has fewer than 2^31 bytes
 
 static void on_write(png_structp png, png_bytep data, size_t n)
 {
@@ -47,13 +53,8 @@ static void write_header(png_structp png, png_infop info, const struct image *im
     int type = (o->grey ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB) |
                (o->alpha ? PNG_COLOR_MASK_ALPHA : 0);
     int depth = o->bits <= 8 ? 8 : 16;
-    if (o->compression) {
+    if (o->compression)
         png_set_compression_level(png, o->compression < 9 ? o->compression : 9);
-    } else {
-        // The usual: half the time of libpng's choice for files about as large.
-        png_set_compression_level(png, usual_level);
-        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    }
     png_set_IHDR(png, info, (png_uint_32)im->width, (png_uint_32)im->height, depth, type,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
@@ -67,6 +68,77 @@ static void write_header(png_structp png, png_infop info, const struct image *im
     png_write_info(png, info);
 }
 
+static int shift_of(const struct image_write_options *o)
+{
+    return (o->bits > 8 ? 16 : 8) - o->bits;
+}
+
+// All rows, each after the byte that tells its filter.
+static void filter_rows(struct sample_rows *rows, int height, size_t row, uint8_t *to)
+{
+    for (int y = 0; y < height; y++) {
+        uint8_t *at = to + (size_t)y * (row + 1);
+        *at = filter_up;
+        memcpy(at + 1, sample_rows_bytes(rows, y, shift_of(&rows->o)), row);
+    }
+    for (int y = height - 1; y > 0; y--) {
+        uint8_t *at = to + (size_t)y * (row + 1) + 1;
+        const uint8_t *above = at - (row + 1);
+        for (size_t i = 0; i < row; i++)
+            at[i] = (uint8_t)(at[i] - above[i]);
+    }
+}
+
+struct packed {
+    uint8_t *data;
+    size_t size; // 0: out of memory
+};
+
+static struct packed pack(const uint8_t *data, size_t size)
+{
+    struct packed p = {0};
+    struct libdeflate_compressor *c = libdeflate_alloc_compressor(usual_level);
+    if (c) {
+        const size_t most = libdeflate_zlib_compress_bound(c, size);
+        p.data = malloc(most);
+        if (p.data)
+            p.size = libdeflate_zlib_compress(c, data, size, p.data, most);
+        libdeflate_free_compressor(c);
+    }
+    return p;
+}
+
+static struct packed pack_rows(struct sample_rows *rows, const struct image *im)
+{
+    const size_t row = rows->count * (rows->o.bits > 8 ? 2 : 1);
+    const size_t size = (row + 1) * (size_t)im->height;
+    struct packed p = {0};
+    uint8_t *filtered = malloc(size);
+    if (filtered) {
+        filter_rows(rows, im->height, row, filtered);
+        p = pack(filtered, size);
+    }
+    free(filtered);
+    return p;
+}
+
+// What png_write_row and png_write_end do for pixels that libpng is to pack.
+static void write_packed(png_structp png, const struct packed *p)
+{
+    for (size_t at = 0, n; at < p->size; at += n) {
+        n = p->size - at < chunk_most ? p->size - at : chunk_most;
+        png_write_chunk(png, (png_const_bytep) "IDAT", p->data + at, n);
+    }
+    png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
+}
+
+static void write_rows(png_structp png, struct sample_rows *rows, int height)
+{
+    for (int y = 0; y < height; y++)
+        png_write_row(png, sample_rows_bytes(rows, y, shift_of(&rows->o)));
+    png_write_end(png, NULL);
+}
+
 bool png_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e)
 {
@@ -74,19 +146,23 @@ bool png_encode(const struct image *im, const struct image_write_options *o,
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &e, png_error_jump,
                                               png_no_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
+    const bool begun = sample_rows_begin(&rows, im, o) && info;
+    const struct packed packed =
+        begun && !o->compression ? pack_rows(&rows, im) : (struct packed){0};
     volatile bool ok = false;
-    if (!sample_rows_begin(&rows, im, o) || !info) {
+    if (!begun || (!o->compression && !packed.size)) {
         codec_fail(e, "out of memory");
     } else if (!setjmp(png_jmpbuf(png))) {
         png_set_write_fn(png, out, on_write, on_flush);
         write_header(png, info, im, o);
-        for (int y = 0; y < im->height; y++)
-            png_write_row(png,
-                          sample_rows_bytes(&rows, y, (o->bits > 8 ? 16 : 8) - o->bits));
-        png_write_end(png, info);
+        if (packed.size)
+            write_packed(png, &packed);
+        else
+            write_rows(png, &rows, im->height);
         ok = true;
     }
     png_destroy_write_struct(&png, &info);
     sample_rows_end(&rows);
+    free(packed.data);
     return ok;
 }
