@@ -202,17 +202,55 @@ static bool has_lanes(const void *shape)
     return true;
 }
 
-// The gradient by the same nested schemes, differentiated along each axis.
+// A value and its gradient, on their way through the nested schemes.
+struct jet {
+    double v;
+    struct vec3 g;
+};
+
+// j = j * x, of the coordinate along `axis`.
+static void times_coordinate(struct jet *j, double x, struct vec3 axis)
+{
+    j->g = vec3_mad(vec3_scale(x, j->g), j->v, axis);
+    j->v *= x;
+}
+
+static void times_coordinates(struct jet *j, double x, struct vec3 axis, int power)
+{
+    while (power-- > 0)
+        times_coordinate(j, x, axis);
+}
+
+// The gradient by the schemes of poly_along, differentiated along each axis.
 static struct vec3 gradient(const struct poly *s, struct vec3 p)
 {
-    static const struct vec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    double g[3];
-    for (int i = 0; i < 3; i++) {
-        struct line_poly line;
-        poly_along(s, p, axis[i], &line);
-        g[i] = line.degree > 0 ? line.c[1] : 0;
+    const struct vec3 ex = {1, 0, 0}, ey = {0, 1, 0};
+    struct jet sum = {0};
+    int x = s->order;
+    for (uint32_t i = 0; i < s->rows;) {
+        const int at = s->row[i].x;
+        int y = s->row[i].y;
+        struct jet in_y = {0};
+        for (; i < s->rows && s->row[i].x == at; i++) {
+            const struct poly_row *r = &s->row[i];
+            double v = 0, slope = 0; // in z
+            times_coordinates(&in_y, p.y, ey, y - r->y);
+            y = r->y;
+            for (int k = 0; k <= r->top; k++) {
+                slope = slope * p.z + v;
+                v = v * p.z + r->c[k];
+            }
+            in_y.v += v;
+            in_y.g.z += slope;
+        }
+        times_coordinates(&in_y, p.y, ey, y);
+        times_coordinates(&sum, p.x, ex, x - at);
+        x = at;
+        sum.v += in_y.v;
+        sum.g = vec3_add(sum.g, in_y.g);
     }
-    return vec3(g[0], g[1], g[2]);
+    times_coordinates(&sum, p.x, ex, x);
+    return sum.g;
 }
 
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
