@@ -26,6 +26,7 @@ static inline bool shape_hits_give_up(struct shape_hits *h)
 }
 
 void shape_hits_put(struct shape_hits *h, int lane, const struct boundary *b);
+struct boundary shape_hits_at(const struct shape_hits *h, int lane);
 struct ray shape_rays_lane(const struct shape_rays *rays, int lane);
 // closest8 of one lane by the shape's `intersect`, for lanes that a kernel does not take.
 unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,

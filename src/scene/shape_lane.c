@@ -10,6 +10,17 @@ void shape_hits_put(struct shape_hits *h, int lane, const struct boundary *b)
     h->crossing[lane] = b->crossing;
 }
 
+struct boundary shape_hits_at(const struct shape_hits *h, int lane)
+{
+    return (struct boundary){.t = h->t[lane],
+                             .dt = h->dt[lane],
+                             .u = h->u[lane],
+                             .v = h->v[lane],
+                             .part = h->part[lane],
+                             .crossing = h->crossing[lane],
+                             .drawn = 1};
+}
+
 struct ray shape_rays_lane(const struct shape_rays *rays, int lane)
 {
     return (struct ray){.o = vec3(rays->o[0][lane], rays->o[1][lane], rays->o[2][lane]),

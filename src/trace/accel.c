@@ -13,7 +13,6 @@
 #include "scene/shapes/revolve.h"
 #include "scene/shapes/sphere.h"
 #include "scene/shapes/torus.h"
-#include "trace/carve.h"
 #include "trace/packet.h"
 
 static void build_leaf_tree(struct arena *a, const struct world *w,

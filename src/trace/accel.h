@@ -28,7 +28,7 @@ enum packet_shape {
     PACKET_RING, // of objects: an intersection of a ring torus, or its complement, with what
                  // may be part of a product
     PACKET_CARVED // of objects: an intersection of a PACKET_LANES with what may be part of a
-                  // product (trace/carve.h)
+                  // product (trace/packet_carve.h)
 };
 
 // Whether a solid of that shape may be part of a PACKET_PRODUCT.
@@ -102,8 +102,9 @@ struct accel {
 };
 
 enum {
-    LARGE_OBJECT = 12,  // leaves from which an object gets a tree of its own
-    PRODUCT_LEAVES = 32 // the most of a PACKET_PRODUCT
+    LARGE_OBJECT = 12,   // leaves from which an object gets a tree of its own
+    PRODUCT_LEAVES = 32, // the most of a PACKET_PRODUCT
+    CARVE_LEAVES = 8     // the most of a PACKET_CARVED, the solid among them
 };
 
 static inline const struct accel_large *

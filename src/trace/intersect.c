@@ -6,7 +6,6 @@
 #include "math/gamma.h"
 #include "scene/shape_kernels.h"
 #include "trace/accel.h"
-#include "trace/carve.h"
 #include "trace/packet.h"
 #include "trace/scratch.h"
 #include "trace/user_bounds.h"
@@ -180,16 +179,9 @@ static bool lone_lane(const struct world *w, struct trace_scratch *s, uint32_t l
     s->crossings.cut |= hits.cut;
     if (!met || !(hits.t[0] < ray->t_max))
         return false;
-    *out = (struct boundary){
-        .t = hits.t[0],
-        .dt = hits.dt[0],
-        .u = hits.u[0],
-        .v = hits.v[0],
-        .part = hits.part[0],
-        .leaf = leaf,
-        .crossing = crossing_of_leaf(hits.crossing[0], l->inverted),
-        .drawn = 1,
-    };
+    *out = shape_hits_at(&hits, 0);
+    out->leaf = leaf;
+    out->crossing = crossing_of_leaf(out->crossing, l->inverted);
     return true;
 }
 
@@ -274,13 +266,10 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
             if (r != STAB_UNSURE)
                 return r == STAB_FOUND;
         }
-        if (one_kind && f->w->accel->object_shape[object] == PACKET_CARVED) {
-            struct carve_hits hits;
-            const bool met =
-                carve(f->w, f->s, object, &q->ray, &f->t, 1, f->mode, &hits) != 0;
-            if (met)
-                *out = hits.b[0];
-            if (!hits.unsure)
+        if (f->w->accel->object_shape[object] == PACKET_CARVED) {
+            bool unsure;
+            const bool met = f->w->accel->kernels->carve(f, object, out, &unsure);
+            if (!unsure)
                 return met;
         }
         return sweep_object(f->w, f->s, object, &q->ray, f->t, f->mode, out);

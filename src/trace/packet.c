@@ -88,17 +88,22 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object)
     return found;
 }
 
+struct boundary boundary_at(const struct world *w, struct trace_scratch *s,
+                            const struct ray *ray, uint32_t leaf, double t)
+{
+    struct boundary_list *list = &s->crossings;
+    list->count = 0;
+    leaf_crossings(w, leaf, ray, list);
+    for (uint32_t i = 0; i < list->count; i++)
+        if (list->at[i].t == t && list->at[i].drawn)
+            return list->at[i];
+    abort();
+}
+
 struct boundary packet_lane_hit(struct packet *p, int lane)
 {
     const struct ray_query q = query_of(p, lane);
-    struct boundary_list *list = &p->s->crossings;
-    list->count = 0;
-    leaf_crossings(p->w, p->leaf[lane], &q.ray, list);
-    // A packet's kernel found it: the leaf has a crossing of just this t.
-    for (uint32_t i = 0; i < list->count; i++)
-        if (list->at[i].t == p->t[lane] && list->at[i].drawn)
-            return list->at[i];
-    abort();
+    return boundary_at(p->w, p->s, &q.ray, p->leaf[lane], p->t[lane]);
 }
 
 // ---- all crossings --------------------------------------------------------------------

@@ -62,7 +62,10 @@ unsigned packet_try_object(struct packet *p, unsigned lanes, uint32_t object);
 // The search that continues the lane, and its end.
 struct search *packet_lane_begin(struct packet *p, int lane);
 void packet_lane_end(struct packet *p, int lane);
-// The boundary of a lane's nearest hit, by the shape itself.
+// The boundary of a leaf at just this t, which a kernel has found, by the shape itself.
+struct boundary boundary_at(const struct world *w, struct trace_scratch *s,
+                            const struct ray *ray, uint32_t leaf, double t);
+// The same of a lane's nearest hit.
 struct boundary packet_lane_hit(struct packet *p, int lane);
 
 // Whether the lane's search holds that boundary.
@@ -107,6 +110,8 @@ struct packet_kernels {
                       struct crossings8 *out);
     // Continues a search among the objects below a child of the tree.
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
+    // As sweep_object before f->t, of a PACKET_CARVED; unsure: only the sweep can tell.
+    bool (*carve)(struct search *f, uint32_t object, struct boundary *out, bool *unsure);
     const struct shape_kernels *shapes;
     photon_search_fn *photons;
 };

@@ -3,8 +3,8 @@
 
 // Eight rays and one object, whatever it is: the kernel of its kind, or the one-ray form.
 #include "trace/packet_bound.h"
+#include "trace/packet_carve.h"
 #include "trace/packet_clip.h"
-#include "trace/packet_lanes.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_parts.h"
 #include "trace/packet_ring.h"
@@ -23,7 +23,7 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         bits = within_bounds(e, bits, o);
     if (!bits)
         return 0;
-    if (p->mode == SWEEP_OPAQUE && !o->opaque)
+    if (p->mode == SWEEP_OPAQUE && !o->opaque && (!o->mixed || shape != PACKET_CARVED))
         return o->mixed ? packet_try_object(p, bits, object) : 0;
     if (shape == PACKET_PRODUCT)
         return product(e, bits, object);

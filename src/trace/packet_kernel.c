@@ -65,7 +65,7 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
 // Shapes that packets know are for packets, of one ray as well; a mesh is walked by the ray.
 LANES_INLINE bool takes_one(unsigned shape)
 {
-    return shape == PACKET_PRODUCT || shape == PACKET_TORUS;
+    return shape == PACKET_PRODUCT || shape == PACKET_TORUS || shape == PACKET_CARVED;
 }
 
 static bool walk_packet(struct eight *e, int lane, uint32_t object)
@@ -354,6 +354,40 @@ static void crossings(const struct world *w, struct trace_scratch *s,
     list_all(&e, out);
 }
 
+static bool carve(struct search *f, uint32_t object, struct boundary *out, bool *unsure)
+{
+    const struct ray *q = &f->q->ray;
+    double number[8] = {q->o.x, q->o.y, q->o.z, q->d.x, q->d.y, q->d.z, q->t_min, q->t_max};
+    unsigned hidden_by = 0;
+    const struct ray_batch one = {.count = 1,
+                                  .capacity = 1,
+                                  .o = {&number[0], &number[1], &number[2]},
+                                  .d = {&number[3], &number[4], &number[5]},
+                                  .t_min = &number[6],
+                                  .t_max = &number[7],
+                                  .hidden_by = &hidden_by};
+    struct rest x;
+    struct packet p;
+    struct eight e;
+    struct carve_hits h;
+    p.w = f->w;
+    p.s = f->s;
+    p.mode = f->mode;
+    begin(&e, &p, rest_of(&x, &one, 0), 0, 1);
+    const unsigned met = carve8(&e, 1, object, r8_set(f->t), &h);
+    *unsure = h.unsure != 0;
+    if (!met)
+        return false;
+    if (h.own) {
+        *out = shape_hits_at(&h.hits, 0);
+        out->leaf = h.leaf[0];
+        out->crossing = crossing_of_leaf(out->crossing, f->w->leaf[out->leaf].inverted);
+    } else {
+        *out = boundary_at(f->w, f->s, q, h.leaf[0], h.t[0]);
+    }
+    return true;
+}
+
 const struct packet_kernels OF_ISA(packet_kernels_) = {
-    ISA_TEXT, trace_closest8,          trace_occluded8,       crossings,
-    walk,     &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};
+    ISA_TEXT, trace_closest8, trace_occluded8,         crossings,
+    walk,     carve,          &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};

@@ -483,7 +483,7 @@ static void one_line_goes_on_from_a_crossing(void **state)
         }
 }
 
-// Of which simple solids cut something off, or clip it (trace/carve.h).
+// Of which simple solids cut something off, or clip it (trace/packet_carve.h).
 #define BLOB                                                                             \
     "blob { threshold .5 sphere { <-.4, 0, 0>, .8, 1 } sphere { <.4, .2, 0>, .7, 1 } "   \
     "sphere { <0, -.2, .3>, .5, -1 } rotate <10, 20, 30> }"
@@ -528,6 +528,15 @@ static const char *const carved[] = {
     "difference { text { ttf FONT \"g&8\" .4, <-.3, 0> } plane { x, .3 } sphere { <.8, "
     ".3, 0>, "
     ".3 } }",
+    "intersection { object { " BLOB
+    " } box { -.4, .4 pigment { rgbt 1 } } plane { y, .2 pigment { rgbt 1 } } "
+    "sphere { .3, .2 inverse } }", // some surfaces are clear
+    "intersection { object { " BLOB
+    " pigment { rgbt 1 } } box { -.4, .4 pigment { rgbt 1 } } }",
+    "difference { object { " BLOB
+    " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } }",
+    "intersection { object { " BLOB
+    " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } plane { -z, 0 } }",
 };
 
 static const double GRAZING = 1e-6; // an error of t that only touching crossings have
@@ -566,8 +575,10 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
             for (int k = 0; k < 8; k++) {
                 const struct ray_query q = {lane(&rays, k), 0};
                 const struct hit one = trace_closest_1(l.world, l.scratch, &q);
-                struct boundary b = {.t = INFINITY};
+                struct boundary b = {.t = INFINITY}, opaque = b;
                 sweep_object(l.world, l.scratch, 0, &q.ray, INFINITY, SWEEP_CLOSEST, &b);
+                sweep_object(l.world, l.scratch, 0, &q.ray, INFINITY, SWEEP_OPAQUE,
+                             &opaque);
                 assert_true(hits->t[k] == one.b.t);
                 // Grazing rays, of which neither form knows whether they meet the shape.
                 if (fmax(one.b.dt, b.dt) > GRAZING) {
@@ -575,7 +586,8 @@ static void carved_shapes_are_as_the_sweep_has_them(void **state)
                     continue;
                 }
                 assert_int_equal(one.b.t < INFINITY, b.t < INFINITY);
-                assert_int_equal(dark[k], b.t < INFINITY);
+                assert_int_equal(dark[k], opaque.t < INFINITY);
+                assert_int_equal(dark[k], trace_occluded_1(l.world, l.scratch, &q));
                 if (!(b.t < INFINITY))
                     continue;
                 assert_true(fabs(one.b.t - b.t) <= 2 * (one.b.dt + b.dt));
