@@ -27,18 +27,6 @@ static const struct row *find_row(enum diag_code code)
     return NULL;
 }
 
-// The same error of the same place at once again: a value that is asked for twice.
-static bool repeats_last(struct diag_sink *sink, enum diag_code code, struct span where)
-{
-    struct span last = sink->last_where;
-    bool same = where.end && sink->last_code == code && last.file == where.file &&
-                last.begin == where.begin && last.end == where.end &&
-                last.expansion == where.expansion;
-    sink->last_code = code;
-    sink->last_where = where;
-    return same;
-}
-
 static bool same_span(struct span a, struct span b)
 {
     return a.file == b.file && a.begin == b.begin && a.end == b.end &&
@@ -46,8 +34,7 @@ static bool same_span(struct span a, struct span b)
 }
 
 // What the scene itself says (#warning) is said as often as it says it.
-static bool repeats_warning(struct diag_sink *sink, enum diag_code code,
-                            struct span where)
+static bool repeats(struct diag_sink *sink, enum diag_code code, struct span where)
 {
     enum { RECENT = sizeof sink->recent / sizeof sink->recent[0] };
     if (!where.end || code == DIAG_SCENE_WARNING)
@@ -72,10 +59,12 @@ void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
     va_end(ap);
     struct diag d = {code, row->severity, where, related ? *related : (struct span){0},
                      text, hint};
-    if (d.severity == SEV_ERROR && (diag_full(sink) || repeats_last(sink, code, where)))
+    if (d.severity == SEV_ERROR && diag_full(sink))
         return;
-    if (d.severity == SEV_WARNING && repeats_warning(sink, code, where))
+    if (d.severity != SEV_NOTE && repeats(sink, code, where)) {
+        sink->repeats += d.severity == SEV_ERROR;
         return;
+    }
     sink->errors += d.severity == SEV_ERROR;
     sink->warnings += d.severity == SEV_WARNING;
     if (sink->emit)

@@ -26,24 +26,27 @@ struct diag {
 
 // Stages report here and go on; the caller decides whether to stop. A sink is
 // owned by one context, so two contexts never share messages.
+enum { DIAG_REPEATS_MAX = 1000 }; // of errors already said: then a loop is not worth its end
+
 struct diag_sink {
     void (*emit)(void *user, const struct diag *d);
     void *user;
     unsigned errors, warnings;
     unsigned errors_max;      // 0: no limit. Stages stop when errors reach it
-    enum diag_code last_code; // of the last error
-    struct span last_where;
-    // The last warnings: a calculation that fails is evaluated again, and so is its warning.
+    // What was said last: loops fail at the same place again, and a calculation that fails
+    // is evaluated again.
     struct {
         enum diag_code code;
         struct span where;
-    } recent[4];
+    } recent[32];
     unsigned recent_at;
+    unsigned repeats; // errors that were left out
 };
 
 static inline bool diag_full(const struct diag_sink *s)
 {
-    return s->errors_max && s->errors >= s->errors_max;
+    return s->errors_max &&
+           (s->errors >= s->errors_max || s->repeats >= DIAG_REPEATS_MAX);
 }
 
 // `hint` and `related` may be NULL. The variadic part fills the row's format.

@@ -147,14 +147,19 @@ static size_t place_of(const struct declared_names *d, const char *name, size_t 
     return i;
 }
 
-const char *undeclared_hint(struct eval *e, const char *name, size_t len, bool macro)
+const char *undeclared_hint(struct eval *e, const char *name, size_t len, bool macro,
+                            const char *word)
 {
-    struct declared_names d = declared_names(e, macro);
-    size_t i = place_of(&d, name, len);
-    if (i < d.count)
-        return arena_printf(e->parse, "declared in \"%s\": #include it first",
-                            d.home[i]->name);
-    const char *close = symbols_closest(e->symbols, name, len, macro);
+    struct declared_names d;
+    size_t i;
+    for (int macros = 0; macros <= macro; macros++) { // what is called may be a function
+        d = declared_names(e, macros);
+        i = place_of(&d, name, len);
+        if (i < d.count)
+            return arena_printf(e->parse, "declared in \"%s\": #include it first",
+                                d.home[i]->name);
+    }
+    const char *close = word ? word : symbols_closest(e->symbols, name, len, macro);
     if (close)
         return arena_printf(e->parse, "did you mean '%s'?", close);
     close = diag_closest(name, len, d.name, d.count);

@@ -438,10 +438,15 @@ static bool directive_assign(struct stream *s)
     if (c->at >= c->count)
         return false;
     c->at++;
-    if (stream_calculate(s, CALC_ASSIGNMENT, w == WORD_local, &r) != CALC_NONE)
-        return true;
-    c->at--;
-    return false;
+    struct token name;
+    switch (stream_calculate(s, CALC_ASSIGNMENT, w == WORD_local, &r)) {
+    case CALC_NONE: c->at--; return false;
+    case CALC_DONE: return true;
+    case CALC_FAILED: break;
+    }
+    cursor_token(c, c->at - r.used, &name);
+    stream_set_reported(s, name.text, name.len);
+    return true;
 }
 
 void directive_run(struct stream *s, struct token hash)

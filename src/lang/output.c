@@ -73,19 +73,20 @@ void directive_declare(struct stream *s, struct token word)
     to.local = word.word == WORD_local;
     to.deprecated = mark.deprecated;
     to.deprecated_text = mark.deprecated_text;
-    bool begun = s->host.declare_begin(s->host.user, &to), ok;
+    bool begun = s->host.declare_begin(s->host.user, &to), ok, done;
     if (next_is_array(s)) {
         struct ast_list sizes;
         struct ast *elements;
         raw_take(s);
         ok = array_literal(s, &sizes, &elements);
-        if (ok && begun)
-            s->host.declare_array(s->host.user, &to, sizes.first, elements);
+        done = ok && begun &&
+               s->host.declare_array(s->host.user, &to, sizes.first, elements);
     } else {
         const struct ast *items = read_rvalue(s, &ok);
-        if (ok && begun)
-            s->host.declare(s->host.user, &to, items);
+        done = ok && begun && s->host.declare(s->host.user, &to, items);
     }
+    if (!done && !to.index)
+        stream_set_reported(s, to.name, to.len);
     if (ok)
         raw_take_if(s, ';');
 }

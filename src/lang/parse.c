@@ -158,6 +158,36 @@ static void take_next(struct parse *p, struct token *t)
     }
 }
 
+// From an opening bracket to its closing one.
+static void skip_group(struct stream *s)
+{
+    int depth = 0;
+    do {
+        struct token t = stream_next(s);
+        if (t.kind == TOK_END)
+            return;
+        depth += t.kind == '{' || t.kind == '(' || t.kind == '[';
+        depth -= t.kind == '}' || t.kind == ')' || t.kind == ']' || t.kind == TOK_MORE;
+    } while (depth > 0);
+}
+
+// A name nobody declared, with what was to be its subscripts or arguments: one error, not one
+// more for each bracket. Nor is one said of a name whose declaration had an error.
+static void take_undeclared(struct parse *p, struct token *t)
+{
+    struct stream *s = p->in;
+    int open = raw_kind(s);
+    bool group = open == '(' || open == '[';
+    bool reported = stream_was_reported(s, t->text, t->len);
+    if (!group && !reported)
+        return;
+    if (!reported)
+        parse_undeclared(s, t, open == '(');
+    while (raw_kind(s) == '[' || raw_kind(s) == '(')
+        skip_group(s);
+    t->len = 0; // reported
+}
+
 int parse_token(struct parse *p, struct span *where)
 {
     if (p->now->kind < 0) { // the first: what to read
@@ -168,6 +198,8 @@ int parse_token(struct parse *p, struct span *where)
     }
     struct token *t = &p->slot[p->now == &p->slot[0]];
     take_next(p, t);
+    if (t->kind == TOK_NAME && !t->value && t->len && !p->function)
+        take_undeclared(p, t);
     if (t->kind != TOK_STOP) {
         note_brackets(p, t->kind);
         p->operand = completes(p, t->kind);
@@ -324,135 +356,6 @@ void parse_missing_semicolon(struct parse *p, const struct ast *value)
             return;
 }
 
-static const char *token_text(struct parse *p, const struct token *t)
-{
-    switch (t->kind) {
-    case TOK_END: return "the end of the file";
-    case TOK_NUMBER: return "a number";
-    case TOK_STRING: return "a string";
-    case TOK_BULK: return "vectors";
-    case TOK_NAME:
-        if (!t->len)
-            return "an expression";
-        // fallthrough
-    default: return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
-    }
-}
-
-static void expected_text(char *out, size_t size, const int *kinds, int count)
-{
-    static const struct {
-        int kind;
-        const char *text;
-    } names[] = {
-        {TOK_NUMBER, "a number or vector"},
-        {TOK_STRING, "a string"},
-        {'{', "'{'"},
-        {'}', "'}'"},
-        {')', "')'"},
-        {']', "']'"},
-        {'>', "'>'"},
-        {'(', "'('"},
-        {';', "';'"},
-        {',', "','"},
-        {':', "':'"},
-    };
-    const char *found[sizeof names / sizeof *names];
-    size_t n = 0;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        for (int k = 0; k < count; k++)
-            if (kinds[k] == names[i].kind && n < 4)
-                found[n++] = names[i].text;
-    size_t len = 0;
-    out[0] = 0;
-    for (size_t i = 0; i < n && len < size; i++)
-        len += (size_t)snprintf(out + len, size - len, "%s%s",
-                                i == 0      ? ", expected "
-                                : i + 1 < n ? ", "
-                                            : " or ",
-                                found[i]);
-}
-
-// Once for each name: a macro whose include is missing is called many times.
-static bool reported_before(struct stream *s, const struct token *t)
-{
-    for (const struct unknown_name *n = s->unknown; n; n = n->next)
-        if (n->len == t->len && memcmp(n->text, t->text, t->len) == 0)
-            return true;
-    struct unknown_name *n = arena_new_struct(s->arena, struct unknown_name);
-    *n = (struct unknown_name){s->unknown, arena_strndup(s->arena, t->text, t->len),
-                               t->len};
-    s->unknown = n;
-    return false;
-}
-
-// Before '(' it was to be a macro, before '{' a word of the language.
-static void report_unknown_word(struct stream *s, const struct token *t, bool call)
-{
-    if (call && reported_before(s, t))
-        return;
-    const char *hint = NULL, *near = NULL;
-    if (!call)
-        near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
-    if (near)
-        hint = arena_printf(s->nodes, "did you mean '%s'?", near);
-    if (!near && s->host.undeclared)
-        hint = s->host.undeclared(s->host.user, t->text, t->len, call);
-    diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
-}
-
-// What people used to other languages write; NULL: something else.
-static const char *habit_hint(int kind, int last)
-{
-    if (kind == '=' && last == '=')
-        return "equality is written with one '='";
-    if ((kind == '&' || kind == '|') && last == kind)
-        return "'and' is one '&', 'or' is one '|'";
-    if (kind == '+' && (last == TOK_STRING || last == TOK_STRING_NAME))
-        return "concat() joins strings";
-    if (kind == '[' && last == TOK_NAME)
-        return "what stands before it is no array";
-    return NULL;
-}
-
-// Of what was taken whole, the token that is in the way.
-static struct token first_of(const struct token *t)
-{
-    struct token first = *t;
-    if (t->kind == TOK_LITERAL || t->kind == TOK_VECTOR3) {
-        first.kind = t->kind == TOK_LITERAL ? TOK_WORD : '<';
-        first.len =
-            t->kind == TOK_LITERAL ? (uint16_t)strlen(word_text((enum word)t->word)) : 1;
-        first.where.end = first.where.begin + first.len;
-    }
-    return first;
-}
-
-void parse_syntax_error(struct parse *p, const int *expected, int count)
-{
-    struct stream *s = p->in;
-    if (p->failed || s->stopped)
-        return;
-    p->failed = true;
-    const struct token *t = p->now, *last = p->last;
-    const struct token first = first_of(t);
-    t = &first;
-    if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
-        report_unknown_word(s, last, false);
-        return;
-    }
-    if (t->kind == TOK_END && p->block_count) {
-        const struct parse_block *b = &p->blocks[p->block_count - 1];
-        diag_report(s->diags, DIAG_UNCLOSED, t->where, &b->where, NULL,
-                    b->entry ? "[" : word_text(b->word), b->entry ? "]" : "}");
-        return;
-    }
-    char text[256];
-    expected_text(text, sizeof text, expected, count);
-    diag_hint(s->diags, DIAG_UNEXPECTED, t->where, habit_hint(t->kind, last->kind),
-              token_text(p, t), text);
-}
-
 // After an error: to where the broken statement, right side or list ends.
 static void skip_broken(struct parse *p)
 {
@@ -551,17 +454,9 @@ static bool run_bare_directive(struct stream *s, struct token t)
 static void skip_unknown(struct stream *s, struct token name)
 {
     struct token next = raw_peek(s);
-    report_unknown_word(s, &name, next.kind == '(');
-    int depth = 0;
-    if (next.kind != '{' && next.kind != '(')
-        return;
-    do {
-        struct token t = stream_next(s);
-        if (t.kind == TOK_END)
-            return;
-        depth += t.kind == '{' || t.kind == '(';
-        depth -= t.kind == '}' || t.kind == ')';
-    } while (depth > 0);
+    parse_unknown_word(s, &name, next.kind == '(');
+    if (next.kind == '{' || next.kind == '(')
+        skip_group(s);
 }
 
 struct ast *parse_item(struct stream *s)

@@ -60,6 +60,13 @@ void parse_check_first(struct parse *p, const struct ast *value);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
 // The kind and place of the next token, which is *p->now then.
 int parse_token(struct parse *p, struct span *where);
+
+// parse_error.c: what the grammar finds wrong, in words.
 void parse_syntax_error(struct parse *p, const int *expected, int count);
+// A name nobody declared; call: arguments follow.
+void parse_undeclared(struct stream *s, const struct token *t, bool call);
+// The same at the start of a statement. Before '(' it was to be a macro, before '{' a word
+// of the language.
+void parse_unknown_word(struct stream *s, const struct token *t, bool call);
 
 #endif

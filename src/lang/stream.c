@@ -411,6 +411,23 @@ static bool bind_name(struct stream *s, struct token *t)
     return true;
 }
 
+bool stream_was_reported(const struct stream *s, const char *name, size_t len)
+{
+    for (const struct unknown_name *n = s->unknown; n; n = n->next)
+        if (n->len == len && memcmp(n->text, name, len) == 0)
+            return true;
+    return false;
+}
+
+void stream_set_reported(struct stream *s, const char *name, size_t len)
+{
+    if (stream_was_reported(s, name, len))
+        return;
+    struct unknown_name *n = arena_new_struct(s->arena, struct unknown_name);
+    *n = (struct unknown_name){s->unknown, arena_strndup(s->arena, name, len), len};
+    s->unknown = n;
+}
+
 // A token given back, if there is one.
 static bool take_pending(struct stream *s, struct token *out)
 {

@@ -93,7 +93,9 @@ struct stream_host {
     // The value of a lookup to keep for as long as nodes are; may be NULL: they are kept.
     const struct value *(*hold)(void *user, const struct value *value);
     // What to say of a name, or macro, that is not declared; NULL: nothing, as without it.
-    const char *(*undeclared)(void *user, const char *name, size_t len, bool macro);
+    // `word`: the closest of the language, or NULL.
+    const char *(*undeclared)(void *user, const char *name, size_t len, bool macro,
+                              const char *word);
     void (*deprecated)(void *user, const char *name, size_t len, struct span where);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated

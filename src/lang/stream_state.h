@@ -56,7 +56,7 @@ static inline void cursor_token(const struct cursor *c, uint32_t i, struct token
         out->kind = 0;
 }
 
-// That was called and that nobody declared.
+// That was called and that nobody declared, or whose declaration had an error: said once.
 struct unknown_name {
     const struct unknown_name *next;
     const char *text;
@@ -96,6 +96,8 @@ struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
 // Asks the host before anything that can repeat; stops the stream when it says no.
 void stream_ask(struct stream *s, struct span where);
 void stream_give_back(struct stream *s, struct token t);
+bool stream_was_reported(const struct stream *s, const char *name, size_t len);
+void stream_set_reported(struct stream *s, const char *name, size_t len);
 
 // Below the directives: the very next token, and taking it.
 struct token raw_peek(struct stream *s);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Walks mistakes.tsv, whose numbers are those of the list of common mistakes (1 to 73): what is said
+# Walks mistakes.tsv, whose numbers are those of the list of common mistakes (1 to 73, then our own): what is said
 # of each scene, with caret and hint, is in mistakes.out. `mistakes.sh --update` writes that,
 # `mistakes.sh --povray` compares with an installed POV-Ray instead.
 folder=$(cd "$(dirname "$0")" && pwd)

@@ -1,0 +1,161 @@
+// What the grammar finds wrong, in words, and what may have been meant.
+#include <string.h>
+
+#include "lang/parse.h"
+#include "lang/parse_state.h"
+#include "lang/stream_state.h"
+#include "parser.h"
+
+static const char *undeclared_hint(struct stream *s, const struct token *t, bool call,
+                                   const char *word)
+{
+    return s->host.undeclared
+               ? s->host.undeclared(s->host.user, t->text, t->len, call, word)
+               : NULL;
+}
+
+// The name of a built-in function that is close to the token's.
+static const char *closest_function(const struct token *t)
+{
+    const char *names[WORD_COUNT];
+    size_t n = 0;
+    for (enum word w = WORD_NONE + 1; w < WORD_COUNT; w++) {
+        enum word_class c = word_class(w);
+        if (c == CLASS_FLOAT_FUNCTIONS || c == CLASS_VECTOR_FUNCTIONS ||
+            c == CLASS_STRING_FUNCTIONS)
+            names[n++] = word_text(w);
+    }
+    return diag_closest(t->text, t->len, names, n);
+}
+
+void parse_undeclared(struct stream *s, const struct token *t, bool call)
+{
+    const char *word = call ? closest_function(t) : NULL;
+    const char *hint = undeclared_hint(s, t, call, word);
+    if (!hint && call) // a function of the scene's own
+        hint = undeclared_hint(s, t, false, NULL);
+    diag_hint(s->diags, DIAG_UNDECLARED, t->where, hint, (int)t->len, t->text);
+}
+
+void parse_unknown_word(struct stream *s, const struct token *t, bool call)
+{
+    // Once for each name: a macro whose include is missing is called many times.
+    if (call && stream_was_reported(s, t->text, t->len))
+        return;
+    if (call)
+        stream_set_reported(s, t->text, t->len);
+    const char *hint = NULL, *near = NULL;
+    if (!call)
+        near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
+    if (near)
+        hint = arena_printf(s->nodes, "did you mean '%s'?", near);
+    if (!near)
+        hint = undeclared_hint(s, t, call, NULL);
+    diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
+}
+
+static const char *token_text(struct parse *p, const struct token *t)
+{
+    switch (t->kind) {
+    case TOK_END: return "the end of the file";
+    case TOK_NUMBER: return "a number";
+    case TOK_STRING: return "a string";
+    case TOK_BULK: return "vectors";
+    case TOK_NAME:
+        if (!t->len)
+            return "an expression";
+        // fallthrough
+    default: return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
+    }
+}
+
+static void expected_text(char *out, size_t size, const int *kinds, int count)
+{
+    static const struct {
+        int kind;
+        const char *text;
+    } names[] = {
+        {TOK_NUMBER, "a number or vector"},
+        {TOK_STRING, "a string"},
+        {'{', "'{'"},
+        {'}', "'}'"},
+        {')', "')'"},
+        {']', "']'"},
+        {'>', "'>'"},
+        {'(', "'('"},
+        {';', "';'"},
+        {',', "','"},
+        {':', "':'"},
+    };
+    const char *found[sizeof names / sizeof *names];
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int k = 0; k < count; k++)
+            if (kinds[k] == names[i].kind && n < 4)
+                found[n++] = names[i].text;
+    size_t len = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < n && len < size; i++)
+        len += (size_t)snprintf(out + len, size - len, "%s%s",
+                                i == 0      ? ", expected "
+                                : i + 1 < n ? ", "
+                                            : " or ",
+                                found[i]);
+}
+
+// What people used to other languages write; NULL: something else.
+static const char *habit_hint(int kind, int last)
+{
+    if (kind == '=' && last == '=')
+        return "equality is written with one '='";
+    if ((kind == '&' || kind == '|') && last == kind)
+        return "'and' is one '&', 'or' is one '|'";
+    if (kind == '+' && (last == TOK_STRING || last == TOK_STRING_NAME))
+        return "concat() joins strings";
+    if (kind == '[' && last == TOK_NAME)
+        return "what stands before it is no array";
+    return NULL;
+}
+
+// Of what was taken whole, the token that is in the way.
+static struct token first_of(const struct token *t)
+{
+    struct token first = *t;
+    if (t->kind == TOK_LITERAL || t->kind == TOK_VECTOR3) {
+        first.kind = t->kind == TOK_LITERAL ? TOK_WORD : '<';
+        first.len =
+            t->kind == TOK_LITERAL ? (uint16_t)strlen(word_text((enum word)t->word)) : 1;
+        first.where.end = first.where.begin + first.len;
+    }
+    return first;
+}
+
+void parse_syntax_error(struct parse *p, const int *expected, int count)
+{
+    struct stream *s = p->in;
+    if (p->failed || s->stopped)
+        return;
+    p->failed = true;
+    const struct token *t = p->now, *last = p->last;
+    const struct token first = first_of(t);
+    t = &first;
+    if (t->kind == '{' && last->kind == TOK_NAME && !last->value && last->len) {
+        parse_unknown_word(s, last, false);
+        return;
+    }
+    if ((t->kind == '(' || t->kind == '[') && last->kind == TOK_NAME && !last->value &&
+        last->len) { // within a function
+        parse_undeclared(s, last, t->kind == '(');
+        return;
+    }
+    if (t->kind == TOK_END && p->block_count) {
+        const struct parse_block *b = &p->blocks[p->block_count - 1];
+        diag_report(s->diags, DIAG_UNCLOSED, t->where, &b->where, NULL,
+                    b->entry ? "[" : word_text(b->word), b->entry ? "]" : "}");
+        return;
+    }
+    char text[256];
+    expected_text(text, sizeof text, expected, count);
+    diag_hint(s->diags, DIAG_UNEXPECTED, t->where, habit_hint(t->kind, last->kind),
+              token_text(p, t), text);
+}
