@@ -278,6 +278,16 @@ static enum packet_shape clipped_shape(const struct world *w, const struct accel
                                                        : PACKET_NONE;
 }
 
+static bool is_packet_csg(const struct world *w, const struct world_object *o)
+{
+    if (!o->is_csg || o->leaf_count > CSG_LEAVES || o->node_count > CSG_NODES)
+        return false;
+    for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++)
+        if (!w->leaf[i].solid)
+            return false;
+    return true;
+}
+
 static bool is_sponge(const struct world *w, const struct world_object *o)
 {
     uint32_t solids = 0;
@@ -313,6 +323,8 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = PACKET_RING;
         else
             accel->object_shape[i] = (uint8_t)clipped_shape(w, accel, o);
+        if (accel->object_shape[i] == PACKET_NONE && is_packet_csg(w, o))
+            accel->object_shape[i] = PACKET_CSG;
     }
 }
 

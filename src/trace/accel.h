@@ -27,8 +27,9 @@ enum packet_shape {
     PACKET_CLIPPED_PRODUCT, // of objects: a product, clipped likewise
     PACKET_RING, // of objects: an intersection of a ring torus, or its complement, with what
                  // may be part of a product
-    PACKET_CARVED // of objects: an intersection of a PACKET_LANES with what may be part of a
-                  // product (trace/packet_carve.h)
+    PACKET_CARVED, // of objects: an intersection of a PACKET_LANES with what may be part of a
+                   // product (trace/packet_carve.h)
+    PACKET_CSG // of objects: other CSG of a few solids
 };
 
 // Whether a solid of that shape may be part of a PACKET_PRODUCT.
@@ -104,7 +105,9 @@ struct accel {
 enum {
     LARGE_OBJECT = 12,   // leaves from which an object gets a tree of its own
     PRODUCT_LEAVES = 32, // the most of a PACKET_PRODUCT
-    CARVE_LEAVES = 8     // the most of a PACKET_CARVED, the solid among them
+    CARVE_LEAVES = 8,    // the most of a PACKET_CARVED, the solid among them
+    CSG_LEAVES = 32,     // the most of a PACKET_CSG
+    CSG_NODES = 64       // and of its nodes
 };
 
 static inline const struct accel_large *

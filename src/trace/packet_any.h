@@ -5,6 +5,7 @@
 #include "trace/packet_bound.h"
 #include "trace/packet_carve.h"
 #include "trace/packet_clip.h"
+#include "trace/packet_csg.h"
 #include "trace/packet_mesh.h"
 #include "trace/packet_parts.h"
 #include "trace/packet_ring.h"
@@ -23,8 +24,11 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         bits = within_bounds(e, bits, o);
     if (!bits)
         return 0;
-    if (p->mode == SWEEP_OPAQUE && !o->opaque && (!o->mixed || shape != PACKET_CARVED))
+    const bool knows_mixed = shape == PACKET_CARVED || shape == PACKET_CSG;
+    if (p->mode == SWEEP_OPAQUE && !o->opaque && (!o->mixed || !knows_mixed))
         return o->mixed ? packet_try_object(p, bits, object) : 0;
+    if (shape == PACKET_CSG)
+        return csg8(e, bits, object);
     if (shape == PACKET_PRODUCT)
         return product(e, bits, object);
     if (shape == PACKET_MERGE)

@@ -254,7 +254,29 @@ LANES_INLINE struct real8 moved8(const struct leaf *l, const struct ray8 *ray,
     return r8_select(finite, r8_add(dt, r8_mul(dt, share)), dt);
 }
 
-// The same of a leaf, seen by the rays of its own space.
+// The same of a torus.
+static struct real8 torus_error(const struct leaf *l, const struct ray8 *ray,
+                                const struct ray8 *own, struct real8 t, struct real8 dt)
+{
+    if (l->transform->identity)
+        return dt;
+    const struct torus *s = l->shape;
+    const struct vec8 p = v8_mad(own->o, t, own->d), d = own->d;
+    const struct real8 rho = r8_sqrt(r8_add(r8_mul(p.x, p.x), r8_mul(p.z, p.z)));
+    const struct real8 w = r8_sub(rho, r8_set(s->major));
+    const struct real8 radial =
+        r8_div(r8_mul(w, r8_add(r8_mul(p.x, d.x), r8_mul(p.z, d.z))), rho);
+    const struct real8 slope = r8_div(r8_abs(r8_add(radial, r8_mul(p.y, d.y))),
+                                      r8_sqrt(r8_add(r8_mul(w, w), r8_mul(p.y, p.y))));
+    const struct real8 size =
+        r8_add(r8_add(ray->o_max, r8_set(2 * vec3_max_abs(l->transform->offset))),
+               r8_mul(r8_abs(t), v8_max_abs(ray->d)));
+    const double unit = GAMMA(32) * (1 + 0x1p-18) * l->stretch;
+    return r8_add(dt, r8_div(r8_mul(r8_set(unit), size),
+                             r8_max(slope, r8_mul(r8_set(GAMMA(12)), v8_max_abs(d)))));
+}
+
+// The same of a convex leaf, seen by the rays of its own space.
 LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
                                     enum packet_shape shape, const struct ray8 *own,
                                     struct mask8 *odd)

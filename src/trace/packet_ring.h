@@ -47,29 +47,6 @@ static unsigned ring_others(struct ring *r, bool complements, unsigned bits)
     return bits;
 }
 
-// dt and no less than moved_error of trace/sweep.c.
-static struct real8 ring_error(const struct ring *r, struct real8 t, struct real8 dt)
-{
-    const struct leaf *l = &r->e->p->w->leaf[r->torus];
-    const struct ray8 *world = &r->e->ray;
-    if (l->transform->identity)
-        return dt;
-    const struct torus *s = l->shape;
-    const struct vec8 p = v8_mad(r->own.o, t, r->own.d), d = r->own.d;
-    const struct real8 rho = r8_sqrt(r8_add(r8_mul(p.x, p.x), r8_mul(p.z, p.z)));
-    const struct real8 w = r8_sub(rho, r8_set(s->major));
-    const struct real8 radial =
-        r8_div(r8_mul(w, r8_add(r8_mul(p.x, d.x), r8_mul(p.z, d.z))), rho);
-    const struct real8 slope = r8_div(r8_abs(r8_add(radial, r8_mul(p.y, d.y))),
-                                      r8_sqrt(r8_add(r8_mul(w, w), r8_mul(p.y, p.y))));
-    const struct real8 size =
-        r8_add(r8_add(world->o_max, r8_set(2 * vec3_max_abs(l->transform->offset))),
-               r8_mul(r8_abs(t), v8_max_abs(world->d)));
-    const double unit = GAMMA(32) * (1 + 0x1p-18) * l->stretch;
-    return r8_add(dt, r8_div(r8_mul(r8_set(unit), size),
-                             r8_max(slope, r8_mul(r8_set(GAMMA(12)), v8_max_abs(d)))));
-}
-
 // Lanes where the crossing `at` is of a drawn leaf.
 static struct mask8 ring_drawn(const struct ring *r, struct real8 at)
 {
@@ -112,8 +89,8 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
     struct eight *e = r->e;
     const struct leaf *l = &e->p->w->leaf[r->torus];
     const struct cross8 x = cross8_torus(l->shape, r->ray, r->from);
-    const struct real8 dt[2] = {ring_error(r, x.t[0], x.dt[0]),
-                                ring_error(r, x.t[1], x.dt[1])};
+    const struct real8 dt[2] = {torus_error(l, &e->ray, r->ray, x.t[0], x.dt[0]),
+                                torus_error(l, &e->ray, r->ray, x.t[1], x.dt[1])};
     const struct real8 none = r8_set(-1);
     struct mask8 touches = r8_le(r8_sub(x.t[1], x.t[0]), r8_add(dt[0], dt[1]));
     for (int i = 0; i < 2; i++)

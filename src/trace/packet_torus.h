@@ -377,9 +377,10 @@ LANES_INLINE unsigned stretch8_cross(const struct quartic8 *c, const struct chor
 }
 
 // A line that goes through both sides of the tube has four crossings: the first two are
-// given, or, where both are before t_min, the last two.
-LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8 *ray,
-                                        struct real8 t_min)
+// given, or, where both are before t_min, the last two. Where `second` is not NULL: the first
+// two, and the last two in it.
+LANES_INLINE struct cross8 cross8_tube(const struct torus *s, const struct ray8 *ray,
+                                       struct real8 t_min, struct cross8 *second)
 {
     struct cross8 x = cross8_none();
     const double size = s->major + s->minor;
@@ -422,20 +423,30 @@ LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8
     v->noise =
         r8_mul(r8_set(GAMMA(8)), r8_add(r8_set(2), r8_div(r8_abs(shift), r8_set(size))));
     unsigned two = stretch8_cross(&c, &chord, &at, lanes, x.t, x.dt);
-    const unsigned behind = more_behind & two & m8_bits(r8_le(x.t[1], t_min));
+    const unsigned behind =
+        more_behind & two & (second ? 255 : m8_bits(r8_le(x.t[1], t_min)));
     if (behind) {
         struct real8 t[2], dt[2];
         unsigned found = stretch8_cross(&c, &chord, &next, behind, t, dt);
         found &= m8_bits(r8_lt(x.t[1], t[0])); // else twins that changed places
         two &= ~behind | found;
+        struct cross8 *to = second ? second : &x;
         for (int i = 0; i < 2; i++) {
-            x.t[i] = either8(found, t[i], x.t[i]);
-            x.dt[i] = either8(found, dt[i], x.dt[i]);
+            to->t[i] = either8(found, t[i], to->t[i]);
+            to->dt[i] = either8(found, dt[i], to->dt[i]);
         }
+        if (second)
+            second->met = m8_of(found);
     }
     x.met = m8_of(two);
     x.odd = m8_of(lanes & ~two);
     return x;
+}
+
+LANES_INLINE struct cross8 cross8_torus(const struct torus *s, const struct ray8 *ray,
+                                        struct real8 t_min)
+{
+    return cross8_tube(s, ray, t_min, NULL);
 }
 
 #endif

@@ -742,6 +742,57 @@ static void nested_csg(void **state)
     check_random(22, 20, 3, 4, true);
 }
 
+// Expressions of solids of which some faces coincide, almost coincide or are apart: unions
+// and merges in intersections, and the other way round.
+static struct object *random_nest(struct maker *m, int depth, double off)
+{
+    struct object *o;
+    if (depth == 0 || chance(m) < .2) {
+        const double kind = chance(m);
+        o = kind < .7   ? random_solid(m, somewhere(m, .75), .5 + chance(m), off, kind < .3)
+            : kind < .8 ? random_torus(m, 1, m->grid ? 1 : (int)(3 * chance(m)))
+                        : random_shape(m);
+    } else {
+        const uint32_t n = 2 + (uint32_t)(2.5 * chance(m));
+        const struct object **child = arena_new_array(m->a, const struct object *, n);
+        for (uint32_t i = 0; i < n; i++)
+            child[i] = random_nest(m, depth - 1, off);
+        const double k = chance(m);
+        const enum csg_op op = k < .25  ? CSG_MERGE
+                               : k < .5 ? CSG_UNION
+                               : k < .8 ? CSG_INTERSECTION
+                                        : CSG_DIFFERENCE;
+        o = object_new_csg(m->a, op, child, n, (struct span){0});
+    }
+    if (chance(m) < .1)
+        o->texture = (struct attached_texture){&clear_texture, &transform_identity};
+    if (chance(m) < .05)
+        o->flags |= OBJECT_INVERSE;
+    return o;
+}
+
+static void nests(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9, .01};
+    for (uint64_t k = 0; k < 24; k++) {
+        struct maker m = {.a = arena_new(1 << 16), .random = 700 + k, .grid = k % 2 == 0};
+        for (int i = 0; i < 12; i++) {
+            struct object *part[2] = {random_nest(&m, 2, off[k / 6]),
+                                      random_solid(&m, somewhere(&m, .5), 1.5, .5, i % 2)};
+            const struct object **child = arena_new_array(m.a, const struct object *, 2);
+            child[0] = part[0];
+            child[1] = part[1];
+            struct object *o = object_new_csg(m.a, i % 3 ? CSG_INTERSECTION : CSG_MERGE,
+                                              child, 2, (struct span){0});
+            if (i % 4 == 0)
+                clip_by_solids(&m, o, off[k / 6]);
+            add_within(&m, o, 2);
+        }
+        check_made(&m);
+    }
+}
+
 // Spheres by the hundred: the tree is deep, leaves hold blocks of spheres.
 static void many_spheres(void **state)
 {
@@ -782,6 +833,7 @@ int main(void)
         cmocka_unit_test(sponges),
         cmocka_unit_test(meshes),
         cmocka_unit_test(nested_csg),
+        cmocka_unit_test(nests),
         cmocka_unit_test(many_spheres),
         cmocka_unit_test(the_environment_names_the_kernels),
     };

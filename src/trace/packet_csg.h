@@ -1,0 +1,448 @@
+#ifndef TRACE_PACKET_CSG_H
+#define TRACE_PACKET_CSG_H
+
+// Eight rays and CSG of any form: unions, merges, intersections in each other, clips.
+//
+// Each line has spans in each leaf. A crossing is a surface of the whole if, of every node
+// above it, the other children are inside (an intersection) or outside (a merge) there; what
+// the leaf itself does makes no difference. A child counts as either where it may be that
+// within `slack` of the crossing, which is more than a batch of the sweep (trace/sweep.c) is
+// long: all that the sweep takes for a surface passes. The first that passes is what the sweep
+// finds, if no other crossing lies within `slack`: then what may be is, and its batch holds
+// nothing else. The other lanes are left to the sweep.
+#include "trace/packet_carve.h"
+
+enum {
+    CSG_SPANS = 64, // of all leaves
+    LEAF_SPANS = 4  // of a shape whose crossings are made ray by ray
+};
+
+struct csg8 {
+    struct eight *e;
+    const struct world_object *o;
+    const struct csg_node *node; // of the object, by index from its root
+    struct real8 in[CSG_SPANS], out[CSG_SPANS];
+    uint8_t in_drawn[CSG_SPANS], out_drawn[CSG_SPANS]; // lanes
+    uint8_t leaf[CSG_SPANS];                           // from the object's first
+    uint8_t first[CSG_LEAVES], count[CSG_LEAVES];      // the spans of a leaf
+    uint8_t turned[CSG_LEAVES]; // lanes that are in the leaf outside of its spans
+    uint32_t spans;
+    uint64_t live;              // nodes that may not be as they are far from all leaves
+    struct real8 from, to;      // what begins or ends elsewhere is of no interest
+    struct real8 margin;        // within which of the stretch something still may be
+    struct real8 bounds;        // the sum of all error bounds
+    struct real8 slack;         // no more than `margin`, else the lane is unsure
+    struct real8 before, after; // the stretch within `slack` of the crossing at hand
+    unsigned lanes, unsure;
+};
+
+// ---- states ---------------------------------------------------------------------------------
+
+// Lanes where the leaf may be inside, or outside, on the stretch at hand.
+static unsigned csg8_leaf_may(const struct csg8 *v, uint32_t i, bool inside)
+{
+    const unsigned turned = v->turned[i];
+    unsigned held = 0, clear = 0; // may be in a span; is in one all along
+    for (uint32_t k = v->first[i]; k < (uint32_t)v->first[i] + v->count[i]; k++) {
+        held |= m8_bits(m8_and(r8_le(v->in[k], v->after), r8_le(v->before, v->out[k])));
+        clear |= m8_bits(m8_and(r8_lt(v->in[k], v->before), r8_lt(v->after, v->out[k])));
+    }
+    return inside ? (held & ~turned) | (~clear & turned)
+                  : (~clear & ~turned) | (held & turned);
+}
+
+// The same of a node, by index from the root; of `lanes`.
+static unsigned csg8_may(const struct csg8 *v, uint32_t n, bool inside, unsigned lanes)
+{
+    const struct csg_node *node = &v->node[n];
+    if (!(v->live >> n & 1))
+        return node_is_inside(node, node->base_inside) == inside ? lanes : 0;
+    if (node->op == NODE_LEAF)
+        return lanes & csg8_leaf_may(v, node->leaf - v->o->first_leaf, inside);
+    const uint32_t first = node->first_child - v->o->root;
+    const bool all = (node->op == NODE_INTERSECTION) == inside;
+    unsigned left = lanes;
+    for (uint32_t c = first; c < first + node->child_count && left; c++) {
+        const unsigned may = csg8_may(v, c, inside, left);
+        left = all ? may : left & ~may;
+    }
+    return all ? left : lanes & ~left;
+}
+
+// Lanes where a crossing of leaf i may be a surface.
+static unsigned csg8_shows(const struct csg8 *v, uint32_t i, unsigned lanes)
+{
+    const uint32_t root = v->o->root;
+    uint32_t n = v->e->p->w->leaf[v->o->first_leaf + i].node - root;
+    while (n && lanes) {
+        const uint32_t up = v->node[n].parent - root;
+        const struct csg_node *node = &v->node[up];
+        const uint32_t first = node->first_child - root;
+        if (node->op != NODE_UNION)
+            for (uint32_t c = first; c < first + node->child_count && lanes; c++)
+                if (c != n)
+                    lanes = csg8_may(v, c, node->op == NODE_INTERSECTION, lanes);
+        n = up;
+    }
+    return lanes;
+}
+
+// ---- spans ----------------------------------------------------------------------------------
+
+static void csg8_begin_leaf(struct csg8 *v, uint32_t i)
+{
+    v->first[i] = (uint8_t)v->spans;
+    v->count[i] = 0;
+    v->turned[i] = v->e->p->w->leaf[v->o->first_leaf + i].inverted ? 255 : 0;
+}
+
+// Its state may be another than far from all leaves.
+static void csg8_live(struct csg8 *v, uint32_t i)
+{
+    const uint32_t root = v->o->root;
+    uint32_t n = v->e->p->w->leaf[v->o->first_leaf + i].node - root;
+    for (; !(v->live >> n & 1); n = v->node[n].parent - root)
+        v->live |= (uint64_t)1 << n;
+}
+
+static void csg8_turn(struct csg8 *v, uint32_t i, unsigned lanes)
+{
+    v->turned[i] ^= (uint8_t)lanes;
+    if (lanes)
+        csg8_live(v, i);
+}
+
+// A span of leaf i, the last begun.
+static void csg8_span(struct csg8 *v, uint32_t i, const struct span8 *x,
+                      unsigned in_drawn, unsigned out_drawn)
+{
+    const struct mask8 met = m8_and(m8_and(x->met, m8_of(v->lanes)),
+                                    m8_and(r8_le(x->in, v->to), r8_le(v->from, x->out)));
+    if (!m8_bits(met))
+        return;
+    if (v->spans == CSG_SPANS) {
+        v->unsure |= m8_bits(met);
+        return;
+    }
+    const uint32_t k = v->spans++;
+    v->count[i]++;
+    v->leaf[k] = (uint8_t)i;
+    v->in[k] = r8_select(met, x->in, r8_set(INFINITY));
+    v->out[k] = r8_select(met, x->out, r8_set(-INFINITY));
+    v->in_drawn[k] = (uint8_t)in_drawn;
+    v->out_drawn[k] = (uint8_t)out_drawn;
+    v->bounds = r8_add(v->bounds, r8_select(met, r8_add(x->in_e, x->out_e), r8_set(0)));
+    csg8_live(v, i);
+}
+
+// A convex shape.
+static void csg8_convex(struct csg8 *v, uint32_t i, enum packet_shape shape,
+                        const struct ray8 *ray)
+{
+    const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
+    const unsigned drawn = l->drawn ? 255 : 0;
+    struct mask8 odd;
+    const struct span8 x = leaf_span(v->e, l, shape, ray, &odd);
+    v->unsure |= v->lanes & m8_bits(odd);
+    if (shape == PACKET_PLANE)
+        v->unsure |= v->lanes & ~m8_bits(x.met); // beside it or all the way in it
+    csg8_span(v, i, &x, drawn, drawn);
+}
+
+// A quadric: lines may be inside but for their span, or all the way.
+static void csg8_quadric(struct csg8 *v, uint32_t i, const struct ray8 *ray)
+{
+    const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
+    const struct quadric *s = l->shape;
+    const unsigned drawn = l->drawn ? 255 : 0;
+    const struct cross8 c = cross8_quadric(s, ray);
+    struct span8 x = {.in = c.t[0], .out = c.t[1], .in_e = c.dt[0], .out_e = c.dt[1]};
+    unsigned turned = m8_bits(c.met) & ~m8_bits(c.enters);
+    x.met = c.met;
+    if (!l->transform->identity) {
+        x.in_e = moved8(l, &v->e->ray, ray, x.in, x.in_e);
+        x.out_e = moved8(l, &v->e->ray, ray, x.out, x.out_e);
+    }
+    if (!l->bounded && (m8_bits(c.met) & v->lanes) != v->lanes) {
+        const struct real8 at_o = quadric8_value(s, v8_sub(ray->o, V8_SET(s->centre)));
+        turned |= m8_bits(r8_le(at_o, r8_set(0))) & ~m8_bits(c.met);
+    }
+    v->unsure |= v->lanes & m8_bits(c.odd);
+    csg8_turn(v, i, turned);
+    csg8_span(v, i, &x, drawn, drawn);
+}
+
+static void csg8_ring(struct csg8 *v, uint32_t i, const struct ray8 *ray)
+{
+    const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
+    const unsigned drawn = l->drawn ? 255 : 0;
+    struct cross8 c[2];
+    c[1] = cross8_none();
+    c[0] = cross8_tube(l->shape, ray, r8_set(0), &c[1]);
+    v->unsure |= v->lanes & m8_bits(c[0].odd);
+    for (int k = 0; k < 2 && m8_bits(c[k].met); k++) {
+        const struct span8 x = {
+            .in = c[k].t[0],
+            .out = c[k].t[1],
+            .in_e = torus_error(l, &v->e->ray, ray, c[k].t[0], c[k].dt[0]),
+            .out_e = torus_error(l, &v->e->ray, ray, c[k].t[1], c[k].dt[1]),
+            .met = c[k].met};
+        csg8_span(v, i, &x, drawn, drawn);
+    }
+}
+
+// The spans of one leaf's lanes, made ray by ray.
+struct lane_spans {
+    double in[LEAF_SPANS][8], out[LEAF_SPANS][8], in_e[LEAF_SPANS][8],
+        out_e[LEAF_SPANS][8];
+    uint8_t met[LEAF_SPANS], in_drawn[LEAF_SPANS], out_drawn[LEAF_SPANS];
+};
+
+// The spans between the crossings of one lane; false: they do not take turns, or are many.
+static bool lane_spans_add(struct lane_spans *x, int lane, bool inverted,
+                           const struct boundary_list *list)
+{
+    const uint8_t bit = (uint8_t)(1u << lane);
+    uint32_t n = 0;
+    bool within = false;
+    for (uint32_t k = 0; k < list->count; k++) {
+        const struct boundary *b = &list->at[k];
+        const bool enters = (b->crossing == CROSS_ENTER) != inverted;
+        if (b->crossing == CROSS_TOUCH || (k && enters == within) || n == LEAF_SPANS)
+            return false;
+        if (enters || k == 0) {
+            x->met[n] |= bit;
+            x->in[n][lane] = enters ? b->t : -INFINITY;
+            x->in_e[n][lane] = enters ? b->dt : 0;
+            x->in_drawn[n] |= b->drawn ? bit : 0;
+            x->out[n][lane] = INFINITY;
+            x->out_e[n][lane] = 0;
+        }
+        if (!enters) {
+            x->out[n][lane] = b->t;
+            x->out_e[n][lane] = b->dt;
+            x->out_drawn[n++] |= b->drawn ? bit : 0;
+        }
+        within = enters;
+    }
+    return true;
+}
+
+// Any solid, in the lanes that meet its box.
+static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
+{
+    struct packet *p = v->e->p;
+    const uint32_t leaf = v->o->first_leaf + i;
+    const struct leaf *l = &p->w->leaf[leaf];
+    struct lane_spans x;
+    for (int k = 0; k < LEAF_SPANS; k++)
+        x.met[k] = x.in_drawn[k] = x.out_drawn[k] = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const int lane = __builtin_ctz(lanes);
+        const struct ray ray = ray_of_lane(p, lane);
+        p->s->crossings.count = p->s->own_count = 0;
+        leaf_crossings_in_csg(p->w, p->s, leaf, &ray);
+        p->s->stats.leaf_tests++;
+        if (!lane_spans_add(&x, lane, l->inverted, &p->s->crossings))
+            v->unsure |= 1u << lane;
+        if (p->s->crossings.count == 0 && !l->bounded &&
+            l->ops->inside(l->shape, transform_inverse_point(l->transform, ray.o)))
+            csg8_turn(v, i, 1u << lane);
+    }
+    for (int k = 0; k < LEAF_SPANS && x.met[k]; k++) {
+        const struct span8 s = {.in = r8_load(x.in[k]),
+                                .out = r8_load(x.out[k]),
+                                .in_e = r8_load(x.in_e[k]),
+                                .out_e = r8_load(x.out_e[k]),
+                                .met = m8_of(x.met[k])};
+        csg8_span(v, i, &s, x.in_drawn[k], x.out_drawn[k]);
+    }
+}
+
+// ---- leaves ---------------------------------------------------------------------------------
+
+static bool csg8_is_convex(const struct csg8 *v, uint32_t i)
+{
+    return packet_is_product_shape(v->e->p->w->accel->leaf_shape[v->o->first_leaf + i]);
+}
+
+static void csg8_simple(struct csg8 *v, uint32_t i)
+{
+    const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
+    const enum packet_shape shape = v->e->p->w->accel->leaf_shape[v->o->first_leaf + i];
+    struct ray8 own;
+    const struct ray8 *ray = leaf_ray(l, &v->e->ray, &own);
+    v->e->p->s->stats.leaf_tests++;
+    csg8_begin_leaf(v, i);
+    if (shape == PACKET_QUADRIC)
+        csg8_quadric(v, i, ray);
+    else
+        csg8_convex(v, i, shape, ray);
+}
+
+static void csg8_dear(struct csg8 *v, uint32_t i)
+{
+    const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
+    const bool ring = l->ops == &torus_ops && ((const struct torus *)l->shape)->major >
+                                                  ((const struct torus *)l->shape)->minor;
+    struct ray8 own;
+    csg8_begin_leaf(v, i);
+    unsigned lanes = v->lanes;
+    if (aabb_is_finite(l->bounds))
+        lanes &= box_lanes_to(v->e, &l->bounds, v->to);
+    if (!lanes)
+        return;
+    if (ring)
+        csg8_ring(v, i, leaf_ray(l, &v->e->ray, &own));
+    else
+        csg8_other(v, i, lanes);
+}
+
+// Lanes that are inside the leaf somewhere.
+static unsigned csg8_held(const struct csg8 *v, uint32_t i)
+{
+    unsigned held = v->turned[i];
+    for (uint32_t k = v->first[i]; k < (uint32_t)v->first[i] + v->count[i]; k++)
+        held |= m8_bits(r8_le(v->in[k], v->out[k]));
+    return held;
+}
+
+// Solids without which there is nothing: what lies outside of them is of no interest.
+static void csg8_required(struct csg8 *v)
+{
+    for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++) {
+        if (!v->e->p->w->leaf[v->o->first_leaf + i].required || !csg8_is_convex(v, i))
+            continue;
+        csg8_simple(v, i);
+        v->lanes &= csg8_held(v, i) | v->unsure;
+        if (!v->count[i])
+            continue;
+        const uint32_t k = v->first[i];
+        const struct mask8 known = m8_of(v->lanes & ~v->unsure);
+        v->from = r8_select(known, r8_max(r8_sub(v->in[k], v->margin), v->from), v->from);
+        v->to = r8_select(known, r8_min(r8_add(v->out[k], v->margin), v->to), v->to);
+        v->lanes &= m8_bits(r8_le(v->from, v->to)) | v->unsure;
+    }
+}
+
+static void csg8_others(struct csg8 *v)
+{
+    const struct world *w = v->e->p->w;
+    for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++)
+        if (csg8_is_convex(v, i) && !w->leaf[v->o->first_leaf + i].required)
+            csg8_simple(v, i);
+    for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++)
+        if (!csg8_is_convex(v, i)) {
+            csg8_dear(v, i);
+            if (w->leaf[v->o->first_leaf + i].required)
+                v->lanes &= csg8_held(v, i) | v->unsure;
+        }
+}
+
+// ---- the first surface ------------------------------------------------------------------------
+
+// Lanes where another crossing than `at` lies close to t.
+static unsigned csg8_near(const struct csg8 *v, struct real8 t, struct real8 at)
+{
+    struct mask8 near = m8_of(0);
+    for (uint32_t k = 0; k < v->spans; k++) {
+        const struct mask8 in = r8_le(r8_abs(r8_sub(v->in[k], t)), v->slack);
+        const struct mask8 out = r8_le(r8_abs(r8_sub(v->out[k], t)), v->slack);
+        near = m8_or(near, m8_without(in, r8_eq(at, r8_set(2. * k))));
+        near = m8_or(near, m8_without(out, r8_eq(at, r8_set(2. * k + 1))));
+    }
+    return m8_bits(near);
+}
+
+static unsigned csg8_first(struct csg8 *v, struct real8 *t, struct real8 *at)
+{
+    const struct eight *e = v->e;
+    const struct world *w = e->p->w;
+    const struct real8 limit = r8_load(e->p->t);
+    unsigned found = 0;
+    *t = e->t_max;
+    *at = r8_set(0);
+    for (uint32_t k = 0; k < v->spans; k++) {
+        const struct leaf *l = &w->leaf[v->o->first_leaf + v->leaf[k]];
+        if (e->p->mode == SWEEP_OPAQUE && !w->surface[l->surface].opaque)
+            continue;
+        for (int side = 0; side < 2; side++) {
+            const struct real8 x = side ? v->out[k] : v->in[k];
+            unsigned lanes = v->lanes & (side ? v->out_drawn[k] : v->in_drawn[k]);
+            lanes &= m8_bits(
+                m8_and(m8_and(r8_lt(e->t_min, x), r8_lt(x, *t)), r8_le(x, limit)));
+            if (!lanes)
+                continue;
+            v->before = r8_sub(x, v->slack);
+            v->after = r8_add(x, v->slack);
+            lanes = csg8_shows(v, v->leaf[k], lanes);
+            found |= lanes;
+            *t = r8_select(m8_of(lanes), x, *t);
+            *at = r8_select(m8_of(lanes), r8_set(2. * k + side), *at);
+        }
+    }
+    return found;
+}
+
+static unsigned csg8_take(const struct csg8 *v, unsigned found, struct real8 t,
+                          struct real8 at, uint32_t object)
+{
+    const uint32_t first_leaf = v->o->first_leaf;
+    const unsigned won = found ? take(v->e, found, t, object, first_leaf) : 0;
+    double which[8];
+    if (won)
+        r8_store(which, at);
+    for (unsigned m = won; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        v->e->p->leaf[lane] = first_leaf + v->leaf[(uint32_t)which[lane] / 2];
+    }
+    return won;
+}
+
+// What is ahead, and nearer than all that is known. The margin only has to exceed errors.
+static void csg8_stretch(struct csg8 *v)
+{
+    const struct eight *e = v->e;
+    const struct aabb *b = &v->o->bounds;
+    const double extent =
+        aabb_is_finite(*b) ? fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)) : 0;
+    v->margin = r8_mul(r8_mul(r8_set(0x1p-30), e->ray.per_length),
+                       r8_add(e->ray.o_max, r8_set(extent)));
+    v->from = r8_sub(e->t_min, v->margin);
+    v->to = r8_add(r8_min(e->t_max, r8_load(e->p->t)), v->margin);
+}
+
+static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    struct csg8 v; // not set to zero: it is large
+    v.e = e;
+    v.o = &p->w->object[object];
+    if (!e->boxed)
+        bits &= box_lanes(e, &v.o->bounds);
+    if (!bits)
+        return 0;
+    p->s->stats.csg_tests++;
+    v.node = p->w->node + v.o->root;
+    v.spans = 0;
+    v.live = 0;
+    v.bounds = r8_set(0);
+    v.lanes = bits;
+    v.unsure = 0;
+    csg8_stretch(&v);
+    csg8_required(&v);
+    csg8_others(&v);
+    // 2 would do, but for the rounding of the sum.
+    v.slack = r8_mul(r8_set(2.5), v.bounds);
+    v.unsure |= ~m8_bits(r8_le(v.slack, v.margin));
+    v.unsure &= v.lanes;
+    v.lanes &= ~v.unsure;
+    struct real8 t, at;
+    unsigned found = v.spans && v.lanes ? csg8_first(&v, &t, &at) : 0;
+    if (found)
+        v.unsure |= found & csg8_near(&v, t, at);
+    const unsigned won = csg8_take(&v, found & ~v.unsure, t, at, object);
+    return v.unsure ? won | packet_try_object(p, v.unsure, object) : won;
+}
+
+#endif
