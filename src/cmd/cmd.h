@@ -64,6 +64,7 @@ struct cmd {
     size_t file_count, file_capacity;
     volatile int stage; // enum stage; what a signal means depends on it
     volatile bool interrupted;
+    volatile bool finished; // the watch is to end with the next signal
     bool quiet, verbose;
     bool keeps; // finished tiles, to continue
     unsigned warnings;

@@ -50,7 +50,7 @@ static void *watch_signals(void *user)
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
-    while (sigwait(&set, &signal) == 0) {
+    while (sigwait(&set, &signal) == 0 && !c->finished) {
         if (c->interrupted || c->stage == STAGE_START)
             _exit(CMD_INTERRUPTED);
         c->interrupted = true;
@@ -71,10 +71,12 @@ static void start_watch(struct cmd *c)
         pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }
 
-// Only when nobody looks at the context any more can it be freed.
+// Only when nobody looks at the context any more can it be freed. A signal ends the watch:
+// cancelling a thread would load the library that unwinds stacks.
 static void stop_watch(struct cmd *c)
 {
-    if (c->watched && pthread_cancel(c->watch) == 0)
+    c->finished = true;
+    if (c->watched && pthread_kill(c->watch, SIGTERM) == 0)
         pthread_join(c->watch, NULL);
 }
 

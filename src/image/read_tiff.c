@@ -7,7 +7,39 @@
 
 #include <tiffio.h>
 
+#include "base/library.h"
 #include "image/codec.h"
+
+#define FUNCTIONS(F)                                                                     \
+    F(TIFFClientOpen)                                                                    \
+    F(TIFFClose)                                                                         \
+    F(TIFFGetField)                                                                      \
+    F(TIFFGetFieldDefaulted)                                                             \
+    F(TIFFIsTiled)                                                                       \
+    F(TIFFRGBAImageOK)                                                                   \
+    F(TIFFReadRGBAImageOriented)                                                         \
+    F(TIFFReadScanline)                                                                  \
+    F(TIFFScanlineSize)                                                                  \
+    F(TIFFSetErrorHandler)                                                               \
+    F(TIFFSetErrorHandlerExt)                                                            \
+    F(TIFFSetWarningHandler)
+
+struct libtiff {
+    FUNCTIONS(LIBRARY_POINTER)
+};
+
+static bool load(struct libtiff *lib, struct codec_error e)
+{
+#ifdef TIFF_SONAME
+    static const char *const names[] = {FUNCTIONS(LIBRARY_NAME)};
+    return library_load(TIFF_SONAME, names, sizeof names / sizeof names[0], lib, e.text,
+                        e.size);
+#else
+    (void)e;
+    *lib = (struct libtiff){FUNCTIONS(LIBRARY_FUNCTION)};
+    return true;
+#endif
+}
 
 struct job {
     const uint8_t *data;
@@ -72,18 +104,18 @@ struct layout {
     uint16_t *map[3];
 };
 
-static void read_layout(TIFF *f, struct layout *l)
+static void read_layout(const struct libtiff *lib, TIFF *f, struct layout *l)
 {
-    TIFFGetField(f, TIFFTAG_IMAGEWIDTH, &l->width);
-    TIFFGetField(f, TIFFTAG_IMAGELENGTH, &l->height);
-    TIFFGetFieldDefaulted(f, TIFFTAG_BITSPERSAMPLE, &l->bits);
-    TIFFGetFieldDefaulted(f, TIFFTAG_SAMPLESPERPIXEL, &l->samples);
-    TIFFGetFieldDefaulted(f, TIFFTAG_PLANARCONFIG, &l->planar);
-    TIFFGetFieldDefaulted(f, TIFFTAG_SAMPLEFORMAT, &l->format);
-    if (!TIFFGetField(f, TIFFTAG_PHOTOMETRIC, &l->photometric))
+    lib->TIFFGetField(f, TIFFTAG_IMAGEWIDTH, &l->width);
+    lib->TIFFGetField(f, TIFFTAG_IMAGELENGTH, &l->height);
+    lib->TIFFGetFieldDefaulted(f, TIFFTAG_BITSPERSAMPLE, &l->bits);
+    lib->TIFFGetFieldDefaulted(f, TIFFTAG_SAMPLESPERPIXEL, &l->samples);
+    lib->TIFFGetFieldDefaulted(f, TIFFTAG_PLANARCONFIG, &l->planar);
+    lib->TIFFGetFieldDefaulted(f, TIFFTAG_SAMPLEFORMAT, &l->format);
+    if (!lib->TIFFGetField(f, TIFFTAG_PHOTOMETRIC, &l->photometric))
         l->photometric = PHOTOMETRIC_MINISBLACK;
     if (l->photometric == PHOTOMETRIC_PALETTE)
-        TIFFGetField(f, TIFFTAG_COLORMAP, &l->map[0], &l->map[1], &l->map[2]);
+        lib->TIFFGetField(f, TIFFTAG_COLORMAP, &l->map[0], &l->map[1], &l->map[2]);
 }
 
 // Maps are of 16 bits, unless an old program wrote 8.
@@ -102,17 +134,17 @@ static bool read_palette(const struct layout *l, struct texels *t, struct codec_
     return true;
 }
 
-static bool read_rows(TIFF *f, const struct layout *l, struct texels *t,
-                      struct codec_error e)
+static bool read_rows(const struct libtiff *lib, TIFF *f, const struct layout *l,
+                      struct texels *t, struct codec_error e)
 {
-    tmsize_t size = TIFFScanlineSize(f);
+    tmsize_t size = lib->TIFFScanlineSize(f);
     size_t need = (size_t)l->width * l->bits * l->samples;
     uint8_t *row =
         size > 0 && (size_t)size >= (need + 7) / 8 ? malloc((size_t)size) : NULL;
     bool ok = row || codec_fail(e, "its rows make no sense");
     const size_t n = (size_t)l->width * l->samples;
     for (int y = 0; y < t->height && ok; y++) {
-        ok = TIFFReadScanline(f, row, (uint32_t)y, 0) == 1;
+        ok = lib->TIFFReadScanline(f, row, (uint32_t)y, 0) == 1;
         for (size_t i = 0; i < n && ok; i++) {
             if (l->bits == 16)
                 memcpy(texels_row16(t, y) + i, row + 2 * i, 2);
@@ -126,18 +158,18 @@ static bool read_rows(TIFF *f, const struct layout *l, struct texels *t,
     return ok;
 }
 
-static bool read_converted(TIFF *f, const struct layout *l, struct texels *t, size_t size,
-                           struct codec_error e)
+static bool read_converted(const struct libtiff *lib, TIFF *f, const struct layout *l,
+                           struct texels *t, size_t size, struct codec_error e)
 {
     uint16_t extra = 0, *kinds = NULL;
-    TIFFGetFieldDefaulted(f, TIFFTAG_EXTRASAMPLES, &extra, &kinds);
+    lib->TIFFGetFieldDefaulted(f, TIFFTAG_EXTRASAMPLES, &extra, &kinds);
     char why[1024] = "";
-    if (!TIFFRGBAImageOK(f, why))
+    if (!lib->TIFFRGBAImageOK(f, why))
         return codec_fail(e, "%s", why);
     if (!texels_allocate(t, l->width, l->height, 4, TEXEL_U8, size, 1e6, e))
         return false;
-    if (!TIFFReadRGBAImageOriented(f, l->width, l->height, t->data, ORIENTATION_TOPLEFT,
-                                   1))
+    if (!lib->TIFFReadRGBAImageOriented(f, l->width, l->height, t->data,
+                                        ORIENTATION_TOPLEFT, 1))
         return false;
     uint8_t *p = t->data;
     size_t n = (size_t)l->width * l->height;
@@ -153,34 +185,39 @@ static bool read_converted(TIFF *f, const struct layout *l, struct texels *t, si
     return true;
 }
 
-static bool read_opened(TIFF *f, struct texels *t, size_t size, struct codec_error e)
+static bool read_opened(const struct libtiff *lib, TIFF *f, struct texels *t, size_t size,
+                        struct codec_error e)
 {
     struct layout l = {0};
-    read_layout(f, &l);
-    bool plain = !TIFFIsTiled(f) && l.samples == 1 && l.format != SAMPLEFORMAT_IEEEFP;
+    read_layout(lib, f, &l);
+    bool plain =
+        !lib->TIFFIsTiled(f) && l.samples == 1 && l.format != SAMPLEFORMAT_IEEEFP;
     bool palette = plain && l.photometric == PHOTOMETRIC_PALETTE && l.map[0] &&
                    (l.bits == 1 || l.bits == 2 || l.bits == 4 || l.bits == 8);
     bool grey = plain && l.photometric == PHOTOMETRIC_MINISBLACK && l.bits == 16;
     if (!palette && !grey)
-        return read_converted(f, &l, t, size, e);
+        return read_converted(lib, f, &l, t, size, e);
     return (!palette || read_palette(&l, t, e)) &&
            texels_allocate(t, l.width, l.height, 1, grey ? TEXEL_U16 : TEXEL_U8, size,
                            1e6, e) &&
-           read_rows(f, &l, t, e);
+           read_rows(lib, f, &l, t, e);
 }
 
 bool tiff_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
 {
+    struct libtiff lib;
+    if (!load(&lib, e))
+        return false;
     struct job job = {data, (tmsize_t)size, 0, e, false};
-    TIFFSetErrorHandler(NULL);
-    TIFFSetWarningHandler(NULL);
-    TIFFSetErrorHandlerExt(on_error);
+    lib.TIFFSetErrorHandler(NULL);
+    lib.TIFFSetWarningHandler(NULL);
+    lib.TIFFSetErrorHandlerExt(on_error);
     codec_fail(e, "it is damaged");
     // "m": nothing is mapped, all goes through the functions.
-    TIFF *f = TIFFClientOpen("file", "rm", &job, on_read, on_write, on_seek, on_close,
-                             on_size, NULL, NULL);
-    bool ok = f && read_opened(f, t, size, e) && !job.failed;
+    TIFF *f = lib.TIFFClientOpen("file", "rm", &job, on_read, on_write, on_seek, on_close,
+                                 on_size, NULL, NULL);
+    bool ok = f && read_opened(&lib, f, t, size, e) && !job.failed;
     if (f)
-        TIFFClose(f);
+        lib.TIFFClose(f);
     return ok;
 }

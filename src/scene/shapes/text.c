@@ -11,11 +11,39 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/library.h"
 #include "math/transform.h"
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
 #include "scene/shapes/extrude_lanes.h"
+
+#define FUNCTIONS(F)                                                                     \
+    F(FT_Done_Face)                                                                      \
+    F(FT_Done_FreeType)                                                                  \
+    F(FT_Get_Char_Index)                                                                 \
+    F(FT_Get_Kerning)                                                                    \
+    F(FT_Init_FreeType)                                                                  \
+    F(FT_Load_Glyph)                                                                     \
+    F(FT_New_Face)                                                                       \
+    F(FT_Outline_Decompose)
+
+struct freetype {
+    FUNCTIONS(LIBRARY_POINTER)
+};
+
+static bool load(struct freetype *lib, char *why, size_t why_size)
+{
+#ifdef FREETYPE_SONAME
+    static const char *const names[] = {FUNCTIONS(LIBRARY_NAME)};
+    return library_load(FREETYPE_SONAME, names, sizeof names / sizeof names[0], lib, why,
+                        why_size);
+#else
+    (void)why, (void)why_size;
+    *lib = (struct freetype){FUNCTIONS(LIBRARY_FUNCTION)};
+    return true;
+#endif
+}
 
 struct text {
     struct outline *glyph;
@@ -105,15 +133,16 @@ static uint32_t next_character(const char **at)
 }
 
 // Fonts made of symbols keep their characters at 0xf000.
-static FT_UInt glyph_index(FT_Face face, uint32_t c)
+static FT_UInt glyph_index(const struct freetype *lib, FT_Face face, uint32_t c)
 {
-    FT_UInt index = FT_Get_Char_Index(face, c);
+    FT_UInt index = lib->FT_Get_Char_Index(face, c);
     if (index == 0 && c < 256)
-        index = FT_Get_Char_Index(face, 0xf000u + c);
+        index = lib->FT_Get_Char_Index(face, 0xf000u + c);
     return index;
 }
 
 struct layout {
+    const struct freetype *lib;
     FT_Face face;
     struct arena *arena;
     double em;
@@ -123,8 +152,9 @@ struct layout {
 
 static bool add_character(struct text *t, struct layout *l, uint32_t c)
 {
-    FT_UInt index = glyph_index(l->face, c);
-    if (FT_Load_Glyph(l->face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP))
+    const struct freetype *lib = l->lib;
+    FT_UInt index = glyph_index(lib, l->face, c);
+    if (lib->FT_Load_Glyph(l->face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP))
         return false;
     const FT_GlyphSlot slot = l->face->glyph;
     const double bearing = (double)slot->metrics.horiBearingX / l->em;
@@ -134,7 +164,7 @@ static bool add_character(struct text *t, struct layout *l, uint32_t c)
         shift.u -= bearing; // the first starts at its left edge
     FT_Vector kern = {0, 0};
     if (l->previous)
-        FT_Get_Kerning(l->face, l->previous, index, FT_KERNING_UNSCALED, &kern);
+        lib->FT_Get_Kerning(l->face, l->previous, index, FT_KERNING_UNSCALED, &kern);
     shift.u += (double)kern.x / l->em;
     shift.v += (double)kern.y / l->em;
     l->pen.u = shift.u + advance + l->offset.u;
@@ -149,28 +179,28 @@ static bool add_character(struct text *t, struct layout *l, uint32_t c)
     struct outline *g = &t->glyph[t->count++];
     outline_init(g, l->arena);
     struct pen pen = {g, {0, 0}, {0, 0}, shift, 1 / l->em, false};
-    if (FT_Outline_Decompose(&slot->outline, &funcs, &pen))
+    if (lib->FT_Outline_Decompose(&slot->outline, &funcs, &pen))
         return false;
     close_contour(&pen);
     return true;
 }
 
-static bool lay_out(struct text *t, const char *path, struct vec3 offset,
-                    struct arena *arena)
+static bool lay_out(const struct freetype *lib, struct text *t, const char *path,
+                    struct vec3 offset, struct arena *arena)
 {
     FT_Library library;
-    if (FT_Init_FreeType(&library))
+    if (lib->FT_Init_FreeType(&library))
         return false;
-    struct layout l = {.arena = arena, .offset = {offset.x, offset.y}};
-    bool ok = FT_New_Face(library, path, 0, &l.face) == 0;
+    struct layout l = {.lib = lib, .arena = arena, .offset = {offset.x, offset.y}};
+    bool ok = lib->FT_New_Face(library, path, 0, &l.face) == 0;
     if (ok) {
         l.em = l.face->units_per_EM ? l.face->units_per_EM : 1000;
         t->glyph = arena_new_array(arena, struct outline, strlen(t->string) + 1);
         for (const char *at = t->string; *at && ok;)
             ok = add_character(t, &l, next_character(&at));
-        FT_Done_Face(l.face);
+        lib->FT_Done_Face(l.face);
     }
-    FT_Done_FreeType(library);
+    lib->FT_Done_FreeType(library);
     return ok;
 }
 
@@ -198,7 +228,13 @@ static bool build(void *shape, struct args *args)
         !args_find_file(args, "font", t->font, ".ttf", &path))
         return false;
     t->tilt = transform_rotate(vec3(0.001, 0.001, 0.001));
-    if (!lay_out(t, path, offset, args_arena(args))) {
+    struct freetype lib;
+    char why[256];
+    if (!load(&lib, why, sizeof why)) {
+        args_reject(args, why);
+        return false;
+    }
+    if (!lay_out(&lib, t, path, offset, args_arena(args))) {
         args_reject(args, "the font cannot be read");
         return false;
     }
