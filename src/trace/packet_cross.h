@@ -40,7 +40,8 @@ LANES_INLINE struct cross8 cross8_none(void)
                            .met = none,
                            .drawn = {all, all},
                            .enters = all,
-                           .odd = none};
+                           .odd = none,
+                           .sheet = false};
 }
 
 // Each lane its own sphere.

@@ -113,7 +113,9 @@ LANES_INLINE void tree8_ranges(struct tree8 *v, unsigned lanes)
 
 LANES_INLINE struct tree8 tree8_of(const struct tree_lanes *l, unsigned lanes)
 {
-    struct tree8 v = {.mixed = false};
+    struct tree8 v; // not set to zero: it is large
+    v.mixed = false;
+    v.far = f8_set(0);
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         v.o[a] = f8_load(l->o[a]);

@@ -71,7 +71,8 @@ LANES_INLINE void group_points(struct tracer *t, const struct leaf *const leaf[8
         .size = r8_add(v8_max_abs(o), r8_mul(r8_abs(at), v8_max_abs(d))),
         .hit = t->hit,
         .ray = g->ray};
-    struct place8 x = {.p = v8_mad(o, at, d)};
+    struct place8 x; // not set to zero: it is large
+    x.p = v8_mad(o, at, d);
     if (uv) {
         place_each(t, g, 255, &x);
         memcpy(g->uv, x.uv, sizeof g->uv);

@@ -16,7 +16,8 @@ struct light8 {
 LANES_INLINE struct light8 direction8(const struct lamp *lamp, struct vec8 p)
 {
     const struct light *light = lamp->light;
-    struct light8 v = {.color = rgb8_set(light->color)};
+    struct light8 v; // not set to zero: it is large
+    v.color = rgb8_set(light->color);
     const struct vec8 to = v8_sub(V8_SET(light->location), p);
     if (light->parallel || light->kind == LIGHT_CYLINDER) {
         struct lamp_view one;

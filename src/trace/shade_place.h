@@ -329,7 +329,8 @@ static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
     const struct vec8 p = x->p;
     for (unsigned left = 255; left;) {
         const struct leaf *l = leaf[__builtin_ctz(left)];
-        struct place8 y = {.p = p};
+        struct place8 y;
+        y.p = p;
         unsigned bits = 0;
         for (unsigned i = 0; i < 8; i++)
             bits |= (unsigned)(leaf[i] == l) << i;
