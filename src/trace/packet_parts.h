@@ -56,7 +56,8 @@ LANES_INLINE struct span8 part_span(const struct eight *e, const struct quick *q
 {
     switch (part->kind) {
     case PACKET_SPHERE: return quick_sphere(part, ray, bits);
-    case PACKET_BOX: return quick_box(part->shape, ray);
+    case PACKET_BOX:
+        return quick_box(part->shape, ray, ray == &e->ray ? &e->inverse : NULL);
     case PACKET_CYLINDER: return quick_cylinder(part->shape, ray, bits);
     case PACKET_PLANE: return span8_plane(part->shape, ray);
     default: return quick_other(e, q, part, ray, &e->p->w->leaf[first_leaf + part->leaf]);

@@ -26,22 +26,29 @@ LANES_INLINE struct span8 quick_nothing(void)
     return (struct span8){.in = zero, .out = zero, .met = m8_of(0), .clear = m8_of(0)};
 }
 
-// The line's square of the distance is oc.oc - (d.oc)^2 / d.d: no division says that it is
-// too large.
+// Lines whose square of the distance from a centre is larger than that of the radius: it is
+// oc.oc - (d.oc)^2 / d.d, and wants no division. In space, or across a cylinder's axis.
+LANES_INLINE unsigned quick_missed(struct real8 oc_oc, struct real8 along,
+                                   struct real8 dd, double radius)
+{
+    const struct real8 beyond = r8_sub(r8_mul(r8_set(1 - apart), oc_oc),
+                                       r8_set((1 + apart) * radius * radius));
+    return m8_bits(r8_lt(r8_mul(along, along), r8_mul(dd, beyond)));
+}
+
 LANES_INLINE struct span8 quick_sphere(const struct product_part *part,
                                        const struct ray8 *ray, unsigned bits)
 {
     const struct sphere s = {.centre = part->centre, .radius = part->radius};
     const struct vec8 oc = v8_sub(ray->o, V8_SET(s.centre));
-    const struct real8 along = v8_dot(ray->d, oc);
-    const struct real8 beyond = r8_sub(r8_mul(r8_set(1 - apart), v8_dot(oc, oc)),
-                                       r8_set((1 + apart) * s.radius * s.radius));
-    const struct mask8 missed = r8_lt(r8_mul(along, along), r8_mul(ray->dd, beyond));
-    return bits & ~m8_bits(missed) ? span8_sphere(&s, ray) : quick_nothing();
+    const unsigned missed =
+        quick_missed(v8_dot(oc, oc), v8_dot(ray->d, oc), ray->dd, s.radius);
+    return bits & ~missed ? span8_sphere(&s, ray) : quick_nothing();
 }
 
-// Where no line runs close to along a side.
-LANES_INLINE struct span8 quick_box(const struct box *b, const struct ray8 *ray)
+// Where no line runs close to along a side. inverse: 1 / d, if that is known.
+LANES_INLINE struct span8 quick_box(const struct box *b, const struct ray8 *ray,
+                                    const struct vec8 *inverse)
 {
     const struct vec8 d = ray->d;
     const struct real8 least = r8_min(r8_abs(d.x), r8_min(r8_abs(d.y), r8_abs(d.z)));
@@ -52,7 +59,11 @@ LANES_INLINE struct span8 quick_box(const struct box *b, const struct ray8 *ray)
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 o = a == 0 ? ray->o.x : a == 1 ? ray->o.y : ray->o.z;
-        const struct real8 inv = r8_div(one, a == 0 ? d.x : a == 1 ? d.y : d.z);
+        const struct real8 inv =
+            !inverse ? r8_div(one, a == 0 ? d.x : a == 1 ? d.y : d.z)
+            : a == 0 ? inverse->x
+            : a == 1 ? inverse->y
+                     : inverse->z;
         const struct real8 p = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
         const struct real8 q = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
         const struct real8 t0 = r8_min(p, q), t1 = r8_max(q, p);
@@ -77,7 +88,10 @@ LANES_INLINE struct span8 quick_cylinder(const struct cylinder *c, const struct 
     if (m8_bits(steep) != 255)
         return span8_cylinder(c, ray);
     const double r = c->radius;
-    const struct real8 s = r8_div(r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y)), a);
+    const struct real8 along = r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y));
+    if (!(bits & ~quick_missed(r8_add(r8_mul(o.x, o.x), r8_mul(o.y, o.y)), along, a, r)))
+        return quick_nothing();
+    const struct real8 s = r8_div(along, a);
     const struct real8 x = r8_sub(o.x, r8_mul(s, d.x)), y = r8_sub(o.y, r8_mul(s, d.y));
     const struct real8 rest = r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
     struct span8 v = {.met = r8_lt(zero, rest),
