@@ -487,6 +487,22 @@ LANES_INLINE void u8_put(uint32_t p[8], unsigned bits, uint32_t v)
 #endif
 }
 
+// b in the lanes of `bits` that are `second`, a in the others of `bits`.
+LANES_INLINE void b8_put(uint8_t p[8], unsigned bits, unsigned second, uint8_t a,
+                         uint8_t b)
+{
+#if defined(__AVX512BW__) && defined(__AVX512VL__)
+    _mm_mask_storeu_epi8(p, (__mmask16)bits,
+                         _mm_mask_blend_epi8((__mmask16)second, _mm_set1_epi8((char)a),
+                                             _mm_set1_epi8((char)b)));
+#else
+    for (; bits; bits &= bits - 1) {
+        const int i = __builtin_ctz(bits);
+        p[i] = second >> i & 1 ? b : a;
+    }
+#endif
+}
+
 // ---- points and directions ------------------------------------------------------------
 
 struct vec8 {

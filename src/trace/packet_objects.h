@@ -120,15 +120,6 @@ static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
     }
 }
 
-LANES_INLINE enum crossing crossing_of(const struct cross8 *x, bool first, int lane,
-                                       bool inverted)
-{
-    if (x->sheet)
-        return CROSS_TOUCH;
-    const bool enters = (m8_bits(x->enters) >> lane & 1) == first;
-    return enters != inverted ? CROSS_ENTER : CROSS_EXIT;
-}
-
 // Keeps the boundaries of `won` in full: those of `first` in x->t[0], else in x->t[1].
 LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 first,
                        unsigned won, bool inverted)
@@ -140,12 +131,11 @@ LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 fi
     r8_store(p->u, r8_select(m, x->u, r8_load(p->u)));
     r8_store(p->v, r8_select(m, x->v, r8_load(p->v)));
     p->whole |= won;
-    const unsigned firsts = m8_bits(first);
-    for (; won; won &= won - 1) {
-        const int lane = __builtin_ctz(won);
-        p->crossing[lane] =
-            (uint8_t)crossing_of(x, (firsts >> lane & 1) != 0, lane, inverted);
-    }
+    const unsigned leaves = (m8_bits(x->enters) ^ m8_bits(first)) ^ (inverted ? 255 : 0);
+    if (x->sheet)
+        b8_put(p->crossing, won, 0, CROSS_TOUCH, CROSS_TOUCH);
+    else
+        b8_put(p->crossing, won, leaves, CROSS_ENTER, CROSS_EXIT);
 }
 
 static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf)

@@ -31,8 +31,8 @@ LANES_INLINE struct span8 quick_nothing(void)
 LANES_INLINE unsigned quick_missed(struct real8 oc_oc, struct real8 along,
                                    struct real8 dd, double radius)
 {
-    const struct real8 beyond = r8_sub(r8_mul(r8_set(1 - apart), oc_oc),
-                                       r8_set((1 + apart) * radius * radius));
+    const struct real8 beyond =
+        r8_sub(r8_mul(r8_set(1 - apart), oc_oc), r8_set((1 + apart) * radius * radius));
     return m8_bits(r8_lt(r8_mul(along, along), r8_mul(dd, beyond)));
 }
 
@@ -55,17 +55,16 @@ LANES_INLINE struct span8 quick_box(const struct box *b, const struct ray8 *ray,
     const struct real8 longest = v8_max_abs(d), one = r8_set(1);
     if (m8_bits(r8_le(r8_mul(r8_set(clear_slope), longest), least)) != 255)
         return span8_box(b, ray);
+    const struct vec8 inv =
+        inverse ? *inverse
+                : (struct vec8){r8_div(one, d.x), r8_div(one, d.y), r8_div(one, d.z)};
     struct span8 x = {.clear = m8_of(255)};
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 o = a == 0 ? ray->o.x : a == 1 ? ray->o.y : ray->o.z;
-        const struct real8 inv =
-            !inverse ? r8_div(one, a == 0 ? d.x : a == 1 ? d.y : d.z)
-            : a == 0 ? inverse->x
-            : a == 1 ? inverse->y
-                     : inverse->z;
-        const struct real8 p = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), inv);
-        const struct real8 q = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), inv);
+        const struct real8 by = a == 0 ? inv.x : a == 1 ? inv.y : inv.z;
+        const struct real8 p = r8_mul(r8_sub(r8_set(vec3_axis(b->min, a)), o), by);
+        const struct real8 q = r8_mul(r8_sub(r8_set(vec3_axis(b->max, a)), o), by);
         const struct real8 t0 = r8_min(p, q), t1 = r8_max(q, p);
         x.in = a == 0 ? t0 : r8_max(t0, x.in);
         x.out = a == 0 ? t1 : r8_min(t1, x.out);

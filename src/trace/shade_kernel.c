@@ -339,6 +339,31 @@ static void own_sheets(struct tracer *t, const struct paint_group *g)
 
 // ---- sums ---------------------------------------------------------------------------------
 
+static void lit(struct wavefront *w, const struct shadow_batch *b, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k += 8) {
+        const uint16_t *slot = b->slot + k;
+        const uint32_t n = count - k < 8 ? count - k : 8;
+        unsigned dark = 0;
+        uint32_t apart = n ^ 8; // 0: neighbours
+        for (uint32_t i = 0; i < n; i++) {
+            dark |= (unsigned)b->occluded[k + i] << i;
+            apart |= slot[i] ^ (slot[0] + i);
+        }
+        unsigned bright = ~dark & ((1u << n) - 1);
+        for (int c = 0; c < 3 && bright && !apart; c++) {
+            float *to = w->lit[c] + slot[0];
+            const struct float8 value = f8_load(b->value[c] + k);
+            f8_store(to, f8_add(f8_load(to), f8_select(dark, f8_set(0), value)));
+        }
+        for (; apart && bright; bright &= bright - 1) {
+            const int i = __builtin_ctz(bright);
+            for (int c = 0; c < 3; c++)
+                w->lit[c][slot[i]] += b->value[c][k + (uint32_t)i];
+        }
+    }
+}
+
 static void sums(const struct wavefront *w, struct sample_sum *out)
 {
     uint32_t i = 0;
@@ -396,9 +421,10 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     ISA_TEXT,      &OF_ISA(surface_kernels_),
     camera,        place,
     own,           light,
-    bounce,        sums,
-    exps,          meets,
-    fogs,          toward,
-    points,        texture_space,
-    world_normals, sheet_pass,
-    own_sheets,    light_sheets};
+    bounce,        lit,
+    sums,          exps,
+    meets,         fogs,
+    toward,        points,
+    texture_space, world_normals,
+    sheet_pass,    own_sheets,
+    light_sheets};

@@ -43,6 +43,8 @@ struct shade_kernels {
     // Fills what leaves the group by mirrors and, where the class is clear, through it.
     void (*bounce)(const struct simple_class *c, const struct simple_group *g,
                    struct simple_bounce *b);
+    // Adds what `count` shadow rays let through to their slots.
+    void (*lit)(struct wavefront *w, const struct shadow_batch *b, uint32_t count);
     // What the wave's slots have collected, as the samples of the same numbers.
     void (*sums)(const struct wavefront *w, struct sample_sum *out);
     // det_exp_single of `count` numbers; both arrays have room for eight more.

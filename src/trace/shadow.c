@@ -369,13 +369,16 @@ void shadow_flush_simple(struct tracer *t, uint32_t count)
     for (uint32_t k = 0; k < count && air; k++)
         air_end[k] = b->air[k] ? b->rays->t_max[k] : 0;
     batch_trace(t, b, count, air ? air_end : NULL);
+    if (!b->pass && !air) {
+        t->job->kernels->lit(&t->wave, b, count);
+        return;
+    }
     for (uint32_t k = 0; k < count; k++) {
         if (b->occluded[k])
             continue;
-        struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
-        if (b->pass || air)
-            c = rgb_mul(c, rest_passes(t, b, k, air ? air_end[k] : 0));
-        tracer_lit(t, b->slot[k], c);
+        const struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
+        tracer_lit(t, b->slot[k],
+                   rgb_mul(c, rest_passes(t, b, k, air ? air_end[k] : 0)));
     }
 }
 
