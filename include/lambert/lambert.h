@@ -109,16 +109,21 @@ LAMBERT_API void lambert_set_message_function(struct lambert_context *ctx,
                                               lambert_message_fn fn, void *user);
 
 // Called after each finished tile, from the thread that did it, never twice at once; while
-// radiosity is solved, whenever it is a little further (thousandths).
+// radiosity is solved, whenever it is a little further (thousandths); while a scene is read,
+// some times a second (lines of its own text: loops, macros and includes stay at theirs).
 // Returning false cancels.
 typedef bool (*lambert_progress_fn)(void *user, uint32_t done, uint32_t total);
 LAMBERT_API void lambert_set_progress_function(struct lambert_context *ctx,
                                                lambert_progress_fn fn, void *user);
 // What `done` and `total` count in such a call.
-enum lambert_phase { LAMBERT_PHASE_TILES, LAMBERT_PHASE_RADIOSITY };
+enum lambert_phase {
+    LAMBERT_PHASE_TILES,
+    LAMBERT_PHASE_RADIOSITY,
+    LAMBERT_PHASE_READING,
+};
 LAMBERT_API enum lambert_phase lambert_progress_phase(const struct lambert_context *ctx);
-// Stops lambert_render after the tiles or the piece of radiosity in hand. May be called from any thread and
-// from a signal handler.
+// Stops lambert_load_file after the statement, and lambert_render after the tiles or the
+// piece of radiosity in hand. May be called from any thread and from a signal handler.
 LAMBERT_API void lambert_cancel(struct lambert_context *ctx);
 
 // --- Rendering ------------------------------------------------------------

@@ -41,7 +41,11 @@ struct lambert_context {
     struct scene scene;
     struct world *world;
     struct lambert_stats stats;
-    uint64_t files_digest; // of files it reads besides its text; with a state_path only
+    // Files it reads besides its text; with a state_path only.
+    struct read_file {
+        const char *path;
+        const struct read_file *next; // the one before
+    } *files_read;
 };
 
 struct lambert_image {

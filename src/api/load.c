@@ -204,7 +204,10 @@ static void set_folders(struct lambert_context *ctx, struct eval_options *o)
 static void file_found(void *user, const char *path)
 {
     struct lambert_context *ctx = user;
-    ctx->files_digest = digest_add_file(ctx->files_digest, path);
+    struct read_file *f = arena_new_struct(ctx->scene_arena, struct read_file);
+    *f = (struct read_file){arena_strndup(ctx->scene_arena, path, strlen(path)),
+                            ctx->files_read};
+    ctx->files_read = f;
 }
 
 static struct eval_options eval_settings(struct lambert_context *ctx, const char *path)
@@ -226,7 +229,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .message_user = ctx,
         .output_folder = output_folder(ctx),
     };
-    ctx->files_digest = digest_start;
+    ctx->files_read = NULL;
     if (ctx->state_path) {
         o.file_found = file_found;
         o.file_user = ctx;
@@ -291,8 +294,40 @@ struct reading {
     struct lambert_context *ctx;
     const struct eval_options *options;
     uint32_t file;
+    double told_at; // when progress was
     bool ok;
 };
+
+// The place in the scene's own text from which the reading came to `where`.
+static struct span outermost(const struct source_map *m, uint32_t file, struct span where)
+{
+    for (;;) {
+        const struct span included_at = m->file[where.file]->included_at;
+        if (where.expansion)
+            where = m->expansions[where.expansion].called_at;
+        else if (where.file != file && included_at.end)
+            where = included_at;
+        else
+            return where;
+    }
+}
+
+static bool tell_reading(void *user, struct span where)
+{
+    static const double often = 0.1; // seconds
+    struct reading *r = user;
+    struct lambert_context *ctx = r->ctx;
+    double now = context_seconds();
+    if (!ctx->progress || now - r->told_at < often)
+        return !ctx->cancel;
+    r->told_at = now;
+    struct source_file *f = ctx->sources.file[r->file];
+    where = outermost(&ctx->sources, r->file, where);
+    if (!ctx->progress(ctx->progress_user, source_line(f, where.begin).number,
+                       source_line(f, f->len).number))
+        ctx->cancel = true;
+    return !ctx->cancel;
+}
 
 static void read_scene(void *user)
 {
@@ -331,12 +366,20 @@ static enum lambert_status evaluate(struct lambert_context *ctx, const char *pat
     o.wanted = scene_settings(ctx);
     o.found = setting_found;
     o.found_user = &settings;
-    struct reading reading = {ctx, &o, file, false};
+    struct reading reading = {ctx, &o, file, start, false};
+    o.reading = tell_reading;
+    o.reading_user = &reading;
+    ctx->phase = LAMBERT_PHASE_READING;
     stack_run(read_scene, &reading);
+    ctx->phase = LAMBERT_PHASE_TILES;
+    bool stopped = ctx->cancel;
+    ctx->cancel = false;
     probe_free(probe);
     ctx->stats.parse_seconds = context_seconds() - start;
     ctx->stats.errors = ctx->diags.errors;
     ctx->stats.warnings = ctx->diags.warnings;
+    if (stopped)
+        return context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
     if (!reading.ok || ctx->diags.errors)
         return context_fail(ctx, LAMBERT_ERROR_SCENE, "%s: %u error%s", path,
                             ctx->diags.errors, ctx->diags.errors == 1 ? "" : "s");

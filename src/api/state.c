@@ -86,7 +86,9 @@ static uint64_t key_of(const struct lambert_context *ctx)
         key = digest_add_file(key, solution);
     for (uint32_t i = 0; i < ctx->sources.count; i++)
         key = digest_add(key, ctx->sources.file[i]->text, ctx->sources.file[i]->len);
-    return digest_add(key, &ctx->files_digest, sizeof ctx->files_digest);
+    for (const struct read_file *f = ctx->files_read; f; f = f->next)
+        key = digest_add_file(key, f->path);
+    return key;
 }
 
 static struct record record_of(const struct image *im, const struct render_tile *tile)

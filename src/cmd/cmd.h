@@ -21,7 +21,7 @@ enum exit_code {
     CMD_IO = 74,
 };
 
-enum stage { STAGE_START, STAGE_RENDER, STAGE_WRITE };
+enum stage { STAGE_START, STAGE_READ, STAGE_RENDER, STAGE_WRITE };
 
 struct progress {
     double start, shown_at;
@@ -29,6 +29,8 @@ struct progress {
     unsigned shown_percent;
     enum lambert_phase phase;
     bool terminal, on, started;
+    bool shown;    // something is in the line that goes when anything else is written
+    bool mid_line; // the scene has written a line whose end is to come
 };
 
 // Files that get messages besides the console.

@@ -35,9 +35,10 @@ static void on_message(void *user, const struct lambert_message *m)
     streams_write(c, m);
     if (m->kind == LAMBERT_SCENE_TEXT && c->quiet)
         return;
-    if (c->stage == STAGE_RENDER)
-        progress_end(c);
+    progress_end(c);
     fputs(m->rendered, stderr);
+    size_t n = strlen(m->rendered);
+    c->progress.mid_line = n && m->rendered[n - 1] != '\n';
 }
 
 // Waits for signals in a thread of its own, so that nothing global is needed. The
@@ -51,7 +52,12 @@ static void *watch_signals(void *user)
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
     while (sigwait(&set, &signal) == 0 && !c->finished) {
-        if (c->interrupted || c->stage == STAGE_START)
+        if (c->stage == STAGE_READ) {
+            progress_end(c);
+            fputs("lambert: interrupted while reading the scene; nothing is written\n",
+                  stderr);
+        }
+        if (c->interrupted || c->stage <= STAGE_READ)
             _exit(CMD_INTERRUPTED);
         c->interrupted = true;
         lambert_cancel(c->ctx);

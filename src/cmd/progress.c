@@ -8,6 +8,7 @@
 
 static const double redraw_seconds = 0.1; // on a terminal
 static const double report_seconds = 10;  // in a log
+static const double quiet_seconds = 1;    // of reading, before anything is said
 
 double cmd_seconds(void)
 {
@@ -19,8 +20,10 @@ double cmd_seconds(void)
 void progress_begin(struct cmd *c)
 {
     struct progress *p = &c->progress;
-    *p = (struct progress){
-        .start = cmd_seconds(), .terminal = isatty(STDERR_FILENO), .on = !c->quiet};
+    *p = (struct progress){.start = cmd_seconds(),
+                           .terminal = isatty(STDERR_FILENO),
+                           .on = !c->quiet,
+                           .mid_line = p->mid_line};
     p->shown_at = p->start;
 }
 
@@ -42,8 +45,22 @@ static double left(const struct progress *p, uint32_t done, uint32_t total,
     return elapsed / (done - p->before) * (total - done);
 }
 
-static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
-                      double elapsed)
+// Of unknown length: loops and includes stay at one line.
+static void print_reading(struct progress *p, uint32_t line, uint32_t lines,
+                          double elapsed)
+{
+    if (p->mid_line)
+        return;
+    fprintf(stderr,
+            p->terminal ? "\rreading: line %u of %u, "
+                        : "lambert: reading line %u of %u, ",
+            line, lines);
+    print_duration(stderr, elapsed);
+    fputs(p->terminal ? "\033[K" : " gone\n", stderr);
+    p->shown = p->terminal;
+}
+
+static void print_bar(struct progress *p, uint32_t done, uint32_t total, double elapsed)
 {
     char bar[21];
     size_t full = (size_t)(20.0 * done / total);
@@ -60,6 +77,7 @@ static void print_bar(const struct progress *p, uint32_t done, uint32_t total,
         print_duration(stderr, left(p, done, total, elapsed));
     }
     fputs("\033[K", stderr);
+    p->shown = true;
 }
 
 static void print_line(const struct progress *p, uint32_t done, uint32_t total,
@@ -91,6 +109,14 @@ bool progress_show(void *user, uint32_t done, uint32_t total)
         p->shown_percent = 0;
         p->started = false;
     }
+    if (p->phase == LAMBERT_PHASE_READING) {
+        if (p->on && now - p->start > quiet_seconds &&
+            since >= (p->terminal ? redraw_seconds : report_seconds)) {
+            print_reading(p, done, total, now - p->start);
+            p->shown_at = now;
+        }
+        return !c->interrupted;
+    }
     if (!p->started)
         p->before = done - (done > 0);
     p->started = true;
@@ -116,8 +142,9 @@ bool progress_show(void *user, uint32_t done, uint32_t total)
 
 void progress_end(struct cmd *c)
 {
-    if (c->progress.on && c->progress.terminal)
+    if (c->progress.shown)
         fputs("\r\033[K", stderr);
+    c->progress.shown = false;
 }
 
 static void print_json_text(FILE *out, const char *s)

@@ -134,11 +134,14 @@ static int render_to(struct cmd *c, const char *scene, const char *path)
     keep_state(c, path);
     if (c->verbose)
         fprintf(stderr, "lambert: reading %s\n", scene);
+    progress_begin(c);
+    c->stage = STAGE_READ;
     enum lambert_status status = lambert_load_file(c->ctx, scene);
+    progress_end(c);
+    c->stage = STAGE_START;
     if (status != LAMBERT_OK)
         return report(c, status);
     c->stage = STAGE_RENDER;
-    progress_begin(c);
     status = lambert_render(c->ctx, &image);
     progress_end(c);
     c->stage = STAGE_WRITE;

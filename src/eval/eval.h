@@ -40,6 +40,9 @@ struct eval_options {
     // Sees each statement the grammar hands over, before it is carried out; or NULL.
     void (*statement)(void *user, const struct ast *item);
     void *statement_user;
+    // Told now and then what is read; false ends the reading. Or NULL.
+    bool (*reading)(void *user, struct span where);
+    void *reading_user;
     // The first surface of an object along a unit direction, for trace(); or NULL.
     bool (*trace)(void *user, const struct object *o, struct vec3 from, struct vec3 d,
                   struct vec3 *hit, struct vec3 *normal);
@@ -73,6 +76,7 @@ struct eval {
     const struct eval_options *options;
     struct symbol_tables *symbols;
     struct calc_table *calcs;
+    uint32_t asked; // how often whether to go on
     struct builder *builder;
     struct scene *scene;
     int version;              // in force now, 100*f

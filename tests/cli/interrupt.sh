@@ -2,14 +2,20 @@
 # SIGINT while rendering: what is done is written, exit code 2.
 . "${top_srcdir:-.}/tests/cli/common.sh"
 
+# Later on a slower machine: what has no tile yet leaves no picture.
 interrupted()
 {
-  "$lambert" sphere.pov +W3000 +H3000 +A0.0 +R9 +WT1 --tile-size 16 -o big.png 2>err &
-  pid=$!
-  sleep 1
-  kill -INT $pid
-  wait $pid
-  test $? = 2 && has err 'interrupted' && test -s big.png
+  for delay in 1 2 4 8; do
+    "$lambert" sphere.pov +W3000 +H3000 +A0.0 +R9 +WT1 --tile-size 16 -o big.png 2>err &
+    pid=$!
+    sleep $delay
+    kill -INT $pid
+    wait $pid
+    test $? = 2 && has err 'interrupted' || return 1
+    test -s big.png && return
+    has err 'nothing is written' || return 1
+  done
+  return 1
 }
 check "interrupted" interrupted
 whole() { ls | grep -q '\.part$' && return 1; exits 0 "$lambert" compare big.png big.png; }
@@ -55,6 +61,18 @@ sphere { 0, 100 inverse pigment { rgb 1 } }
 sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }
 END
 check "interrupted within a sample of radiosity { }" stops_soon deep.pov
+
+echo '#declare I = 0; #while (I < 1) #declare J = I; #end' >endless.pov
+reading()
+{
+  "$lambert" endless.pov -o endless.png 2>err &
+  pid=$!
+  sleep 1
+  kill -INT $pid
+  wait $pid
+  test $? = 2 && has err 'interrupted while reading' && ! test -e endless.png
+}
+check "interrupted while reading" reading
 
 cat >room.pov <<'END'
 #version 3.7;
