@@ -123,22 +123,12 @@ static void rays_sort(struct area_queue *q)
 static void rays_light(struct tracer *t, uint32_t count, struct rgb *out)
 {
     const struct area_queue *q = t->area;
-    const struct ray_batch *b = t->near.rays;
     if (!q->lamp->light->projected_through) {
         shadow_factors_near(t, q->lamp->index, count, out);
         return;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t slot = t->near.slot[i];
-        const struct shadow_request r = {.o = {b->o[0][i], b->o[1][i], b->o[2][i]},
-                                         .d = {b->d[0][i], b->d[1][i], b->d[2][i]},
-                                         .t_max = b->t_max[i],
-                                         .inside = wave_inside(t, slot),
-                                         .slot = slot,
-                                         .lamp = q->lamp->index,
-                                         .photons = t->near.photons[i]};
-        out[i] = projected_shadow(t, q->lamp, &r);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = projected_near(t, q->lamp, i);
 }
 
 // Finds the values of the points asked for.
@@ -359,4 +349,18 @@ struct rgb projected_shadow(struct tracer *t, const struct lamp *lamp,
     struct shadow_request near = *r;
     near.t_max = h;
     return shadow_factor(t, &near);
+}
+
+struct rgb projected_near(struct tracer *t, const struct lamp *lamp, uint32_t i)
+{
+    const struct ray_batch *b = t->near.rays;
+    const uint32_t slot = t->near.slot[i];
+    const struct shadow_request r = {.o = {b->o[0][i], b->o[1][i], b->o[2][i]},
+                                     .d = {b->d[0][i], b->d[1][i], b->d[2][i]},
+                                     .t_max = b->t_max[i],
+                                     .inside = wave_inside(t, slot),
+                                     .slot = slot,
+                                     .lamp = lamp->index,
+                                     .photons = t->near.photons[i]};
+    return projected_shadow(t, lamp, &r);
 }

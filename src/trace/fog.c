@@ -174,13 +174,12 @@ static void rainbows_apply(struct tracer *t, struct path *path, double s)
     path->through_t *= pass_t;
 }
 
-static void air_apply(struct tracer *t, struct path *path, double s, uint32_t group,
-                      bool fogs)
+static void air_apply(struct tracer *t, struct path *path, double s, uint32_t group)
 {
     const struct scene *scene = t->job->scene;
-    if (fogs)
+    if (t->job->general && scene->fog_count)
         fogs_apply(t, path, s);
-    if (t->job->has_air_media)
+    if (t->job->general && t->job->has_air_media)
         media_air_apply(t, path, s, group);
     if (scene->rainbow_count)
         rainbows_apply(t, path, s);
@@ -192,12 +191,12 @@ void air_wave(struct tracer *t)
     struct wavefront *w = &t->wave;
     for (uint32_t i = 0; i < w->count && !w->path; i++)
         w->through_t[i] = 1;
-    const bool fogs = job->scene->fog_count && job->general;
-    if (job->scene->fog_count && !fogs)
+    const bool general = job->general && (job->scene->fog_count || job->has_air_media);
+    if (job->scene->fog_count && !job->general)
         job->kernels->fogs(t);
-    if (!fogs && !job->has_air_media && !job->scene->rainbow_count)
-        return;
-    for (uint32_t k = 0; k < w->count; k++) {
+    if (job->has_air_media && !job->general)
+        media_air_wave(t);
+    for (uint32_t k = 0; k < w->count && (general || job->scene->rainbow_count); k++) {
         struct path p = wave_path(t, t->slot = w->slot[k]);
         const bool hit = t->hit->t[k] < INFINITY;
         if (!inside_hollow(p.inside))
@@ -205,10 +204,12 @@ void air_wave(struct tracer *t)
         const struct world *world = job->world;
         const uint32_t group =
             hit ? world->surface[world->leaf[t->hit->leaf[k]].surface].light_group : 0;
-        air_apply(t, &p, hit ? t->hit->t[k] : air_far, group, fogs);
+        air_apply(t, &p, hit ? t->hit->t[k] : air_far, group);
         w->through[0][t->slot] = p.through.r;
         w->through[1][t->slot] = p.through.g;
         w->through[2][t->slot] = p.through.b;
         w->through_t[t->slot] = p.through_t;
     }
+    if (job->has_media && !job->general)
+        media_wave(t);
 }

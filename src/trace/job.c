@@ -82,7 +82,7 @@ static void sky_init(struct job *job)
 {
     const struct scene *s = job->scene;
     job->has_air =
-        job->atmosphere && (s->fog_count || s->rainbow_count || job->has_air_media);
+        job->atmosphere && (s->fog_count || s->rainbow_count || job->has_media);
     job->even_sky = !s->sky;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);

@@ -53,7 +53,7 @@ struct job {
     // What a miss sees where that does not depend on the direction: [1] where the
     // background never shows as alpha.
     unsigned hidden_by[2]; // of rays: [1] once they were mirrored
-    bool has_air; // fog, rainbows or media that fill the scene
+    bool has_air; // fog, rainbows or media: rays change on their way
     const struct bow *bow; // its rainbows (trace/sky.h)
     bool even_sky;
     struct rgb sky[2];

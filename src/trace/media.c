@@ -10,8 +10,6 @@
 #include "trace/lens.h"
 #include "trace/media_march.h"
 
-enum { WAY_EYE, WAY_SHADOW };
-
 bool media_inside(const struct inside *list)
 {
     if (!inside_hollow(list))
@@ -37,26 +35,29 @@ static const struct media *const *media_of(struct arena *a, const struct inside 
     return all;
 }
 
-static struct media_result walk_lit(struct tracer *t, const struct media_mix *mix,
-                                    const struct media_way *way)
+struct media_walker media_walker(struct tracer *t, const struct media_way *way)
 {
-    struct media_scratch *s = &t->media[WAY_EYE];
-    struct media_march m = {.t = t, .scratch = s, .mix = mix, .way = way};
-    if (t->job->lamps[way->group].count) {
-        struct media_lamp *lamp = arena_new_array(s->arena, struct media_lamp,
-                                                  t->job->lamps[way->group].count + 1);
-        m.lamp_count = media_lamps(t->job, way->group, way->o, way->d, way->s, lamp);
-        m.lamp = lamp;
+    const uint32_t most = t->job->lamps[way->group].count;
+    struct media_walker w = {.way = way};
+    if (most) {
+        struct media_lamp *lamp =
+            arena_new_array(t->media[WAY_EYE].arena, struct media_lamp, most + 1);
+        w.lamp_count = media_lamps(t->job, way->group, way->o, way->d, way->s, lamp);
+        w.lamp = lamp;
     }
-    m.interval =
-        media_intervals(s->arena, mix, way->s, m.lamp, m.lamp_count, &m.interval_count);
-    return media_walk(&m);
+    return w;
 }
 
 static void apply(struct tracer *t, struct path *path, const struct media_mix *mix,
                   const struct media_way *way)
 {
-    const struct media_result r = walk_lit(t, mix, way);
+    struct media_scratch *s = &t->media[WAY_EYE];
+    struct media_walker w = media_walker(t, way);
+    struct media_march m = {
+        .t = t, .scratch = s, .mix = mix, .walker = &w, .walker_count = 1};
+    m.interval =
+        media_intervals(s->arena, mix, way->s, w.lamp, w.lamp_count, &m.interval_count);
+    const struct media_result r = media_walk(&m);
     const struct rgb light = {(float)r.light.x, (float)r.light.y, (float)r.light.z};
     const struct rgb pass = {(float)r.pass.x, (float)r.pass.y, (float)r.pass.z};
     tracer_add(t, rgb_mul(path->through, light));
@@ -78,7 +79,8 @@ void media_apply(struct tracer *t, struct path *path, double s, uint32_t group)
     if (!media_inside(path->inside))
         return;
     const struct media_mix mix = media_mix_inside(t, path->inside);
-    const struct media_way way = {path->o, path->d, s, path->inside, group, path->hash};
+    const struct media_way way = {path->o, path->d,    s,      path->inside,
+                                  group,   path->hash, t->slot};
     apply(t, path, &mix, &way);
 }
 
@@ -87,8 +89,8 @@ void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t gro
     const struct scene *scene = t->job->scene;
     arena_reset(t->media[WAY_EYE].arena);
     const struct media_mix mix = media_mix_of(scene->media, scene->media_count);
-    const struct media_way way = {path->o,      path->d, s,
-                                  path->inside, group,   hash_mix(path->hash, 11)};
+    const struct media_way way = {path->o, path->d, s, path->inside, group,
+                                  hash_mix(path->hash, MEDIA_AIR_HASH), t->slot};
     apply(t, path, &mix, &way);
 }
 
@@ -130,8 +132,13 @@ static struct rgb shadow_of(struct tracer *t, const struct media *const *media,
     if (mix.even) // none at all, too
         return rgb_of(media_even_pass(mix.everywhere.extinction, length));
     const struct media_way way = shadow_way(o, d, length);
-    struct media_march m = {
-        .t = t, .scratch = s, .mix = &mix, .way = &way, .depth_only = true};
+    struct media_walker w = {.way = &way};
+    struct media_march m = {.t = t,
+                            .scratch = s,
+                            .mix = &mix,
+                            .walker = &w,
+                            .walker_count = 1,
+                            .depth_only = true};
     m.interval = media_intervals(s->arena, &mix, length, NULL, 0, &m.interval_count);
     return rgb_of(media_walk(&m).pass);
 }
@@ -148,7 +155,7 @@ struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3
     return shadow_of(t, media, count, o, d, s);
 }
 
-static bool same_media(const struct inside *a, const struct inside *b)
+bool media_same(const struct inside *a, const struct inside *b)
 {
     for (; a && b; a = a->outer, b = b->outer)
         if (a->interior != b->interior)
@@ -167,11 +174,10 @@ static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
     const uint32_t most = media_stride(mix);
     struct media_way way[TOGETHER];
     uint32_t first[TOGETHER + 1] = {0}, n = 0;
-    struct vec3 pass[TOGETHER];
+    struct media_walker walker[TOGETHER];
+    struct media_result result[TOGETHER];
     struct media_interval *all = arena_new_array(s->arena, struct media_interval, most);
-    const struct media_way **way_of =
-        arena_new_array(s->arena, const struct media_way *, most);
-    for (; n < count && n < TOGETHER && (!n || same_media(ray[n].inside, ray[0].inside));
+    for (; n < count && n < TOGETHER && (!n || media_same(ray[n].inside, ray[0].inside));
          n++) {
         uint32_t intervals;
         way[n] = shadow_way(ray[n].o, ray[n].d, ray[n].s);
@@ -181,20 +187,22 @@ static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
             break;
         for (uint32_t k = 0; k < intervals; k++) {
             all[first[n] + k] = own[k];
-            way_of[first[n] + k] = &way[n];
+            all[first[n] + k].walker = n;
         }
+        walker[n] = (struct media_walker){.way = &way[n]};
         first[n + 1] = first[n] + intervals;
     }
     struct media_march m = {.t = t,
                             .scratch = s,
                             .mix = mix,
-                            .way_of = way_of,
+                            .walker = walker,
+                            .walker_count = n,
                             .interval = all,
                             .interval_count = first[n],
                             .depth_only = true};
-    media_walk_together(&m, first, n, pass);
+    media_walk_together(&m, first, result);
     for (uint32_t i = 0; i < n; i++)
-        ray[i].pass = rgb_of(pass[i]);
+        ray[i].pass = rgb_of(result[i].pass);
     return n;
 }
 
@@ -206,8 +214,8 @@ static uint32_t shadows_from(struct tracer *t, struct media_dark *ray, uint32_t 
     uint32_t all;
     const struct media *const *media = media_of(a, ray->inside, &all);
     const struct media_mix mix = dark_mix(a, media, all);
-    if (count > 1 && mix.count && media_goes_together(&mix) &&
-        same_media(ray[0].inside, ray[1].inside) &&
+    if (count > 1 && mix.count && media_goes_together(&mix, true) &&
+        media_same(ray[0].inside, ray[1].inside) &&
         (uint32_t)mix.rules->intervals <= media_stride(&mix))
         return walk_few(t, &mix, ray, count);
     ray->pass = media_shadow(t, ray->inside, ray->o, ray->d, ray->s);

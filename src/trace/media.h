@@ -16,6 +16,7 @@ struct media_way {
     const struct inside *inside;
     uint32_t group; // light group of what lies at its end; 0: none
     uint32_t hash;  // seeds what is random along it
+    uint32_t slot;  // of its ray
 };
 
 struct media_result {
@@ -25,10 +26,16 @@ struct media_result {
 
 // Whether the ray is in a medium of an object (spec/lighting.md 10.2).
 bool media_inside(const struct inside *list);
+// Whether rays with these lists are in the same media.
+bool media_same(const struct inside *a, const struct inside *b);
 // Adds the light of the media of the interiors to the slot, and filters the path.
 void media_apply(struct tracer *t, struct path *path, double s, uint32_t group);
 // The same of the media that fill the scene.
 void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t group);
+// The same for all rays of the wave; those that are in the same media are walked together
+// (media_wave.c). How far media of interiors reach is known of those that hit something.
+void media_wave(struct tracer *t);
+void media_air_wave(struct tracer *t);
 // What they let through of light on its way to a lamp.
 struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
                         struct vec3 d, double s);

@@ -2,91 +2,153 @@
 #include "trace/area.h"
 #include "trace/media_march.h"
 #include "trace/photons.h"
+#include "trace/shade_kernel.h"
 
-// What of a lamp reaches the samples that it lights, at most as many as fit a batch.
+// Samples that a lamp lights, and what of its light reaches them.
 struct lighting {
     struct media_march *m;
     const struct lamp *lamp;
-    uint8_t photons; // photons_instead_in_media
-    struct shadow_request request[64];
-    struct rgb factor[64];
-    uint32_t sample[64];
+    uint32_t sample[MEDIA_SAMPLES];
     uint32_t count;
+    double phase[MEDIA_SAMPLES];
+    float color[3][MEDIA_SAMPLES];
+    struct rgb factor[MEDIA_SAMPLES];
 };
 
 // The grids of all places together.
-static void area_lights(struct lighting *l)
+static void area_lights(struct lighting *l, const struct media_sample *sample)
 {
-    struct area_request place[64];
-    const struct area_request *at[64];
+    enum { SEEDS = 64 }; // samples of a way that are told apart by their numbers
+    struct tracer *t = l->m->t;
+    const struct ray_batch *b = t->near.rays;
+    struct area_request place[MEDIA_SAMPLES];
+    const struct area_request *at[MEDIA_SAMPLES];
     for (uint32_t i = 0; i < l->count; i++) {
-        const struct shadow_request *r = &l->request[i];
+        const struct media_sample *s = &sample[l->sample[i]];
+        const struct media_way *way = l->m->walker[l->m->interval[s->interval].walker].way;
         // A place in the open air: no surface to start from.
-        place[i] = (struct area_request){.lamp = l->lamp,
-                                         .p = r->o,
-                                         .slot = r->slot,
-                                         .hash = hash_mix(l->m->way->hash, ~l->sample[i]),
-                                         .photons = r->photons};
+        place[i] = (struct area_request){
+            .lamp = l->lamp,
+            .p = {b->o[0][i], b->o[1][i], b->o[2][i]},
+            .slot = way->slot,
+            .hash = hash_mix(way->hash, ~(s->number % SEEDS)),
+            .photons = t->near.photons[i]};
         at[i] = &place[i];
     }
-    area_shadows(l->m->t, at, l->count, l->factor);
+    area_shadows(t, at, l->count, l->factor);
 }
 
-static void shadows(struct lighting *l)
+static void shadows(struct lighting *l, const struct media_sample *sample)
 {
-    const struct job *job = l->m->t->job;
+    struct tracer *t = l->m->t;
     const struct light *light = l->lamp->light;
-    if (!job->shadows) {
+    if (!t->job->shadows) {
         for (uint32_t i = 0; i < l->count; i++)
             l->factor[i] = rgb(1, 1, 1);
-    } else if (light->area && job->area_lights) {
-        area_lights(l);
+    } else if (light->area && t->job->area_lights) {
+        area_lights(l, sample);
     } else if (light->projected_through) {
         for (uint32_t i = 0; i < l->count; i++)
-            l->factor[i] = projected_shadow(l->m->t, l->lamp, &l->request[i]);
+            l->factor[i] = projected_near(t, l->lamp, i);
     } else {
-        shadow_factors(l->m->t, l->request, l->count, l->factor);
+        shadow_factors_near(t, l->lamp->index, l->count, l->factor);
     }
 }
 
-static void ask(struct lighting *l, uint32_t sample, struct vec3 p)
+// The samples that the lamp may light become rays in `near`.
+static void ask(struct lighting *l, const struct media_lamp *const *reach,
+                const struct media_sample *sample, uint32_t count)
 {
-    struct lamp_view view;
-    if (!lamp_view(l->lamp, l->lamp->light->location, p, &view))
+    const struct media_march *m = l->m;
+    struct shadow_batch *b = &m->t->near;
+    const uint8_t photons = photons_instead_in_media(m->t->job, m->mix, l->lamp->light);
+    l->count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct media_interval *v = &m->interval[sample[i].interval];
+        const struct media_lamp *lamp = reach[v->walker];
+        if (!v->lit || !lamp || sample[i].t < lamp->begin || sample[i].t > lamp->end)
+            continue;
+        const uint32_t n = l->count++;
+        const struct media_way *way = m->walker[v->walker].way;
+        const struct vec3 p = vec3_mad(way->o, sample[i].t, way->d);
+        l->sample[n] = i;
+        b->rays->o[0][n] = p.x;
+        b->rays->o[1][n] = p.y;
+        b->rays->o[2][n] = p.z;
+        b->slot[n] = (uint16_t)way->slot;
+        b->photons[n] = photons;
+    }
+}
+
+// Leaves out those that the lamp does not shine on.
+static void keep_lit(struct lighting *l)
+{
+    struct shadow_batch *b = &l->m->t->near;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < l->count; i++) {
+        if (!b->occluded[i]) {
+            for (int a = 0; a < 3; a++) {
+                b->rays->o[a][n] = b->rays->o[a][i];
+                b->rays->d[a][n] = b->rays->d[a][i];
+                l->color[a][n] = l->color[a][i];
+            }
+            b->rays->t_max[n] = b->rays->t_max[i];
+            b->slot[n] = b->slot[i];
+            l->sample[n++] = l->sample[i];
+        }
+    }
+    l->count = n;
+}
+
+static void samples_lit(struct lighting *l, struct media_sample *sample,
+                        const struct media_point *point)
+{
+    const struct media_march *m = l->m;
+    struct shadow_batch *b = &m->t->near;
+    if (m->t->job->kernels->views(l->lamp, l->count, b->rays, b->occluded, &l->color[0][0],
+                                  MEDIA_SAMPLES))
+        keep_lit(l);
+    if (!l->count)
         return;
-    l->sample[l->count] = sample;
-    l->request[l->count++] = (struct shadow_request){.o = p,
-                                                     .d = view.l,
-                                                     .t_max = view.distance,
-                                                     .value = view.color,
-                                                     .inside = l->m->way->inside,
-                                                     .slot = l->m->t->slot,
-                                                     .lamp = l->lamp->index,
-                                                     .photons = l->photons};
+    for (uint32_t i = 0; i < l->count; i++) {
+        const struct media_sample *s = &sample[l->sample[i]];
+        const struct media_way *way = m->walker[m->interval[s->interval].walker].way;
+        const struct vec3 d = {b->rays->d[0][i], b->rays->d[1][i], b->rays->d[2][i]};
+        l->phase[i] = media_phase(m->mix, vec3_dot(d, way->d));
+    }
+    shadows(l, sample);
+    for (uint32_t i = 0; i < l->count; i++) {
+        struct media_sample *s = &sample[l->sample[i]];
+        const struct rgb color = {l->color[0][i], l->color[1][i], l->color[2][i]};
+        s->light =
+            vec3_mad(s->light, l->phase[i],
+                     vec3_mul(vec3_of_rgb(rgb_mul(color, l->factor[i])),
+                              point[l->sample[i]].scattering));
+    }
 }
 
 void media_samples_lit(struct media_march *m, struct media_sample *sample,
                        const struct media_point *point, uint32_t count)
 {
+    const struct lamp_list *all = &m->t->job->lamps[m->walker[0].way->group];
+    const struct media_lamp *reach[BATCH_SIZE]; // of each walker
+    uint32_t next[BATCH_SIZE];                  // of each walker's lamps, in their order
     struct lighting l = {.m = m};
-    for (uint32_t k = 0; k < m->lamp_count; k++) {
-        const struct media_lamp *lamp = &m->lamp[k];
-        l.lamp = lamp->lamp;
-        l.photons = photons_instead_in_media(m->t->job, m->mix, l.lamp->light);
-        l.count = 0;
-        for (uint32_t i = 0; i < count; i++)
-            if (m->interval[sample[i].interval].lit && sample[i].t >= lamp->begin &&
-                sample[i].t <= lamp->end)
-                ask(&l, i, vec3_mad(m->way->o, sample[i].t, m->way->d));
-        if (!l.count)
-            continue;
-        shadows(&l);
-        for (uint32_t i = 0; i < l.count; i++) {
-            const double phase = media_phase(m->mix, vec3_dot(l.request[i].d, m->way->d));
-            const struct vec3 c = vec3_of_rgb(rgb_mul(l.request[i].value, l.factor[i]));
-            struct media_sample *s = &sample[l.sample[i]];
-            s->light =
-                vec3_mad(s->light, phase, vec3_mul(c, point[l.sample[i]].scattering));
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        next[i] = 0;
+    for (uint32_t k = 0; k < all->count; k++) {
+        bool any = false;
+        l.lamp = all->lamp[k];
+        for (uint32_t i = 0; i < m->walker_count; i++) {
+            const struct media_walker *w = &m->walker[i];
+            const bool lights = next[i] < w->lamp_count && w->lamp[next[i]].lamp == l.lamp;
+            reach[i] = lights ? &w->lamp[next[i]++] : NULL;
+            any |= lights;
         }
+        if (!any)
+            continue;
+        ask(&l, reach, sample, count);
+        if (l.count)
+            samples_lit(&l, sample, point);
     }
 }

@@ -141,7 +141,7 @@ static uint32_t pieces_of(struct arena *a, const struct media_lamp *lamp, uint32
         arena_new_array(a, struct media_interval, 2 * (size_t)count + 1);
     for (uint32_t i = 0; i < count; i++)
         lit[i] =
-            (struct media_interval){lamp[i].begin, lamp[i].end - lamp[i].begin, true};
+            (struct media_interval){lamp[i].begin, lamp[i].end - lamp[i].begin, true, 0};
     if (!is_sorted(lit, count))
         qsort(lit, count, sizeof *lit, by_begin);
     uint32_t n = 0;
@@ -149,17 +149,17 @@ static uint32_t pieces_of(struct arena *a, const struct media_lamp *lamp, uint32
     for (uint32_t i = 0; i < count; i++) {
         const double begin = lit[i].begin, end = begin + lit[i].length;
         if (begin > done)
-            piece[n++] = (struct media_interval){done, begin - done, false};
+            piece[n++] = (struct media_interval){done, begin - done, false, 0};
         if (n && piece[n - 1].lit && begin <= done) {
             if (end > done)
                 piece[n - 1].length = end - piece[n - 1].begin;
         } else {
-            piece[n++] = (struct media_interval){begin, end - begin, true};
+            piece[n++] = (struct media_interval){begin, end - begin, true, 0};
         }
         done = end > done ? end : done;
     }
     if (done < s || !n)
-        piece[n++] = (struct media_interval){done, s - done, false};
+        piece[n++] = (struct media_interval){done, s - done, false, 0};
     *out = piece;
     return n;
 }
@@ -171,7 +171,7 @@ static void divide(struct media_interval *to, const struct media_interval *piece
 {
     const double length = piece->length / n;
     for (uint32_t i = 0; i < n; i++)
-        to[i] = (struct media_interval){piece->begin + i * length, length, piece->lit};
+        to[i] = (struct media_interval){piece->begin + i * length, length, piece->lit, 0};
 }
 
 struct media_interval *media_intervals(struct arena *a, const struct media_mix *mix,

@@ -13,6 +13,7 @@ struct media_lamp {
 struct media_interval {
     double begin, length;
     bool lit;
+    uint32_t walker; // whose it is, where several ways are walked together
 };
 
 // The lamps of a light group that reach the stretch; returns how many.

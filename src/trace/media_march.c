@@ -14,9 +14,14 @@ static void *grow(void *at, uint32_t capacity, size_t size)
     return at;
 }
 
-static double drawn(struct media_march *m)
+static struct media_walker *walker_of(const struct media_march *m, uint32_t interval)
 {
-    return hash_unit(hash_mix(m->way->hash, ++m->drawn));
+    return &m->walker[m->interval[interval].walker];
+}
+
+static double drawn(struct media_walker *w)
+{
+    return hash_unit(hash_mix(w->way->hash, ++w->drawn));
 }
 
 // What passes ends in colours: single precision will do. Most media are grey, or dim nothing.
@@ -38,18 +43,18 @@ static uint32_t sample_add(struct media_march *m, uint32_t interval, double t)
         s->sample_capacity = s->sample_capacity ? 2 * s->sample_capacity : 256;
         s->sample = grow(s->sample, s->sample_capacity, sizeof *s->sample);
     }
-    s->sample[s->sample_count] = (struct media_sample){.t = t, .interval = interval};
+    s->sample[s->sample_count] = (struct media_sample){
+        .t = t, .interval = interval, .number = walker_of(m, interval)->asked++};
     return s->sample_count++;
 }
 
 static void samples_eval_few(struct media_march *m, struct media_sample *sample,
                              uint32_t count)
 {
-    enum { FEW = 64 };
-    struct media_at at[FEW];
-    struct media_point p[FEW];
+    struct media_at at[MEDIA_SAMPLES];
+    struct media_point p[MEDIA_SAMPLES];
     for (uint32_t i = 0; i < count; i++) {
-        const struct media_way *way = m->way_of ? m->way_of[sample[i].interval] : m->way;
+        const struct media_way *way = walker_of(m, sample[i].interval)->way;
         at[i] = (struct media_at){way->o, way->d, sample[i].t};
         p[i] = m->mix->everywhere;
     }
@@ -74,10 +79,12 @@ static void samples_eval_few(struct media_march *m, struct media_sample *sample,
 // Finds what is at the samples from `first` on.
 static void samples_eval(struct media_march *m, uint32_t first)
 {
-    enum { FEW = 64 };
     const uint32_t count = m->scratch->sample_count;
-    for (uint32_t i = first; i < count; i += FEW)
-        samples_eval_few(m, m->scratch->sample + i, count - i < FEW ? count - i : FEW);
+    for (uint32_t i = first; i < count; i += MEDIA_SAMPLES)
+        samples_eval_few(m, m->scratch->sample + i,
+                         count - i < MEDIA_SAMPLES ? count - i : MEDIA_SAMPLES);
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        m->walker[i].asked = 0;
 }
 
 // ---- method 3 --------------------------------------------------------------------------
@@ -96,7 +103,7 @@ static uint32_t span_add(struct media_march *m, uint32_t first, uint32_t last)
     const double jitter = (double)m->mix->rules->jitter;
     double t = (a.t + b.t) / 2;
     if (jitter != 0)
-        t += jitter * (b.t - a.t) * (drawn(m) - 0.5);
+        t += jitter * (b.t - a.t) * (drawn(walker_of(m, a.interval)) - 0.5);
     if (s->span_count == s->span_capacity) {
         s->span_capacity = s->span_capacity ? 2 * s->span_capacity : 256;
         s->span = grow(s->span, s->span_capacity, sizeof *s->span);
@@ -181,7 +188,7 @@ static void interval_begin(struct media_march *m, uint32_t k, uint32_t parts)
     for (uint32_t j = 0; j <= parts; j++) {
         double q = j * step;
         if (jitter != 0)
-            q += step * jitter * (drawn(m) - 0.5);
+            q += step * jitter * (drawn(&m->walker[v->walker]) - 0.5);
         const uint32_t sample = sample_add(m, k, v->begin + q * v->length);
         if (j)
             span_add(m, before, sample);
@@ -274,7 +281,7 @@ static const struct media_threshold *threshold_of(const struct job *job,
 
 static double random_place(struct media_march *m, const struct media_interval *v)
 {
-    return v->begin + drawn(m) * v->length;
+    return v->begin + drawn(&m->walker[v->walker]) * v->length;
 }
 
 static void more_samples(struct media_march *m, uint32_t k, struct spread *sum)
@@ -303,7 +310,7 @@ static void straight(struct media_march *m, uint32_t begin, uint32_t end,
             } else {
                 double q = j + 0.5;
                 if (jitter != 0)
-                    q += jitter * drawn(m);
+                    q += jitter * drawn(&m->walker[v->walker]);
                 t = v->begin + q / n * v->length;
             }
             sample_add(m, k, t);
@@ -338,7 +345,7 @@ static void uniform(const struct media_march *m, struct total *all)
 {
     const uint32_t parts = parts_of(m->mix->rules);
     if (m->depth_only || !m->mix->emits) {
-        all->depth = vec3_scale(m->way->s, m->mix->everywhere.extinction);
+        all->depth = vec3_scale(m->walker->way->s, m->mix->everywhere.extinction);
         return;
     }
     for (uint32_t k = 0; k < m->interval_count; k++) {
@@ -367,21 +374,28 @@ uint32_t media_stride(const struct media_mix *mix)
     return each >= SAMPLES ? 1 : SAMPLES / each;
 }
 
-bool media_goes_together(const struct media_mix *mix)
+// Media that need no samples (uniform).
+static bool is_uniform(const struct media_mix *mix, bool depth_only)
 {
-    return !mix->even && mix->rules->method == 3 && mix->rules->jitter == 0;
+    return mix->even && (depth_only || !mix->scatters) &&
+           (depth_only || !mix->emits || mix->rules->method == 3);
 }
 
-void media_walk_together(struct media_march *m, const uint32_t *first, uint32_t count,
-                         struct vec3 *pass)
+bool media_goes_together(const struct media_mix *mix, bool depth_only)
+{
+    return !is_uniform(mix, depth_only) && mix->rules->method == 3;
+}
+
+void media_walk_together(struct media_march *m, const uint32_t *first,
+                         struct media_result *out)
 {
     const uint32_t parts = parts_of(m->mix->rules);
-    adaptive_samples(m, 0, first[count]);
-    for (uint32_t i = 0; i < count; i++) {
+    adaptive_samples(m, 0, m->interval_count);
+    for (uint32_t i = 0; i < m->walker_count; i++) {
         struct total all = {{0, 0, 0}, {0, 0, 0}};
         for (uint32_t k = first[i]; k < first[i + 1]; k++)
             interval_end(m, k * parts, parts, &all);
-        pass[i] = exp_minus(all.depth);
+        out[i] = (struct media_result){all.light, exp_minus(all.depth)};
     }
 }
 
@@ -391,8 +405,7 @@ struct media_result media_walk(struct media_march *m)
     static const double opaque = 100;
     struct total all = {{0, 0, 0}, {0, 0, 0}};
     const int method = m->mix->rules->method;
-    if (m->mix->even && (m->depth_only || !m->mix->scatters) &&
-        (m->depth_only || !m->mix->emits || method == 3)) {
+    if (is_uniform(m->mix, m->depth_only)) {
         uniform(m, &all);
     } else {
         const uint32_t stride = media_stride(m->mix);

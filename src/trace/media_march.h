@@ -8,6 +8,7 @@
 struct media_sample {
     double t;
     uint32_t interval;
+    uint32_t number; // among those of its way that are found together
     struct vec3 light, depth;
 };
 
@@ -29,6 +30,10 @@ struct media_scratch {
     struct vec3 air_extinction;
 };
 
+enum { WAY_EYE, WAY_SHADOW }; // whose scratch it is
+// Tells the random numbers of media that fill the scene from those of a ray's interiors.
+enum { MEDIA_AIR_HASH = 11 };
+
 // How the settings of a medium end the random samples of methods 1 and 2: [n], the variance
 // of the mean at which n samples are enough (spec/lighting.md 10.5). Of each that has them.
 struct media_threshold {
@@ -37,34 +42,45 @@ struct media_threshold {
     uint32_t most; // samples
 };
 
-// One walk along a stretch.
+// One way that is walked, and the lamps that light it.
+struct media_walker {
+    const struct media_way *way;
+    const struct media_lamp *lamp;
+    uint32_t lamp_count;
+    uint32_t drawn; // random numbers so far
+    uint32_t asked; // samples that are found together, so far
+};
+
+// Walks along stretches of the same media, whose ends belong to the same light group.
 struct media_march {
     struct tracer *t;
     struct media_scratch *scratch;
     const struct media_mix *mix;
-    const struct media_way *way;
-    const struct media_way *const *way_of; // of each interval; NULL: `way` is that of all
+    struct media_walker *walker;
     const struct media_interval *interval;
-    const struct media_lamp *lamp;
-    uint32_t interval_count, lamp_count;
-    uint32_t drawn;  // random numbers so far
+    uint32_t walker_count, interval_count;
     bool depth_only; // light is not asked for
 };
 
+enum { MEDIA_SAMPLES = 512 }; // that are found together at most
+
+// Of one walker.
 struct media_result media_walk(struct media_march *m);
 // What media_walk lets pass of a mix that is the same everywhere, when only depths are asked
 // for.
 struct vec3 media_even_pass(struct vec3 extinction, double s);
 
-// Whether several ways through the mix may be walked together: nothing about them is random.
-bool media_goes_together(const struct media_mix *mix);
-// The way of each interval is known and only depths are asked for: what the ways let
-// through, way i by the intervals from first[i] to before first[i + 1]. The same as
-// media_walk of each.
-void media_walk_together(struct media_march *m, const uint32_t *first, uint32_t count,
-                         struct vec3 *pass);
+// Whether several ways through the mix may be walked together.
+bool media_goes_together(const struct media_mix *mix, bool depth_only);
+// The same as media_walk of each walker; i has the intervals from first[i] to before
+// first[i + 1], at most media_stride.
+void media_walk_together(struct media_march *m, const uint32_t *first,
+                         struct media_result *out);
 // Intervals that are walked at once, at most.
 uint32_t media_stride(const struct media_mix *mix);
+
+// A way to the eye and what lights it; in the arena of its scratch.
+struct media_walker media_walker(struct tracer *t, const struct media_way *way);
 
 // Light that reaches samples from the lamps: added to their `light` (media_light.c).
 void media_samples_lit(struct media_march *m, struct media_sample *sample,

@@ -97,7 +97,8 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
         return;
     for (uint32_t k = 0; k < count; k++) {
         double reach;
-        const struct vec3 p = vec3_mad(m->way->o, sample[k].t, m->way->d);
+        const struct media_way *way = m->walker[m->interval[sample[k].interval].walker].way;
+        const struct vec3 p = vec3_mad(way->o, sample[k].t, way->d);
         const uint32_t n =
             photons_gather(&photons->media, &photons->gather, p, none, near, &reach);
         struct vec3 sum = {0, 0, 0};
@@ -105,7 +106,7 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
             const struct photon *x = &photons->media.photon[near->photon[i]];
             const struct vec3 from = {(double)x->from[0], (double)x->from[1],
                                       (double)x->from[2]};
-            sum = vec3_mad(sum, media_phase(m->mix, vec3_dot(from, m->way->d)),
+            sum = vec3_mad(sum, media_phase(m->mix, vec3_dot(from, way->d)),
                            vec3_of_rgb(x->energy));
         }
         if (n && reach > 0)

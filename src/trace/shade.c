@@ -129,7 +129,7 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
                    uint32_t part_count, const struct rgb *known)
 {
     struct path here = *path;
-    if (t->job->has_media) {
+    if (t->job->has_media && t->job->general) { // else media_wave has been there
         const struct world *w = t->job->world;
         media_apply(t, &here, hit->b.t,
                     w->surface[w->leaf[hit->b.leaf].surface].light_group);

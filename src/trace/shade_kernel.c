@@ -337,6 +337,33 @@ static void own_sheets(struct tracer *t, const struct paint_group *g)
                          sheet_own(t->job, &s[i])));
 }
 
+static bool views(const struct lamp *lamp, uint32_t count, struct ray_batch *rays,
+                  uint8_t *dark, float *color, uint32_t stride)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < count; i += 8) {
+        const struct vec8 p = {r8_load(rays->o[0] + i), r8_load(rays->o[1] + i),
+                               r8_load(rays->o[2] + i)};
+        struct light8 v = direction8(lamp, p);
+        double at[3][8];
+        v8_store(at, p);
+        const struct real8 factor = attenuation8(lamp, (const double(*)[8])at, &v);
+        const unsigned none = m8_bits(r8_eq(factor, r8_set(0)));
+        const struct rgb8 c = rgb8_scale(f8_of(factor), v.color);
+        r8_store(rays->d[0] + i, v.to.x);
+        r8_store(rays->d[1] + i, v.to.y);
+        r8_store(rays->d[2] + i, v.to.z);
+        r8_store(rays->t_max + i, v.distance);
+        f8_store(color + i, c.r);
+        f8_store(color + stride + i, c.g);
+        f8_store(color + 2 * stride + i, c.b);
+        for (uint32_t k = 0; k < 8; k++)
+            dark[i + k] = none >> k & 1;
+        any |= none;
+    }
+    return any;
+}
+
 // ---- sums ---------------------------------------------------------------------------------
 
 static void lit(struct wavefront *w, const struct shadow_batch *b, uint32_t count)
@@ -424,7 +451,8 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     bounce,        lit,
     sums,          exps,
     meets,         fogs,
-    toward,        points,
+    toward,        views,
+    points,
     texture_space, world_normals,
     sheet_pass,    own_sheets,
     light_sheets};

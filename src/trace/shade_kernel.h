@@ -57,6 +57,11 @@ struct shade_kernels {
     // The rays to points of an area light: as area_point, lamp_direction and trace_offset say.
     void (*toward)(const struct lamp *lamp, const struct area_places *places,
                    const struct area_ray *ray, uint32_t count, struct ray_batch *out);
+    // The ways from the origins of the rays to a lamp, and its colour there, red, green, blue
+    // each `stride` behind the other: as lamp_view says. dark: where that is false; returns
+    // whether it is anywhere. Arrays have room for eight more.
+    bool (*views)(const struct lamp *lamp, uint32_t count, struct ray_batch *rays,
+                  uint8_t *dark, float *color, uint32_t stride);
     // ---- painted hits (trace/paint.h)
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,

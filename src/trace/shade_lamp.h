@@ -72,7 +72,7 @@ LANES_INLINE struct real8 spot8(const struct lamp *lamp, const struct light8 *v)
     return r8_select(ahead, factor, r8_set(0));
 }
 
-static struct real8 cylinders(const struct lamp *lamp, const struct simple_group *g,
+static struct real8 cylinders(const struct lamp *lamp, const double p[3][8],
                               const struct light8 *v)
 {
     double to[3][8], distance[8], factor[8];
@@ -82,30 +82,33 @@ static struct real8 cylinders(const struct lamp *lamp, const struct simple_group
         const struct lamp_view one = {
             {to[0][i], to[1][i], to[2][i]}, distance[i], lamp->light->color};
         factor[i] = lamp_attenuation(lamp, lamp->light->location,
-                                     vec3(g->p[0][i], g->p[1][i], g->p[2][i]), &one);
+                                     vec3(p[0][i], p[1][i], p[2][i]), &one);
     }
     return r8_load(factor);
 }
 
-// The rest of lamp_view (lamp_attenuation); returns the lanes that are lit.
+// lamp_attenuation.
+LANES_INLINE struct real8 attenuation8(const struct lamp *lamp, const double p[3][8],
+                                       const struct light8 *v)
+{
+    const struct light *l = lamp->light;
+    if (l->kind == LIGHT_CYLINDER)
+        return cylinders(lamp, p, v); // with its fading
+    struct real8 factor = l->kind == LIGHT_SPOT ? spot8(lamp, v) : r8_set(1);
+    if (l->fade_power > 0 && l->fade_distance != 0)
+        factor = r8_mul(
+            factor,
+            r8_div(r8_set(2),
+                   r8_add(r8_set(1), power8(r8_div(v->distance, r8_set(l->fade_distance)),
+                                            l->fade_power))));
+    return factor;
+}
+
+// The rest of lamp_view; returns the lanes that are lit.
 LANES_INLINE unsigned attenuate(const struct lamp *lamp, const struct simple_group *g,
                                 struct light8 *v)
 {
-    const struct light *l = lamp->light;
-    struct real8 factor = r8_set(1);
-    if (l->kind == LIGHT_CYLINDER) {
-        factor = cylinders(lamp, g, v); // with its fading
-    } else {
-        if (l->kind == LIGHT_SPOT)
-            factor = spot8(lamp, v);
-        if (l->fade_power > 0 && l->fade_distance != 0)
-            factor =
-                r8_mul(factor,
-                       r8_div(r8_set(2),
-                              r8_add(r8_set(1),
-                                     power8(r8_div(v->distance, r8_set(l->fade_distance)),
-                                            l->fade_power))));
-    }
+    const struct real8 factor = attenuation8(lamp, (const double(*)[8])g->p, v);
     const unsigned dark = m8_bits(r8_eq(factor, r8_set(0)));
     if (dark == 255)
         return 0;

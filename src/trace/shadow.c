@@ -260,11 +260,16 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
     }
 }
 
+// Whether something that fills the scene may dim the light of lamps.
+static bool has_dimming_air(const struct job *job)
+{
+    return job->atmosphere && (job->scene->fog_count || job->has_air_media);
+}
+
 bool air_counts(const struct job *job, uint32_t lamp)
 {
     const struct light *light = job->lamp[lamp].light;
-    return light->media_attenuation && light->media_interaction && job->atmosphere &&
-           (job->scene->fog_count || job->has_air_media);
+    return light->media_attenuation && light->media_interaction && has_dimming_air(job);
 }
 
 // What passes of light that nothing stops and that the air dims.
@@ -365,7 +370,7 @@ void shadow_flush_simple(struct tracer *t, uint32_t count)
 {
     struct shadow_batch *b = &t->simple;
     double air_end[BATCH_SIZE];
-    const bool air = t->job->has_air;
+    const bool air = has_dimming_air(t->job);
     for (uint32_t k = 0; k < count && air; k++)
         air_end[k] = b->air[k] ? b->rays->t_max[k] : 0;
     batch_trace(t, b, count, air ? air_end : NULL);
@@ -418,7 +423,7 @@ void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t c
         shadow_put(b, i, &r[i]);
         air_end[i] = air_end_of(t->job, &r[i]);
     }
-    batch_trace(t, b, count, t->job->has_air ? air_end : NULL);
+    batch_trace(t, b, count, has_dimming_air(t->job) ? air_end : NULL);
     for (uint32_t i = 0; i < count; i++)
         out[i] = !(r[i].t_max > 0) ? all
                  : b->occluded[i]  ? none
@@ -473,7 +478,7 @@ void shadow_flush(struct tracer *t)
         shadow_put(b, t->shadow_order[i], &t->shadow[i]);
         air_end[t->shadow_order[i]] = air_end_of(t->job, &t->shadow[i]);
     }
-    batch_trace(t, b, count, t->job->has_air ? air_end : NULL);
+    batch_trace(t, b, count, has_dimming_air(t->job) ? air_end : NULL);
     t->shadow_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t k = t->shadow_order[i];

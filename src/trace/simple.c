@@ -9,7 +9,6 @@
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
 #include "trace/indirect_lanes.h"
-#include "trace/media.h"
 #include "trace/packet.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
@@ -187,8 +186,7 @@ void simple_compile(struct job *job, struct arena *a)
     job->quick_camera =
         !general && !collects && !camera_has_lens(c) && c->kind != CAMERA_MESH;
     job->asks_in_order = collects && job->settings.purpose == RENDER_GATHER;
-    if (general || (collects && !job->asks_in_order) || job->has_air_media ||
-        !job->lights || !job->pigments || !(1 > job->adc_bailout))
+    if (general || (collects && !job->asks_in_order) || !job->lights || !job->pigments || !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
         arena_new_array(a, struct simple_surface, w->surface_count + 1);
@@ -258,7 +256,7 @@ void simple_end(struct tracer *t)
 bool simple_take(struct tracer *t, uint32_t k, uint32_t count)
 {
     const struct job *job = t->job;
-    if (!job->simple || (job->has_media && media_inside(wave_inside(t, t->wave.slot[k]))))
+    if (!job->simple)
         return false;
     const uint32_t class = job->simple[job->world->leaf[t->hit->leaf[k]].surface].class;
     if (class == SIMPLE_NONE)

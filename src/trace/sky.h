@@ -18,7 +18,8 @@ void sky_colors(const struct job *job, const double d[3][8], uint32_t count,
 static const double air_far = 2e10;
 // What lies between the beginnings of the wave's rays and what they hit: adds the light of
 // fogs, media and rainbows, and filters what the rays bring from there on (spec/lighting.md
-// 9.2, 9.3, 10). Fogs of eight rays at a time by the kernels' `fogs`.
+// 9.2, 9.3, 10). Fogs of eight rays at a time by the kernels' `fogs`; media of interiors are
+// left to shade_painted by the general rule.
 void air_wave(struct tracer *t);
 // A rainbow as rays see it.
 struct bow {
