@@ -14,14 +14,23 @@ struct density_grid {
 
 // Points into data, which must outlive it. False: the length does not fit the sizes.
 bool density_grid_init(struct density_grid *g, const uint8_t *data, size_t size);
-// 0 to 1; the indices must be inside.
-static inline double density_grid_sample(const struct density_grid *g, size_t at)
+// A sample as it stands, 0 to density_grid_most; the indices must be inside.
+static inline uint32_t density_grid_raw(const struct density_grid *g, size_t at)
 {
     const uint8_t *b = g->sample + at * g->width;
     uint32_t v = b[0];
     for (uint32_t i = 1; i < g->width; i++)
         v = v << 8 | b[i];
-    return v / (double)(UINT32_MAX >> (32 - 8 * g->width));
+    return v;
+}
+static inline double density_grid_most(const struct density_grid *g)
+{
+    return UINT32_MAX >> (32 - 8 * g->width);
+}
+// 0 to 1.
+static inline double density_grid_sample(const struct density_grid *g, size_t at)
+{
+    return density_grid_raw(g, at) / density_grid_most(g);
 }
 // The number of a sample.
 static inline size_t density_grid_place(const struct density_grid *g, uint32_t x,

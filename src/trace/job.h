@@ -71,6 +71,8 @@ struct job {
     bool has_media, has_air_media; // somewhere; filling the scene
     const struct media_threshold *media_threshold;
     uint32_t media_threshold_count;
+    const struct media_tapes *media_tapes; // of all media, by their addresses
+    uint32_t media_tapes_count;
     const struct surface_kernels *surface_kernels;
     // Of the sky's pigments (trace/sky.h); NULL: its colours are found one by one.
     const struct pigment_tape *const *sky_tape;

@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "scene/effects.h"
+#include "scene/pigment_tape.h"
 #include "scene/texture.h"
 #include "trace/inside.h"
 #include "trace/lens.h"
@@ -89,8 +90,9 @@ void media_air_apply(struct tracer *t, struct path *path, double s, uint32_t gro
     const struct scene *scene = t->job->scene;
     arena_reset(t->media[WAY_EYE].arena);
     const struct media_mix mix = media_mix_of(scene->media, scene->media_count);
-    const struct media_way way = {path->o, path->d, s, path->inside, group,
-                                  hash_mix(path->hash, MEDIA_AIR_HASH), t->slot};
+    const struct media_way way = {
+        path->o, path->d, s, path->inside, group, hash_mix(path->hash, MEDIA_AIR_HASH),
+        t->slot};
     apply(t, path, &mix, &way);
 }
 
@@ -286,6 +288,7 @@ struct gathering {
     struct arena *arena;
     struct media_threshold *all;
     uint32_t count, wanted;
+    const struct media **media; // count of them
 };
 
 static void count_one(void *user, const struct media *m)
@@ -306,6 +309,39 @@ static void take_one(void *user, const struct media *m)
     threshold_add(g->job, g->arena, g->all, m);
 }
 
+static void note_one(void *user, const struct media *m)
+{
+    struct gathering *g = user;
+    g->media[g->count++] = m;
+}
+
+static int by_address(const void *a, const void *b)
+{
+    const struct media *const *p = a, *const *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+static void tapes_compile(struct gathering *g)
+{
+    struct pigment_compiler c = {.arena = g->arena};
+    struct media_tapes *all = arena_new_array(g->arena, struct media_tapes, g->count);
+    g->media = arena_new_array(g->arena, const struct media *, g->count);
+    g->count = 0;
+    each_media(g->job, note_one, g);
+    qsort(g->media, g->count, sizeof *g->media, by_address);
+    for (uint32_t i = 0; i < g->count; i++) {
+        const struct media *m = g->media[i];
+        if (i && m == g->media[i - 1])
+            continue;
+        const struct pigment_tape **tape =
+            arena_new_array(g->arena, const struct pigment_tape *, m->density_count + 1);
+        for (uint32_t k = 0; k < m->density_count; k++)
+            tape[k] = pigment_compile(&c, m->density[k]);
+        all[g->job->media_tapes_count++] = (struct media_tapes){m, tape};
+    }
+    g->job->media_tapes = all;
+}
+
 void media_compile(struct job *job, struct arena *a)
 {
     struct gathering g = {.job = job, .arena = a};
@@ -316,6 +352,8 @@ void media_compile(struct job *job, struct arena *a)
     each_media(job, count_one, &g);
     job->has_media = g.count > 0;
     job->has_air_media = job->scene->media_count > 0;
+    if (g.count)
+        tapes_compile(&g);
     if (!g.wanted)
         return;
     g.all = arena_new_array(a, struct media_threshold, g.wanted);

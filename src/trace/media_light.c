@@ -25,14 +25,15 @@ static void area_lights(struct lighting *l, const struct media_sample *sample)
     const struct area_request *at[MEDIA_SAMPLES];
     for (uint32_t i = 0; i < l->count; i++) {
         const struct media_sample *s = &sample[l->sample[i]];
-        const struct media_way *way = l->m->walker[l->m->interval[s->interval].walker].way;
+        const struct media_way *way =
+            l->m->walker[l->m->interval[s->interval].walker].way;
         // A place in the open air: no surface to start from.
-        place[i] = (struct area_request){
-            .lamp = l->lamp,
-            .p = {b->o[0][i], b->o[1][i], b->o[2][i]},
-            .slot = way->slot,
-            .hash = hash_mix(way->hash, ~(s->number % SEEDS)),
-            .photons = t->near.photons[i]};
+        place[i] =
+            (struct area_request){.lamp = l->lamp,
+                                  .p = {b->o[0][i], b->o[1][i], b->o[2][i]},
+                                  .slot = way->slot,
+                                  .hash = hash_mix(way->hash, ~(s->number % SEEDS)),
+                                  .photons = t->near.photons[i]};
         at[i] = &place[i];
     }
     area_shadows(t, at, l->count, l->factor);
@@ -105,8 +106,8 @@ static void samples_lit(struct lighting *l, struct media_sample *sample,
 {
     const struct media_march *m = l->m;
     struct shadow_batch *b = &m->t->near;
-    if (m->t->job->kernels->views(l->lamp, l->count, b->rays, b->occluded, &l->color[0][0],
-                                  MEDIA_SAMPLES))
+    if (m->t->job->kernels->views(l->lamp, l->count, b->rays, b->occluded,
+                                  &l->color[0][0], MEDIA_SAMPLES))
         keep_lit(l);
     if (!l->count)
         return;
@@ -120,10 +121,9 @@ static void samples_lit(struct lighting *l, struct media_sample *sample,
     for (uint32_t i = 0; i < l->count; i++) {
         struct media_sample *s = &sample[l->sample[i]];
         const struct rgb color = {l->color[0][i], l->color[1][i], l->color[2][i]};
-        s->light =
-            vec3_mad(s->light, l->phase[i],
-                     vec3_mul(vec3_of_rgb(rgb_mul(color, l->factor[i])),
-                              point[l->sample[i]].scattering));
+        s->light = vec3_mad(s->light, l->phase[i],
+                            vec3_mul(vec3_of_rgb(rgb_mul(color, l->factor[i])),
+                                     point[l->sample[i]].scattering));
     }
 }
 
@@ -141,7 +141,8 @@ void media_samples_lit(struct media_march *m, struct media_sample *sample,
         l.lamp = all->lamp[k];
         for (uint32_t i = 0; i < m->walker_count; i++) {
             const struct media_walker *w = &m->walker[i];
-            const bool lights = next[i] < w->lamp_count && w->lamp[next[i]].lamp == l.lamp;
+            const bool lights =
+                next[i] < w->lamp_count && w->lamp[next[i]].lamp == l.lamp;
             reach[i] = lights ? &w->lamp[next[i]++] : NULL;
             any |= lights;
         }

@@ -90,21 +90,37 @@ static void density_alone(const struct pigment *p, const struct places *w,
     }
 }
 
-// Patterns with a colour map have a form for eight points (scene/pigment_tape.h).
+static const struct pigment_tape *const *tapes_of(const struct job *job,
+                                                  const struct media *m)
+{
+    uint32_t low = 0, high = job->media_tapes_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (job->media_tapes[middle].media <= m)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high && job->media_tapes[low].media == m ? job->media_tapes[low].tape : NULL;
+}
+
+// The densities' tapes run through eight points at once (scene/pigment_tape.h).
 static void density_times(const struct job *job, const struct pigment *p,
-                          const struct places *w, double out[3][8])
+                          const struct pigment_tape *tape, const struct places *w,
+                          double out[3][8])
 {
     enum { WORTH = 3 };
-    float c[3][8];
-    if (p->kind != PIGMENT_COLORS || w->count < WORTH) {
+    float c[5][8];
+    if (!tape || w->count < WORTH) {
         density_alone(p, w, out);
         return;
     }
     const struct pattern_packet packet = {w->at, w->normal, w->ray_d, NULL};
-    pigment_colors8(job->surface_kernels, p, &packet, w->at, c);
+    const unsigned live = (1u << w->count) - 1;
+    const unsigned found = job->surface_kernels->colors(tape, &packet, w->at, live, c);
     for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < w->count; i++)
-            out[k][i] *= (double)c[k][i];
+            out[k][i] *= found >> i & 1 ? (double)c[k][i] : 0;
 }
 
 static void places_fill(struct places *w, const struct media_at *at)
@@ -131,8 +147,9 @@ static void eight(const struct job *job, const struct media_mix *mix,
         double density[3][8];
         for (uint32_t i = 0; i < 8; i++)
             density[0][i] = density[1][i] = density[2][i] = 1;
+        const struct pigment_tape *const *tape = tapes_of(job, m);
         for (uint32_t j = 0; j < m->density_count; j++)
-            density_times(job, m->density[j], w, density);
+            density_times(job, m->density[j], tape ? tape[j] : NULL, w, density);
         for (uint32_t i = 0; i < w->count; i++)
             point_add(&out[i], m, vec3(density[0][i], density[1][i], density[2][i]));
     }

@@ -19,6 +19,12 @@ struct media_mix {
     struct media_point everywhere;
 };
 
+// The densities of a medium, compiled.
+struct media_tapes {
+    const struct media *media;
+    const struct pigment_tape *const *tape; // of each; NULL: nested too deeply
+};
+
 // The point o + t d, seen along d.
 struct media_at {
     struct vec3 o, d;

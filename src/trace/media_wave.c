@@ -48,8 +48,8 @@ static void march_add(struct march_batch *b, const struct media_way *way, bool t
     struct media_march *m = &b->march;
     struct media_walker w = media_walker(m->t, way);
     uint32_t count;
-    struct media_interval *own = media_intervals(m->scratch->arena, m->mix, way->s, w.lamp,
-                                                 w.lamp_count, &count);
+    struct media_interval *own =
+        media_intervals(m->scratch->arena, m->mix, way->s, w.lamp, w.lamp_count, &count);
     if (!together || count > media_stride(m->mix)) {
         struct media_march alone = *m;
         alone.walker = &w;
@@ -89,7 +89,8 @@ static void ways_walk(struct tracer *t, const struct media_mix *mix,
     march_end(&b);
 }
 
-static struct media_way way_of(const struct tracer *t, uint32_t k, double s, uint32_t group)
+static struct media_way way_of(const struct tracer *t, uint32_t k, double s,
+                               uint32_t group)
 {
     const uint32_t slot = t->wave.slot[k];
     const struct path p = wave_path(t, slot);
@@ -111,7 +112,8 @@ static uint32_t ways_split(struct media_way *way, uint32_t count, bool air,
     uint32_t left = 0;
     *taken = 0;
     for (uint32_t i = 0; i < count; i++)
-        if (way[i].group == first.group && (air || media_same(way[i].inside, first.inside)))
+        if (way[i].group == first.group &&
+            (air || media_same(way[i].inside, first.inside)))
             out[(*taken)++] = way[i];
         else
             way[left++] = way[i];

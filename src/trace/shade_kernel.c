@@ -452,7 +452,6 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     sums,          exps,
     meets,         fogs,
     toward,        views,
-    points,
-    texture_space, world_normals,
-    sheet_pass,    own_sheets,
-    light_sheets};
+    points,        texture_space,
+    world_normals, sheet_pass,
+    own_sheets,    light_sheets};

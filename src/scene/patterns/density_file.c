@@ -25,7 +25,8 @@ static uint32_t neighbour(struct cell c, int step)
 {
     if (step < 0)
         return c.at ? c.at - 1 : (uint32_t)(UINT64_MAX % c.size);
-    return (c.at + (uint32_t)step) % c.size;
+    const uint32_t at = c.at + (uint32_t)step;
+    return at < c.size ? at : at % c.size;
 }
 
 // The numbers of the samples from `from` on along each axis, to be added up.
@@ -42,18 +43,19 @@ static void places_of(const struct density_grid *g, const struct cell c[3], int 
 static double linear(const struct density_grid *g, const struct cell c[3])
 {
     size_t at[3][4];
-    double sum = 0;
+    double sum = 0, weight[3][2], sample[8];
     places_of(g, c, 0, 2, at);
-    for (int i = 0; i < 8; i++) {
-        size_t place = 0;
-        double weight = 1;
-        for (int k = 0; k < 3; k++) {
-            const int next = i >> k & 1;
-            place += at[k][next];
-            weight *= next ? c[k].fraction : 1 - c[k].fraction;
-        }
-        sum += weight * density_grid_sample(g, place);
+    for (int k = 0; k < 3; k++) {
+        weight[k][0] = 1 - c[k].fraction;
+        weight[k][1] = c[k].fraction;
     }
+    for (int i = 0; i < 8; i++)
+        sample[i] = density_grid_raw(g, at[0][i & 1] + at[1][i >> 1 & 1] + at[2][i >> 2]);
+    for (int i = 0; i < 8; i++)
+        sample[i] = weight[0][i & 1] * weight[1][i >> 1 & 1] * weight[2][i >> 2] *
+                    (sample[i] / density_grid_most(g));
+    for (int i = 0; i < 8; i++)
+        sum += sample[i];
     return sum;
 }
 
