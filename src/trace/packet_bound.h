@@ -13,9 +13,27 @@ static struct vec3 lane_of(struct vec8 v, int lane)
     return vec3(at[0][lane], at[1][lane], at[2][lane]);
 }
 
-// A sphere or a box: rays keep what they meet ahead or begin in.
-static unsigned within_convex(const struct eight *e, unsigned bits,
-                              const struct user_bound *b)
+// The spans in the shapes that packets know; odd: lanes that user_bound_culls has to tell, all
+// where they do not know the shape.
+static struct span8 bound_span(const struct user_bound *b, const struct ray8 *ray,
+                               struct mask8 *odd)
+{
+    *odd = m8_of(0);
+    if (b->ops == &sphere_ops)
+        return span8_sphere(b->shape, ray);
+    if (b->ops == &box_ops)
+        return span8_box(b->shape, ray);
+    if (b->ops == &plane_ops)
+        return span8_plane(b->shape, ray);
+    if (b->ops == &quadric_ops)
+        return span8_quadric(b->shape, ray, odd);
+    *odd = m8_of(255);
+    return (struct span8){.met = m8_of(0)};
+}
+
+// Rays keep what they meet ahead or begin in.
+static unsigned within_shape(const struct eight *e, unsigned bits,
+                             const struct user_bound *b)
 {
     struct ray8 own;
     const struct ray8 *ray = &e->ray;
@@ -23,12 +41,24 @@ static unsigned within_convex(const struct eight *e, unsigned bits,
         own = local_ray(&b->transform, ray);
         ray = &own;
     }
-    const struct span8 x =
-        b->ops == &box_ops ? span8_box(b->shape, ray) : span8_sphere(b->shape, ray);
-    unsigned kept = bits & m8_bits(m8_and(x.met, r8_lt(r8_set(0), x.out)));
-    for (unsigned m = bits & ~kept; m; m &= m - 1)
-        if (b->ops->inside(b->shape, lane_of(ray->o, __builtin_ctz(m))))
-            kept |= m & -m;
+    struct mask8 odd;
+    const struct span8 x = bound_span(b, ray, &odd);
+    // A half space is met where it ends, or else begins.
+    const struct real8 last = b->ops == &plane_ops
+                                  ? r8_select(r8_lt(x.out, r8_set(INFINITY)), x.out, x.in)
+                                  : x.out;
+    const unsigned ahead =
+        bits & m8_bits(m8_without(m8_and(x.met, r8_lt(r8_set(0), last)), odd));
+    unsigned kept = ahead;
+    for (unsigned m = bits & ~ahead; m; m &= m - 1) {
+        const int lane = __builtin_ctz(m);
+        const struct ray r = {lane_of(e->ray.o, lane), lane_of(e->ray.d, lane), 0, 0};
+        const bool culls =
+            m8_bits(odd) >> lane & 1
+                ? user_bound_culls(b, &r, &e->p->s->crossings)
+                : !b->ops->inside(b->shape, transform_inverse_point(&b->transform, r.o));
+        kept |= culls ? 0 : m & -m;
+    }
     return kept;
 }
 
@@ -39,17 +69,8 @@ static unsigned within_bounds(const struct eight *e, unsigned bits,
     for (uint32_t i = 0; i < o->bound_count && bits; i++) {
         const struct user_bound *b = &o->bound[i];
         bits &= box_lanes_to(e, &b->box, e->t_max);
-        if (b->ops == &box_ops || b->ops == &sphere_ops) {
-            bits = bits ? within_convex(e, bits, b) : 0;
-            continue;
-        }
-        for (unsigned m = b->ops ? bits : 0; m; m &= m - 1) {
-            const int lane = __builtin_ctz(m);
-            const struct ray ray = {lane_of(e->ray.o, lane), lane_of(e->ray.d, lane), 0,
-                                    0};
-            if (user_bound_culls(b, &ray, &e->p->s->crossings))
-                bits &= ~(m & -m);
-        }
+        if (b->ops && bits)
+            bits = within_shape(e, bits, b);
     }
     return bits;
 }
