@@ -29,4 +29,6 @@ const struct shape_kernels OF_ISA(shape_kernels_) = {
     .sphere_sweep = OF_ISA(sweep_closest8_),
     .superellipsoid = OF_ISA(superellipsoid_closest8_),
     .superellipsoid_samples = OF_ISA(superellipsoid_samples8_),
+    .superellipsoid_roots = OF_ISA(superellipsoid_roots8_),
+    .superellipsoid_least = OF_ISA(superellipsoid_least8_),
 };

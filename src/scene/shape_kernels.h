@@ -49,6 +49,7 @@ struct poly;
 struct polygon;
 struct revolve;
 struct superellipsoid;
+struct superellipsoid_roots;
 struct sweep;
 struct shape_kernels {
     unsigned (*blob)(const struct blob *s, const struct shape_rays *rays, unsigned lanes,
@@ -80,6 +81,11 @@ struct shape_kernels {
     void (*superellipsoid_samples)(const struct superellipsoid *s, struct vec3 o,
                                    struct vec3 u, const double t[8], double f[8],
                                    double slope[8]);
+    void (*superellipsoid_roots)(const struct superellipsoid *s, unsigned lanes,
+                                 struct superellipsoid_roots *r);
+    // Lower bounds on F between neighbours of nine places of such a line.
+    void (*superellipsoid_least)(const struct superellipsoid *s, struct vec3 o,
+                                 struct vec3 u, const double t[9], double f[8]);
 };
 
 extern const struct shape_kernels shape_kernels_base, shape_kernels_avx2,

@@ -73,6 +73,10 @@ static const char *const shapes[] = {
     "blob { threshold .6 #declare S = seed(1); #for (I, 0, 119) sphere { <rand(S), "
     "rand(S), "
     "rand(S)>*1.6 - .8, .3, 1 } #end }",
+    "superellipsoid { <3, .5> }", // pinched
+    "superellipsoid { <.3, 3> }",
+    "superellipsoid { <2.5, 4> }",
+    "superellipsoid { <2, 3> }",
 };
 
 // Trees and grids, which rays meet at edges and corners too.
@@ -177,8 +181,6 @@ static const char *const same_hits[] = {
     "superellipsoid { <1, 1> }",
     "superellipsoid { <2, 2> }",
     "superellipsoid { <.01, 1e-3> }",
-    "superellipsoid { <3, .5> }",
-    "superellipsoid { <2.5, 4> }",
 };
 
 enum {

@@ -12,16 +12,34 @@
 #include "scene/shape.h"
 #include "scene/shapes/superellipsoid.h"
 
+static double power(double x, const struct exponent *e)
+{
+    if (e->squares < 0)
+        return quick_pow(x, e->p);
+    for (int i = 0; i < e->squares; i++)
+        x *= x;
+    return x;
+}
+
+static double root(double x, const struct exponent *e)
+{
+    if (e->squares < 0)
+        return quick_pow(x, 1 / e->p);
+    for (int i = 0; i < e->squares; i++)
+        x = sqrt(x);
+    return x;
+}
+
 // The p-norm (a^p + b^p)^(1/p) of a, b >= 0 and its derivatives. With w = (small/big)^p and
 // c = (1 + w)^(1/p) it is c big, its derivatives c/(1 + w) and that times w big/small.
-static double norm2(double a, double b, double p, double *da, double *db)
+static double norm2(double a, double b, const struct exponent *p, double *da, double *db)
 {
     const bool turned = a < b;
     const double big = turned ? b : a, small = turned ? a : b;
     double c = 1, by_big = 1, by_small = 0;
     if (small > 0x1p-1000 * big) {
-        const double q = small / big, w = quick_pow(q, p);
-        c = quick_pow(1 + w, 1 / p);
+        const double q = small / big, w = power(q, p);
+        c = root(1 + w, p);
         by_big = c / (1 + w);
         by_small = by_big * w / q;
     }
@@ -37,8 +55,8 @@ struct sample {
 static struct vec3 gradient(const struct superellipsoid *s, struct vec3 p, double *f)
 {
     double dx, dy, da, dz;
-    const double a = norm2(fabs(p.x), fabs(p.y), s->p, &dx, &dy);
-    *f = norm2(a, fabs(p.z), s->q, &da, &dz) - 1;
+    const double a = norm2(fabs(p.x), fabs(p.y), &s->p, &dx, &dy);
+    *f = norm2(a, fabs(p.z), &s->q, &da, &dz) - 1;
     return vec3(copysign(da * dx, p.x), copysign(da * dy, p.y), copysign(dz, p.z));
 }
 
@@ -151,7 +169,18 @@ static void convex(const struct line *l, double a, double b, struct boundary_lis
     add(l, last, slope_b, CROSS_EXIT, out);
 }
 
-// Where the line meets the planes x = 0, x = y, x = -y and so on, sorted, ends included.
+static bool is_convex(const struct superellipsoid *s)
+{
+    return s->p.p >= 1 && s->q.p >= 1;
+}
+
+static bool is_concave(const struct superellipsoid *s)
+{
+    return s->p.p <= 1 && s->q.p <= 1;
+}
+
+// Where the line meets the planes x = 0, y = 0, z = 0, and, if F is not concave between them,
+// x = y, x = -y and so on, sorted, ends included.
 enum { STOPS = 11, PIECES = 4, CROSSINGS = 2 * STOPS * PIECES };
 
 static int kinks(const struct line *l, double a, double b, double stop[STOPS])
@@ -159,9 +188,10 @@ static int kinks(const struct line *l, double a, double b, double stop[STOPS])
     static const struct vec3 plane[9] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
                                          {1, 1, 0},  {1, -1, 0}, {1, 0, 1},
                                          {1, 0, -1}, {0, 1, 1},  {0, 1, -1}};
+    const int planes = is_concave(l->s) ? 3 : 9;
     int n = 0;
     stop[n++] = a;
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < planes; i++) {
         const double d = vec3_dot(plane[i], l->u), t = -vec3_dot(plane[i], l->o) / d;
         if (d != 0 && t > a && t < b)
             stop[n++] = t;
@@ -181,23 +211,25 @@ struct place {
     double t, f;
 };
 
+// Between which F crosses zero.
+struct bracket {
+    struct place a, b;
+    bool enters;
+};
+
 // The secant's root is nearer than the ends.
-static void cross(const struct line *l, struct place a, struct place b, bool enters,
-                  struct boundary_list *out)
+static double first_guess(const struct bracket *x)
 {
-    double start = a.t + (b.t - a.t) * (a.f / (a.f - b.f)), slope;
-    if (!(start > a.t && start < b.t)) // the line leaves the cube where F is below zero
-        start = 0.5 * (a.t + b.t);
-    const double root = enters ? root_between(l, a.t, b.t, start, &slope)
-                               : root_between(l, b.t, a.t, start, &slope);
-    add(l, root, slope, enters ? CROSS_ENTER : CROSS_EXIT, out);
+    const double t = x->a.t + (x->b.t - x->a.t) * (x->a.f / (x->a.f - x->b.f));
+    // The line may leave the cube where F is below zero.
+    return t > x->a.t && t < x->b.t ? t : 0.5 * (x->a.t + x->b.t);
 }
 
 // Where a line is sampled, and what F is there; eight places at a time, if there are kernels.
 enum { PLACES = (STOPS - 1) * PIECES + 1, ROOM = (PLACES + 7) / 8 * 8 };
 
 struct samples {
-    const struct line *line;
+    struct line line;
     const struct shape_kernels *kernels; // NULL: one place at a time
     int count;
     double t[ROOM], f[ROOM], slope[ROOM];
@@ -206,12 +238,13 @@ struct samples {
 static void samples_place(struct samples *s, double a, double b)
 {
     double stop[STOPS];
-    const int n = kinks(s->line, a, b, stop);
+    const int n = kinks(&s->line, a, b, stop),
+              pieces = is_concave(s->line.s) ? 1 : PIECES;
     s->count = 0;
     s->t[s->count++] = a;
     for (int i = 1; i < n; i++)
-        for (int k = 1; k <= PIECES; k++)
-            s->t[s->count++] = stop[i - 1] + (stop[i] - stop[i - 1]) * k / PIECES;
+        for (int k = 1; k <= pieces; k++)
+            s->t[s->count++] = stop[i - 1] + (stop[i] - stop[i - 1]) * k / pieces;
     for (int i = s->count; i % 8; i++)
         s->t[i] = b;
 }
@@ -219,9 +252,9 @@ static void samples_place(struct samples *s, double a, double b)
 static struct sample sample_of(struct samples *s, int i)
 {
     if (!s->kernels)
-        return at(s->line, s->t[i]);
+        return at(&s->line, s->t[i]);
     if (i % 8 == 0)
-        s->kernels->superellipsoid_samples(s->line->s, s->line->o, s->line->u, s->t + i,
+        s->kernels->superellipsoid_samples(s->line.s, s->line.o, s->line.u, s->t + i,
                                            s->f + i, s->slope + i);
     return (struct sample){s->f[i], s->slope[i]};
 }
@@ -264,33 +297,44 @@ static bool find_turn(const struct line *l, const struct shape_kernels *k, doubl
     return false;
 }
 
-// Crossings up to the first behind `enough`.
-static void sampled(const struct line *l, const struct shape_kernels *kernels, double a,
-                    double b, double enough, struct boundary_list *out)
+// A lower bound on F between two places of the line: F grows with |x|, |y| and |z|.
+static double least_between(const struct line *l, double t0, double t1)
 {
-    struct samples s;
-    s.line = l;
-    s.kernels = kernels;
-    samples_place(&s, a, b);
-    struct sample before = sample_of(&s, 0);
-    struct place last = {a, before.f}, turn;
-    bool in = false;
-    for (int i = 1; i < s.count; i++) {
-        const struct sample here = sample_of(&s, i);
-        const bool now = here.f < 0 && i + 1 < s.count;
-        if (now != in) {
-            cross(l, last, (struct place){s.t[i], here.f}, now, out);
-        } else if ((before.slope > 0) == in && (here.slope > 0) != in &&
-                   find_turn(l, kernels, last.t, s.t[i], in, &turn)) {
-            cross(l, last, turn, !in, out);
-            cross(l, turn, (struct place){s.t[i], here.f}, in, out);
-        }
-        in = now;
-        last = (struct place){s.t[i], here.f};
-        before = here;
-        if (out->count && out->at[out->count - 1].t > enough)
-            return;
+    const struct vec3 p = vec3_mad(l->o, t0, l->u), q = vec3_mad(l->o, t1, l->u);
+    double least[3], f;
+    for (int i = 0; i < 3; i++) {
+        const double x = vec3_axis(p, i), y = vec3_axis(q, i);
+        least[i] = x * y > 0 ? fmin(fabs(x), fabs(y)) : 0;
     }
+    gradient(l->s, vec3(least[0], least[1], least[2]), &f);
+    return f;
+}
+
+enum { PARTS = 8 };
+
+// Narrows a stretch that begins and ends outside to one that does so too, by the eighths at its
+// ends that the surface does not meet; those between that the ray does not want may go with
+// what is behind them. False: nothing is left.
+static bool narrow(const struct line *l, const struct shape_kernels *k, double lo,
+                   double hi, double *a, double *b)
+{
+    double t[PARTS + 1], least[PARTS];
+    int first = 0, last = PARTS - 1;
+    for (int i = 0; i <= PARTS; i++)
+        t[i] = *a + (*b - *a) * i / PARTS;
+    if (k)
+        k->superellipsoid_least(l->s, l->o, l->u, t, least);
+    for (int i = 0; i < PARTS && !k; i++)
+        least[i] = least_between(l, t[i], t[i + 1]);
+    for (int i = 0; i < PARTS; i++)
+        if (least[i] > l->noise && (i == first || t[i + 1] <= lo))
+            first = i + 1;
+    for (int i = PARTS - 1; i >= 0; i--)
+        if (least[i] > l->noise && (i == last || t[i] >= hi))
+            last = i - 1;
+    *a = t[first];
+    *b = t[last + 1];
+    return first <= last;
 }
 
 static struct line line_of(const void *shape, const struct ray *ray)
@@ -304,37 +348,82 @@ static struct line line_of(const void *shape, const struct ray *ray)
     return l;
 }
 
-static bool is_convex(const struct superellipsoid *s) { return s->p >= 1 && s->q >= 1; }
+// On the way along a line from bracket to bracket.
+struct walk {
+    struct samples s;
+    int i; // of the last sample
+    bool in, again;
+    struct sample before;
+    struct place last;
+    struct bracket second; // if `again`
+};
+
+// The part of a line where the ray may meet the surface; false: there is none.
+static bool walk_begin(struct walk *w, const struct shape_kernels *k, const void *shape,
+                       const struct ray *ray)
+{
+    double a, b;
+    w->s.line = line_of(shape, ray);
+    w->s.kernels = k;
+    const struct line *l = &w->s.line;
+    if (!in_cube(l, &a, &b) || !narrow(l, k, ray->t_min * l->length - l->shift,
+                                       ray->t_max * l->length - l->shift, &a, &b))
+        return false;
+    samples_place(&w->s, a, b);
+    w->i = 0;
+    w->in = w->again = false;
+    w->before = sample_of(&w->s, 0);
+    w->last = (struct place){a, w->before.f};
+    return true;
+}
+
+static bool walk_next(struct walk *w, struct bracket *out)
+{
+    bool found = w->again;
+    if (found)
+        *out = w->second;
+    w->again = false;
+    while (!found && ++w->i < w->s.count) {
+        struct place turn;
+        const struct sample here = sample_of(&w->s, w->i);
+        const struct place end = {w->s.t[w->i], here.f};
+        const bool now = here.f < 0 && w->i + 1 < w->s.count, in = w->in;
+        if (now != in) {
+            *out = (struct bracket){w->last, end, now};
+            found = true;
+        } else if ((w->before.slope > 0) == in && (here.slope > 0) != in &&
+                   find_turn(&w->s.line, w->s.kernels, w->last.t, end.t, in, &turn)) {
+            *out = (struct bracket){w->last, turn, !in};
+            w->second = (struct bracket){turn, end, in};
+            found = w->again = true;
+        }
+        w->in = now;
+        w->last = end;
+        w->before = here;
+    }
+    return found;
+}
 
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
-    const struct line l = line_of(shape, ray);
-    double a, b;
-    if (!in_cube(&l, &a, &b))
+    const struct ray whole = {ray->o, ray->d, -HUGE_VAL, HUGE_VAL};
+    struct walk w;
+    struct bracket x;
+    if (is_convex(shape)) {
+        const struct line l = line_of(shape, ray);
+        double a, b;
+        if (in_cube(&l, &a, &b))
+            convex(&l, a, b, out);
         return;
-    if (is_convex(l.s))
-        convex(&l, a, b, out);
-    else
-        sampled(&l, NULL, a, b, HUGE_VAL, out);
-}
-
-// The first crossing that the ray may see; those behind need not be found.
-static bool closest_sampled(const struct shape_kernels *k, const void *shape,
-                            const struct ray *ray, struct boundary *out)
-{
-    const struct line l = line_of(shape, ray);
-    struct boundary room[CROSSINGS];
-    struct boundary_list list = {.at = room, .capacity = CROSSINGS};
-    double a, b;
-    if (!in_cube(&l, &a, &b))
-        return false;
-    sampled(&l, k, a, b, ray->t_min, &list);
-    for (uint32_t i = 0; i < list.count; i++)
-        if (room[i].t > ray->t_min && room[i].t < ray->t_max) {
-            *out = room[i];
-            return true;
-        }
-    return false;
+    }
+    if (!walk_begin(&w, NULL, shape, &whole))
+        return;
+    while (walk_next(&w, &x)) {
+        const double from = x.enters ? x.a.t : x.b.t, to = x.enters ? x.b.t : x.a.t;
+        double slope;
+        const double t = root_between(&w.s.line, from, to, first_guess(&x), &slope);
+        add(&w.s.line, t, slope, x.enters ? CROSS_ENTER : CROSS_EXIT, out);
+    }
 }
 
 static bool has_lanes(const void *shape)
@@ -343,23 +432,103 @@ static bool has_lanes(const void *shape)
     return true;
 }
 
+// The next bracket of a lane that is not behind the ray; false: there is none.
+static bool next_ahead(struct walk *w, const struct ray *ray, struct bracket *x)
+{
+    const struct line *l = &w->s.line;
+    const double lo = ray->t_min * l->length - l->shift;
+    while (walk_next(w, x))
+        if (x->b.t > lo - 0x1p-40 * (fabs(lo) + fabs(l->shift)))
+            return true;
+    return false;
+}
+
+// Whether all of a bracket is within the ray's range.
+static bool is_within(const struct line *l, const struct bracket *x,
+                      const struct ray *ray)
+{
+    return (x->a.t + l->shift) / l->length > ray->t_min &&
+           (x->b.t + l->shift) / l->length < ray->t_max;
+}
+
+static void roots_add(struct superellipsoid_roots *r, int lane, const struct line *l,
+                      const struct bracket *x)
+{
+    for (int k = 0; k < 3; k++) {
+        r->o[k][lane] = vec3_axis(l->o, k);
+        r->u[k][lane] = vec3_axis(l->u, k);
+    }
+    r->outside[lane] = x->enters ? x->a.t : x->b.t;
+    r->inside[lane] = x->enters ? x->b.t : x->a.t;
+    r->t[lane] = first_guess(x);
+}
+
+// Eight walks, bracket by bracket, of which the roots are found together.
+static unsigned closest_sampled(const struct shape_kernels *k, const void *shape,
+                                const struct shape_rays *rays, unsigned lanes, bool any,
+                                struct shape_hits *out)
+{
+    struct walk w[8];
+    struct ray ray[8];
+    struct bracket x[8];
+    struct superellipsoid_roots roots = {0};
+    unsigned met = 0, on = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        ray[i] = shape_rays_lane(rays, i);
+        on |= walk_begin(&w[i], k, shape, &ray[i]) ? 1u << i : 0;
+    }
+    while (on && !shape_hits_give_up(out)) {
+        unsigned sought = 0;
+        for (unsigned m = on; m; m &= m - 1) {
+            const int i = __builtin_ctz(m);
+            const struct line *l = &w[i].s.line;
+            if (!next_ahead(&w[i], &ray[i], &x[i]))
+                continue;
+            const enum crossing c = x[i].enters ? CROSS_ENTER : CROSS_EXIT;
+            if (any && is_within(l, &x[i], &ray[i])) {
+                const struct boundary b = crossing_at(l, first_guess(&x[i]), 1, c);
+                shape_hits_put(out, i, &b);
+                met |= 1u << i;
+                continue;
+            }
+            roots_add(&roots, i, l, &x[i]);
+            sought |= 1u << i;
+        }
+        if (sought)
+            k->superellipsoid_roots(shape, sought, &roots);
+        on = 0;
+        for (unsigned m = sought; m; m &= m - 1) {
+            const int i = __builtin_ctz(m);
+            const struct boundary b =
+                crossing_at(&w[i].s.line, roots.t[i], roots.slope[i],
+                            x[i].enters ? CROSS_ENTER : CROSS_EXIT);
+            if (b.t <= ray[i].t_min) {
+                on |= 1u << i;
+            } else if (b.t < ray[i].t_max) {
+                shape_hits_put(out, i, &b);
+                met |= 1u << i;
+            }
+        }
+    }
+    return met;
+}
+
 static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          const struct shape_rays *rays, unsigned lanes, bool any,
                          struct shape_hits *out)
 {
     if (is_convex(shape))
         return k->superellipsoid(shape, rays, lanes, any, out);
-    unsigned met = 0;
-    for (; lanes && !shape_hits_give_up(out); lanes &= lanes - 1) {
-        const int lane = __builtin_ctz(lanes);
-        const struct ray ray = shape_rays_lane(rays, lane);
-        struct boundary b;
-        if (!closest_sampled(k, shape, &ray, &b))
-            continue;
-        shape_hits_put(out, lane, &b);
-        met |= lanes & -lanes;
-    }
-    return met;
+    return closest_sampled(k, shape, rays, lanes, any, out);
+}
+
+static struct exponent exponent_of(double e)
+{
+    enum { SQUARES = 6 }; // more are no quicker
+    int n;
+    const bool power_of_two = frexp(2 / e, &n) == 0.5 && n >= 1 && n <= SQUARES + 1;
+    return (struct exponent){2 / e, power_of_two ? n - 1 : -1};
 }
 
 static bool build(void *shape, struct args *args)
@@ -374,8 +543,8 @@ static bool build(void *shape, struct args *args)
     }
     s->e = e.u;
     s->n = e.v;
-    s->p = 2 / e.u;
-    s->q = 2 / e.v;
+    s->p = exponent_of(e.u);
+    s->q = exponent_of(e.v);
     return true;
 }
 

@@ -3,8 +3,14 @@
 
 #include "scene/shape_kernels.h"
 
+// Of a p-norm; p is 2^squares, or squares is -1.
+struct exponent {
+    double p;
+    int squares;
+};
+
 struct superellipsoid {
-    double p, q; // 2/e and 2/n
+    struct exponent p, q; // 2/e and 2/n
     double e, n;
 };
 
@@ -27,5 +33,29 @@ SUPERELLIPSOID_SAMPLES8(base)
 SUPERELLIPSOID_SAMPLES8(avx2)
 SUPERELLIPSOID_SAMPLES8(avx512)
 #undef SUPERELLIPSOID_SAMPLES8
+
+// Eight lines o + t u on which F crosses zero, once or more, between two places; t: where to
+// begin, afterwards a root, near which F has that slope. Lanes that are not asked hold numbers.
+struct superellipsoid_roots {
+    double o[3][8], u[3][8], outside[8], inside[8], t[8], slope[8];
+};
+
+// As shape_kernels.superellipsoid_roots.
+#define SUPERELLIPSOID_ROOTS8(isa)                                                       \
+    void superellipsoid_roots8_##isa(const struct superellipsoid *s, unsigned lanes,     \
+                                     struct superellipsoid_roots *r);
+SUPERELLIPSOID_ROOTS8(base)
+SUPERELLIPSOID_ROOTS8(avx2)
+SUPERELLIPSOID_ROOTS8(avx512)
+#undef SUPERELLIPSOID_ROOTS8
+
+// As shape_kernels.superellipsoid_least.
+#define SUPERELLIPSOID_LEAST8(isa)                                                       \
+    void superellipsoid_least8_##isa(const struct superellipsoid *s, struct vec3 o,      \
+                                     struct vec3 u, const double t[9], double f[8]);
+SUPERELLIPSOID_LEAST8(base)
+SUPERELLIPSOID_LEAST8(avx2)
+SUPERELLIPSOID_LEAST8(avx512)
+#undef SUPERELLIPSOID_LEAST8
 
 #endif

@@ -1,4 +1,4 @@
-// Eight rays and a superellipsoid that is convex, or eight places of one line: superellipsoid.c
+// Eight rays and a superellipsoid that is convex, or eight places or parts of one line: superellipsoid.c
 // in lanes, operation by operation, with the same bits. ISA names the instruction set.
 #include "math/quick_lanes.h"
 #include "scene/shapes/lanes.h"
@@ -14,15 +14,33 @@ LANES_INLINE struct real8 pow8(struct real8 x, double y)
     return r8_load(out);
 }
 
-LANES_INLINE struct real8 norm2(struct real8 a, struct real8 b, double p,
+LANES_INLINE struct real8 power(struct real8 x, const struct exponent *e)
+{
+    if (e->squares < 0)
+        return pow8(x, e->p);
+    for (int i = 0; i < e->squares; i++)
+        x = r8_mul(x, x);
+    return x;
+}
+
+LANES_INLINE struct real8 root(struct real8 x, const struct exponent *e)
+{
+    if (e->squares < 0)
+        return pow8(x, 1 / e->p);
+    for (int i = 0; i < e->squares; i++)
+        x = r8_sqrt(x);
+    return x;
+}
+
+LANES_INLINE struct real8 norm2(struct real8 a, struct real8 b, const struct exponent *p,
                                 struct real8 *da, struct real8 *db)
 {
     const struct real8 one = r8_set(1), zero = r8_set(0);
     const struct mask8 turned = r8_lt(a, b);
     const struct real8 big = r8_select(turned, b, a), small = r8_select(turned, a, b);
     const struct mask8 both = r8_lt(r8_mul(r8_set(0x1p-1000), big), small);
-    const struct real8 q = r8_select(both, r8_div(small, big), one), w = pow8(q, p);
-    const struct real8 sum = r8_add(one, w), c = pow8(sum, 1 / p);
+    const struct real8 q = r8_select(both, r8_div(small, big), one), w = power(q, p);
+    const struct real8 sum = r8_add(one, w), c = root(sum, p);
     const struct real8 by_big = r8_select(both, r8_div(c, sum), one);
     const struct real8 by_small = r8_select(both, r8_div(r8_mul(by_big, w), q), zero);
     *da = r8_select(turned, by_small, by_big);
@@ -39,8 +57,8 @@ static struct samples8 at(const struct superellipsoid *s, const struct lines8 *l
 {
     const struct vec8 p = v8_mad(l->o, t, l->u);
     struct real8 dx, dy, da, dz;
-    const struct real8 a = norm2(r8_abs(p.x), r8_abs(p.y), s->p, &dx, &dy);
-    const struct real8 f = norm2(a, r8_abs(p.z), s->q, &da, &dz);
+    const struct real8 a = norm2(r8_abs(p.x), r8_abs(p.y), &s->p, &dx, &dy);
+    const struct real8 f = norm2(a, r8_abs(p.z), &s->q, &da, &dz);
     const struct vec8 g = {r8_copysign(r8_mul(da, dx), p.x),
                            r8_copysign(r8_mul(da, dy), p.y), r8_copysign(dz, p.z)};
     return (struct samples8){r8_sub(f, r8_set(1)), v8_dot(g, l->u)};
@@ -140,4 +158,51 @@ void OF_ISA(superellipsoid_samples8_)(const struct superellipsoid *s, struct vec
     const struct samples8 v = at(s, &l, r8_load(t));
     r8_store(f, v.f);
     r8_store(slope, v.slope);
+}
+
+// As root_between of superellipsoid.c, of eight lines.
+void OF_ISA(superellipsoid_roots8_)(const struct superellipsoid *s, unsigned lanes,
+                                    struct superellipsoid_roots *r)
+{
+    const struct superellipsoid_roots *from = r;
+    const struct lines8 l = {.o = v8_load(from->o), .u = v8_load(from->u)};
+    const struct real8 zero = r8_set(0);
+    struct real8 outside = r8_load(r->outside), inside = r8_load(r->inside),
+                 t = r8_load(r->t), slope = r8_set(1);
+    for (int i = 0; i < 100 && lanes; i++) {
+        const struct samples8 v = at(s, &l, t);
+        const struct mask8 here = m8_of(lanes), above = r8_lt(zero, v.f);
+        slope = r8_select(here, v.slope, slope);
+        outside = r8_select(above, t, outside);
+        inside = r8_select(above, inside, t);
+        const struct real8 lo = r8_min(outside, inside), hi = r8_max(outside, inside);
+        const struct real8 step = r8_sub(t, r8_div(v.f, v.slope));
+        const struct mask8 in = m8_and(r8_lt(lo, step), r8_lt(step, hi));
+        const struct real8 next =
+            r8_select(in, step, r8_mul(r8_set(0.5), r8_add(lo, hi)));
+        const struct mask8 on =
+            m8_without(m8_and(m8_and(r8_lt(lo, next), r8_lt(next, hi)),
+                              r8_le(r8_set(GAMMA(2)), r8_abs(r8_sub(next, t)))),
+                       r8_eq(next, t));
+        t = r8_select(here, next, t);
+        lanes &= m8_bits(on);
+    }
+    r8_store(r->t, t);
+    r8_store(r->slope, slope);
+}
+
+LANES_INLINE struct real8 least(struct real8 p, struct real8 q)
+{
+    const struct real8 zero = r8_set(0);
+    return r8_select(r8_lt(zero, r8_mul(p, q)), r8_min(r8_abs(p), r8_abs(q)), zero);
+}
+
+void OF_ISA(superellipsoid_least8_)(const struct superellipsoid *s, struct vec3 o,
+                                    struct vec3 u, const double t[9], double f[8])
+{
+    const struct vec8 p = v8_mad(V8_SET(o), r8_load(t), V8_SET(u)),
+                      q = v8_mad(V8_SET(o), r8_load(t + 1), V8_SET(u));
+    struct real8 da, db;
+    const struct real8 a = norm2(least(p.x, q.x), least(p.y, q.y), &s->p, &da, &db);
+    r8_store(f, r8_sub(norm2(a, least(p.z, q.z), &s->q, &da, &db), r8_set(1)));
 }
