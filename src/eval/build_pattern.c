@@ -280,6 +280,7 @@ bool build_pattern(struct args *a, struct body *body)
     if (w == WORD_average) {
         args_next(a);
         body->average = true;
+        body->pattern->ops = NULL;
         if (body->pigment)
             body->pigment->kind = PIGMENT_AVERAGE;
         else if (body->normal)

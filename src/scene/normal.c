@@ -7,8 +7,9 @@
 // `accuracy` this large changes nothing; the strength of the bump goes with it.
 #define ACCURACY_UNIT 0.02
 
+// keep: the length of the normal, as the entries of a map with no_bump_scale do.
 static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 place,
-                           const struct texture_point *at);
+                           const struct texture_point *at, bool keep);
 
 double normal_slope_height(const struct slope_map *m, double v)
 {
@@ -51,42 +52,43 @@ static struct vec3 by_differences(const struct normal *n, struct vec3 v, struct 
 }
 
 static struct vec3 by_map(const struct normal *n, struct vec3 v, struct vec3 q,
-                          const struct texture_point *at)
+                          const struct texture_point *at, bool keep)
 {
     const struct pattern_context c = pattern_context_of(at);
     const struct normal_map *m = n->map;
     uint32_t a, b;
     double f;
     map_find(m->key, m->count, pattern_value_at(&n->pattern, q, &c), &a, &b, &f);
-    struct vec3 high = perturb(m->entry[b], v, q, at);
+    struct vec3 high = perturb(m->entry[b], v, q, at, keep);
     if (a == b)
         return high;
-    return vec3_mad(vec3_scale(1 - f, perturb(m->entry[a], v, q, at)), f, high);
+    return vec3_mad(vec3_scale(1 - f, perturb(m->entry[a], v, q, at, keep)), f, high);
 }
 
 static struct vec3 by_average(const struct normal_map *m, struct vec3 v, struct vec3 q,
-                              const struct texture_point *at)
+                              const struct texture_point *at, bool keep)
 {
     struct vec3 sum = {0, 0, 0};
     double total = 0;
     for (uint32_t i = 0; i < m->count; i++) {
-        sum = vec3_mad(sum, m->key[i], perturb(m->entry[i], v, q, at));
+        sum = vec3_mad(sum, m->key[i], perturb(m->entry[i], v, q, at, keep));
         total += m->key[i];
     }
     return vec3_scale(1 / total, sum);
 }
 
 static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 place,
-                           const struct texture_point *at)
+                           const struct texture_point *at, bool keep)
 {
+    keep |= n->no_bump_scale;
     if (n->kind == NORMAL_UV)
-        return vec3_normalize(perturb(n->map->entry[0], v, uv_point(at), at));
+        return vec3_normalize(perturb(n->map->entry[0], v, uv_point(at), at, keep));
     const struct pattern *p = &n->pattern;
     const struct vec3 q = pattern_warp(p, place);
-    v = pattern_normal_in(p, v, n->no_bump_scale);
+    v = pattern_normal_in(p, v, keep);
     switch (n->kind) {
-    case NORMAL_MAP: v = by_map(n, v, q, at); break;
-    case NORMAL_AVERAGE: v = by_average(n->map, v, q, at); break;
+    case NORMAL_MAP: v = by_map(n, v, q, at, keep); break;
+    case NORMAL_AVERAGE: v = by_average(n->map, v, q, at, keep); break;
     case NORMAL_PATTERN:
     case NORMAL_SLOPES:
         if (!p->ops)
@@ -100,12 +102,12 @@ static struct vec3 perturb(const struct normal *n, struct vec3 v, struct vec3 pl
         break;
     case NORMAL_UV: break;
     }
-    return pattern_normal_out(p, v);
+    return pattern_normal_out(p, v, keep);
 }
 
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at)
 {
-    return perturb(n, at->normal, texture_place(at), at);
+    return perturb(n, at->normal, texture_place(at), at, false);
 }
 
 const struct normal *normal_transform(struct arena *a, const struct normal *n,

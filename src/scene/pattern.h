@@ -143,7 +143,7 @@ double pattern_value_at(const struct pattern *p, struct vec3 warped,
 // A normal on its way to the pattern's space and back: through its transforms alone,
 // normalised as the language does (spec/textures 11.1).
 struct vec3 pattern_normal_in(const struct pattern *p, struct vec3 n, bool keep_length);
-struct vec3 pattern_normal_out(const struct pattern *p, struct vec3 n);
+struct vec3 pattern_normal_out(const struct pattern *p, struct vec3 n, bool keep_length);
 static inline int pattern_noise_generator(const struct pattern *p)
 {
     return p->noise_generator ? p->noise_generator

@@ -473,11 +473,13 @@ static void normal_back8(const struct warp *w, double v[3][8])
         v8_store(v, v8_normal(&w->transform, v8_load((points8)v)));
 }
 
-static void normal_out8(const struct pattern *p, double v[3][8])
+static void normal_out8(const struct pattern *p, bool keep_length, double v[3][8])
 {
-    v8_store(v, v8_normalize(v8_load((points8)v)));
+    if (!keep_length)
+        v8_store(v, v8_normalize(v8_load((points8)v)));
     normal_back8(p->warps, v);
-    v8_store(v, v8_normalize(v8_load((points8)v)));
+    if (!keep_length)
+        v8_store(v, v8_normalize(v8_load((points8)v)));
 }
 
 static void by_differences(const struct normal *n, const struct pattern_packet *packet,
@@ -498,11 +500,11 @@ static void by_differences(const struct normal *n, const struct pattern_packet *
     v8_store(v, sum);
 }
 
-static void perturb(const struct normal *n, const struct pattern_packet *packet,
-                    const double place[3][8], unsigned live, double v[3][8]);
+static void bent(const struct normal *n, const struct pattern_packet *packet,
+                 const double place[3][8], unsigned live, bool keep, double v[3][8]);
 
 static void by_map(const struct normal *n, const struct pattern_packet *packet, points8 q,
-                   unsigned live, double v[3][8])
+                   unsigned live, bool keep, double v[3][8])
 {
     const struct normal_map *m = n->map;
     double value[8], f[8], high[3][8], low[3][8];
@@ -525,7 +527,7 @@ static void by_map(const struct normal *n, const struct pattern_packet *packet, 
             continue;
         double one[3][8];
         memcpy(one, v, sizeof one);
-        perturb(m->entry[k], packet, q, (above | below) & live, one);
+        bent(m->entry[k], packet, q, (above | below) & live, keep, one);
         const struct vec8 x = v8_load((points8)one);
         v8_store(high, v8_select(m8_of(above), x, v8_load((points8)high)));
         v8_store(low, v8_select(m8_of(below), x, v8_load((points8)low)));
@@ -538,7 +540,7 @@ static void by_map(const struct normal *n, const struct pattern_packet *packet, 
 }
 
 static void by_average(const struct normal *n, const struct pattern_packet *packet,
-                       points8 q, unsigned live, double v[3][8])
+                       points8 q, unsigned live, bool keep, double v[3][8])
 {
     const struct normal_map *m = n->map;
     struct vec8 sum = {r8_set(0), r8_set(0), r8_set(0)};
@@ -546,7 +548,7 @@ static void by_average(const struct normal *n, const struct pattern_packet *pack
     for (uint32_t i = 0; i < m->count; i++) {
         double one[3][8];
         memcpy(one, v, sizeof one);
-        perturb(m->entry[i], packet, q, live, one);
+        bent(m->entry[i], packet, q, live, keep, one);
         sum = v8_mad(sum, r8_set(m->key[i]), v8_load((points8)one));
         total += m->key[i];
     }
@@ -575,22 +577,24 @@ static void by_pattern(const struct normal *n, const struct pattern_packet *pack
         by_differences(n, packet, q, live, v);
 }
 
-static void perturb(const struct normal *n, const struct pattern_packet *packet,
-                    const double place[3][8], unsigned live, double v[3][8])
+// perturb() of scene/normal.c.
+static void bent(const struct normal *n, const struct pattern_packet *packet,
+                 const double place[3][8], unsigned live, bool keep, double v[3][8])
 {
     double q[3][8];
+    keep |= n->no_bump_scale;
     if (n->kind == NORMAL_UV) {
         uv_step(packet, q);
-        perturb(n->map->entry[0], packet, (points8)q, live, v);
+        bent(n->map->entry[0], packet, (points8)q, live, keep, v);
         v8_store(v, v8_normalize(v8_load((points8)v)));
         return;
     }
     memcpy(q, place, sizeof q);
     warp(&n->pattern, q);
-    normal_in8(&n->pattern, n->no_bump_scale, v);
+    normal_in8(&n->pattern, keep, v);
     switch (n->kind) {
-    case NORMAL_MAP: by_map(n, packet, (points8)q, live, v); break;
-    case NORMAL_AVERAGE: by_average(n, packet, (points8)q, live, v); break;
+    case NORMAL_MAP: by_map(n, packet, (points8)q, live, keep, v); break;
+    case NORMAL_AVERAGE: by_average(n, packet, (points8)q, live, keep, v); break;
     case NORMAL_PATTERN:
     case NORMAL_SLOPES: by_pattern(n, packet, (points8)q, live, v); break;
     case NORMAL_BUMP_MAP:
@@ -603,7 +607,13 @@ static void perturb(const struct normal *n, const struct pattern_packet *packet,
         break;
     case NORMAL_UV: break;
     }
-    normal_out8(&n->pattern, v);
+    normal_out8(&n->pattern, keep, v);
+}
+
+static void perturb(const struct normal *n, const struct pattern_packet *packet,
+                    const double place[3][8], unsigned live, double v[3][8])
+{
+    bent(n, packet, place, live, false, v);
 }
 
 static void normal_in(const struct pattern *p, double v[3][8])
@@ -611,5 +621,10 @@ static void normal_in(const struct pattern *p, double v[3][8])
     normal_in8(p, false, v);
 }
 
+static void normal_out(const struct pattern *p, double v[3][8])
+{
+    normal_out8(p, false, v);
+}
+
 const struct surface_kernels OF_ISA(surface_kernels_) = {
-    ISA_TEXT, NOISE, warp, values, colors, perturb, normal_in, normal_out8};
+    ISA_TEXT, NOISE, warp, values, colors, perturb, normal_in, normal_out};

@@ -83,7 +83,7 @@ struct texture_point texture_entry_point(const struct texture *x,
 
 struct vec3 texture_entry_normal(const struct texture *x, struct vec3 n)
 {
-    return x->kind == TEXTURE_UV ? n : pattern_normal_out(x->pattern, n);
+    return x->kind == TEXTURE_UV ? n : pattern_normal_out(x->pattern, n, false);
 }
 
 static bool color_is_opaque(struct rgbft c)

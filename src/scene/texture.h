@@ -145,8 +145,7 @@ struct texture_point {
     struct vec3 normal;
     struct vec3 ray_d;   // world, unit; zero: none
     struct vec3 p_world; // world, for slope with point_at
-    // What slope and aoi see: the world's normal of the layer after normal_perturb;
-    // zero: no surface.
+    // What slope and aoi see: the normal that normal_perturb made last; zero: no surface.
     struct vec3 normal_seen;
     bool uv_mapping; // the object flag: textures take (u,v,0)
 };
@@ -154,8 +153,8 @@ struct texture_point {
 // False: the pigment gave no colour here (image_map `once` outside).
 bool pigment_color(const struct pigment *p, const struct texture_point *at,
                    struct rgbft *out);
-// The perturbed unit normal in the texture's outer space (to the world by
-// transform_normal, then normalise).
+// The perturbed normal in the texture's outer space, unit without no_bump_scale (to the
+// world by transform_normal, then normalise).
 struct vec3 normal_perturb(const struct normal *n, const struct texture_point *at);
 // The entries of a MAP/AVERAGE/MATERIAL texture that count at this point, with
 // their weights (sum 1); returns how many (at most max).

@@ -159,7 +159,7 @@ static inline double clamp_far(double v)
 bool turbulence_is_warp(const struct pattern *p)
 {
     const struct turbulence *t = p->turbulence;
-    return t && p->ops && !p->ops->own_turbulence &&
+    return t && !(p->ops && p->ops->own_turbulence) &&
            (t->amount.x != 0 || t->amount.y != 0 || t->amount.z != 0);
 }
 
@@ -193,9 +193,10 @@ static struct vec3 normal_back(const struct warp *w, struct vec3 n)
     return w->kind == WARP_TRANSFORM ? transform_normal(&w->transform, n) : n;
 }
 
-struct vec3 pattern_normal_out(const struct pattern *p, struct vec3 n)
+struct vec3 pattern_normal_out(const struct pattern *p, struct vec3 n, bool keep_length)
 {
-    return vec3_normalize(normal_back(p->warps, vec3_normalize(n)));
+    return keep_length ? normal_back(p->warps, n)
+                       : vec3_normalize(normal_back(p->warps, vec3_normalize(n)));
 }
 
 void pattern_add_transform(struct arena *a, struct pattern *p, const struct transform *t)

@@ -9,8 +9,9 @@ void surface_view_init(struct surface_view *v, const struct interaction *at,
 {
     const struct surface *s = at->surface;
     const bool turned = vec3_dot(at->ns, d) > 0;
-    *v = (struct surface_view){at, d, turned ? vec3_neg(at->ns) : at->ns, s->texture,
-                               &s->texture_transform, NULL, NULL};
+    *v = (struct surface_view){
+        at,   d,   turned ? vec3_neg(at->ns) : at->ns, s->texture, &s->texture_transform,
+        NULL, NULL};
     if (turned && s->interior_texture) {
         v->texture = s->interior_texture;
         v->transform = &s->interior_texture_transform;
@@ -73,11 +74,8 @@ static void walk_from(const struct walk *w, const struct texture *x,
     // Textures of a uv mapped object are not moved with it.
     const bool uv = at->surface->flags & OBJECT_UV_MAPPING;
     const struct texture_chain root = {NULL, uv ? NULL : transform, NULL};
-    struct texture_point point = {.p = at->p,
-                                  .uv = at->uv,
-                                  .normal = w->v->n,
-                                  .ray_d = w->v->d,
-                                  .p_world = at->p};
+    struct texture_point point = {
+        .p = at->p, .uv = at->uv, .normal = w->v->n, .ray_d = w->v->d, .p_world = at->p};
     if (uv) {
         point.p = vec3(at->uv.u, at->uv.v, 0);
     } else if (!transform->identity) {
@@ -116,7 +114,8 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
         cutaway_textures(s->cutaway, v->at->p, walk_cut, &w);
     else if (s->parts && v->texture == v->at->surface->texture)
         l->ops->textures_at(l->shape, &v->at->b,
-                            transform_inverse_point(l->transform, v->at->p), walk_part, &w);
+                            transform_inverse_point(l->transform, v->at->p), walk_part,
+                            &w);
     else
         walk_from(&w, v->texture, v->transform, 1);
 }
@@ -129,6 +128,18 @@ static void layer_color(const struct tracer *t, struct rgbft c, struct layer *ou
                                    : rgbft_opacity(c);
 }
 
+// What slope sees of a normal that was perturbed to n, in the world `up`: maps around the
+// texture have not undone their scaling yet, and no_bump_scale leaves its length.
+static struct vec3 normal_seen(const struct normal *normal, const struct texture_chain *c,
+                               struct vec3 n, struct vec3 up)
+{
+    if (c && c->map)
+        return n;
+    if (!normal->no_bump_scale)
+        return up;
+    return c && c->transform ? transform_normal(c->transform, n) : n;
+}
+
 void layer_eval(const struct tracer *t, const struct surface_view *v,
                 const struct texture_layer *layer, const struct texture_point *at,
                 const struct texture_chain *chain, bool want_normal, struct layer *out)
@@ -137,9 +148,11 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
     struct texture_point here = *at;
     out->n = v->n;
     here.normal_seen = *v->seen;
-    if (layer->normal && want_normal && t->job->normals)
-        out->n = chain_up(chain, normal_perturb(layer->normal, &here));
-    here.normal_seen = *v->seen = out->n;
+    if (layer->normal && want_normal && t->job->normals) {
+        const struct vec3 n = normal_perturb(layer->normal, &here);
+        out->n = chain_up(chain, n);
+        here.normal_seen = *v->seen = normal_seen(layer->normal, chain, n, out->n);
+    }
     const struct pigment *pigment = layer->pigment;
     struct rgbft c = pigment->color;
     out->found = true;

@@ -68,7 +68,7 @@ struct brush {
     const struct paint_surface *paint;
     struct paint_group *group;
     const struct transform *moved; // of the texture that is being painted
-    double seen[3][8];             // the normal of the layer before
+    double seen[3][8];             // what slope sees
 };
 
 // Where a texture is looked up, as struct texture_point and struct texture_chain.
@@ -102,19 +102,37 @@ static void lanes_copy(double to[3][8], const double from[3][8], unsigned lanes)
             to[k][i] = from[k][i];
 }
 
+// normal_seen() of layers.c without maps, where no_bump_scale leaves the length.
+static void see_length(struct brush *b, const double v[3][8], unsigned live)
+{
+    const bool uv = b->surface->flags & OBJECT_UV_MAPPING;
+    for (; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        struct vec3 n = vec3(v[0][i], v[1][i], v[2][i]);
+        if (!uv)
+            n = transform_normal(b->moved, n);
+        b->seen[0][i] = n.x, b->seen[1][i] = n.y, b->seen[2][i] = n.z;
+    }
+}
+
+// The perturbed normals of a layer, of which `seen` keeps what slope sees.
 static void layer_normals(struct brush *b, const struct spot *spot,
-                          const struct normal *normal, unsigned live)
+                          const struct normal *normal, unsigned live, double n[3][8])
 {
     const struct surface_kernels *k = kernels_of(b);
     const struct pattern_packet packet = packet_of(b);
-    double v[3][8];
-    memcpy(v, spot->normal, sizeof v);
-    k->perturb(normal, &packet, (const double(*)[8])spot->place, live, v);
+    memcpy(n, spot->normal, sizeof spot->normal);
+    k->perturb(normal, &packet, (const double(*)[8])spot->place, live, n);
+    if (spot->map)
+        lanes_copy(b->seen, (const double(*)[8])n, live);
+    else if (normal->no_bump_scale)
+        see_length(b, (const double(*)[8])n, live);
     for (const struct spot *s = spot; s->map; s = s->outer)
         if (s->map->kind != TEXTURE_UV)
-            k->normal_out(s->map->pattern, v);
-    b->t->job->kernels->world_normals(b->surface, b->moved, v);
-    lanes_copy(b->seen, (const double(*)[8])v, live);
+            k->normal_out(s->map->pattern, n);
+    b->t->job->kernels->world_normals(b->surface, b->moved, n);
+    if (!spot->map && !normal->no_bump_scale)
+        lanes_copy(b->seen, (const double(*)[8])n, live);
 }
 
 static void even_color(const struct rgbft *c, float out[5][8])
@@ -154,10 +172,9 @@ static unsigned paint_layer(struct brush *b, const struct paint_texture *x,
     s->layer = &x->texture->layer[number];
     s->lanes = live;
     if (s->layer->normal && job->normals)
-        layer_normals(b, spot, s->layer->normal, live);
+        layer_normals(b, spot, s->layer->normal, live, s->n);
     else
-        lanes_copy(b->seen, (const double(*)[8])b->group->hits.n, live);
-    memcpy(s->n, b->seen, sizeof s->n);
+        memcpy(s->n, b->group->hits.n, sizeof s->n);
     layer_colors(b, x, spot, number, s);
     // Hit by hit, mirrors are asked when the light is found.
     const bool conserves = s->layer->finish->conserve_energy && b->paint->lit;

@@ -67,12 +67,14 @@ static bool has_dispersion(const struct world *w)
     return false;
 }
 
-// Rays that go on ask for both the normal of the surface and that of the layer.
+// Rays that go on ask for both the normal of the surface and that of the layer; patterns
+// by slope see the length of one with no_bump_scale.
 static bool normal_is_simple(const struct job *job, const struct texture_layer *l)
 {
     if (!l->normal || !job->normals)
         return true;
     return !pigment_is_clear(l->pigment) &&
+           !(l->normal->no_bump_scale && l->pigment->kind != PIGMENT_SOLID) &&
            !(job->mirrors && finish_has_mirror(l->finish));
 }
 

@@ -263,4 +263,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/361-media-truth-hazy.pov \
 	%D%/362-media-truth-rayleigh.pov \
 	%D%/363-media-truth-eccentric.pov \
-	%D%/364-media-truth-shadow.pov
+	%D%/364-media-truth-shadow.pov \
+	%D%/370-patterns-more.pov

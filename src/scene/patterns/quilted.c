@@ -56,7 +56,7 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
 }
 
 const struct pattern_ops quilted_pattern_ops = {.keyword = "quilted",
-                                                .frequency = 1,
+                                                .frequency = 0,
                                                 .init = init,
                                                 .value = value,
                                                 .formula = formula,
