@@ -47,6 +47,8 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
         return accel_large(a, o, object)->ball ? sponge(e, bits, object)
                                                : packet_try_object(p, bits, object);
     p->s->stats.leaf_tests++;
+    if (shape == PACKET_PLANE)
+        return plane8(e, bits, object);
     return lone(e, bits, object);
 }
 

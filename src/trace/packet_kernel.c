@@ -65,7 +65,16 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
 // Shapes that packets know are for packets, of one ray as well; a mesh is walked by the ray.
 LANES_INLINE bool takes_one(unsigned shape)
 {
-    return shape == PACKET_PRODUCT || shape == PACKET_TORUS || shape == PACKET_CARVED;
+    return shape == PACKET_PRODUCT || shape == PACKET_CARVED ||
+           (shape >= PACKET_SPHERE && shape <= PACKET_TORUS);
+}
+
+// What a leaf of the tree holds takes some rays as well as one.
+LANES_INLINE bool takes_some(const struct accel *a, int32_t child)
+{
+    const uint32_t first = bvh8_leaf_first(child);
+    return bvh8_leaf_count(child) == 1 &&
+           (a->ball[3][first] > 0 || takes_one(a->object_shape[a->top.item[first]]));
 }
 
 static bool walk_packet(struct eight *e, int lane, uint32_t object)
@@ -161,6 +170,7 @@ static void traverse(struct eight *e, unsigned lanes)
     struct packet *p = e->p;
     const struct bvh8 *tree = &p->w->accel->top;
     struct tree8 v = tree8_of(&p->top, lanes);
+    const bool any = p->mode == SWEEP_OPAQUE;
     struct packet_entry stack[BVH8_STACK];
     uint32_t depth = 1;
     f8_store(stack[0].near, f8_set(0));
@@ -173,7 +183,8 @@ static void traverse(struct eight *e, unsigned lanes)
             f8_le(f8_load(top->near), f8_mul(v.far, f8_set(BVH8_SLACK)));
         if (!bits)
             continue;
-        if (!(bits & (bits - 1)) || (FEW > 1 && __builtin_popcount(bits) <= FEW)) {
+        if (__builtin_popcount(bits) <= FEW &&
+            (child >= 0 || !takes_some(p->w->accel, child))) {
             one_by_one(e, bits, child);
             continue;
         }
@@ -185,11 +196,13 @@ static void traverse(struct eight *e, unsigned lanes)
                 won |= try_item(e, bits, i);
             e->boxed = false;
             limit(p, won);
+            if (any && !(lanes &= ~won))
+                return;
             continue;
         }
         uint32_t met_lanes = 0;
         p->s->stats.node_visits++;
-        depth = push_children8(&tree->node[child], &v, stack, depth, &met_lanes);
+        depth = push_children8(&tree->node[child], &v, stack, depth, any, &met_lanes);
         // Rays that part at the root gain nothing from each other, and each alone meets
         // its boxes in its own order.
         if (child == 0 && tree->node_count > SMALL_TREE && met_lanes < TOGETHER * depth) {

@@ -132,7 +132,8 @@ static void list_traverse(struct eight *e, unsigned lanes, struct crossings8 *c)
             list_leaf(e, bits, child, c);
         } else {
             p->s->stats.node_visits++;
-            depth = push_children8(&tree->node[child], &v, stack, depth, &met_lanes);
+            depth =
+                push_children8(&tree->node[child], &v, stack, depth, false, &met_lanes);
         }
     }
 }

@@ -99,6 +99,7 @@ static void mesh8_traverse(struct mesh8 *v, unsigned lanes)
 {
     const struct bvh8 *tree = &v->m->tree;
     struct tree8 way = tree8_of(&v->at, lanes);
+    const bool any = v->e->p->mode == SWEEP_OPAQUE;
     struct packet_entry stack[BVH8_STACK];
     uint32_t depth = 1, met = 0;
     f8_store(stack[0].near, f8_set(0));
@@ -117,12 +118,14 @@ static void mesh8_traverse(struct mesh8 *v, unsigned lanes)
         }
         if (child >= 0) {
             v->e->p->s->stats.node_visits++;
-            depth = push_children8(&tree->node[child], &way, stack, depth, &met);
+            depth = push_children8(&tree->node[child], &way, stack, depth, any, &met);
             continue;
         }
         const uint32_t first = bvh8_leaf_first(child), n = bvh8_leaf_count(child);
         for (uint32_t i = first; i < first + n; i++)
             mesh8_face(v, bits, tree->item[i]);
+        if (any && !(lanes & ~v->found))
+            return;
     }
 }
 

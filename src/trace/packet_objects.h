@@ -151,14 +151,25 @@ static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint
     return odd ? won | packet_try_object(e->p, odd, object) : won;
 }
 
-// Cheap, and nothing is left to do for the boundary.
-static unsigned lone_plane(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf)
+// A bare plane: most rays of most scenes meet one, or pass it by.
+static unsigned plane8(struct eight *e, unsigned bits, uint32_t object)
 {
+    const uint32_t leaf = e->p->w->object[object].first_leaf;
     const struct leaf *l = &e->p->w->leaf[leaf];
     struct ray8 own;
-    const struct cross8 x = cross8_plane(l->shape, leaf_ray(l, &e->ray, &own));
+    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    const struct plane *s = l->shape;
+    if (e->p->mode != SWEEP_CLOSEST) {
+        // Rays that go away from it meet it behind them: no division tells that.
+        const struct vec8 n = V8_SET(s->normal), to = v8_sub(V8_SET(s->point), ray->o);
+        const struct real8 t = r8_mul(v8_dot(n, to), v8_dot(n, ray->d)), zero = r8_set(0);
+        bits &= ~m8_bits(m8_and(r8_lt(t, zero), r8_le(zero, e->t_min)));
+        if (!bits)
+            return 0;
+    }
+    const struct cross8 x = cross8_plane(s, ray);
     const unsigned won = take(e, bits & m8_bits(x.met), x.t[0], object, leaf);
-    if (won)
+    if (won && e->p->mode == SWEEP_CLOSEST) // nothing is left to do for the boundary
         keep(e->p, &x, m8_of(255), won, l->inverted);
     return won;
 }
@@ -170,15 +181,12 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     const struct leaf *l = &w->leaf[leaf];
     struct ray8 own;
     const enum packet_shape shape = w->accel->leaf_shape[leaf];
-    if (shape == PACKET_PLANE && e->p->mode == SWEEP_CLOSEST)
-        return lone_plane(e, bits, object, leaf);
     const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
     struct span8 x;
     switch (shape) { // no error bound is computed
     case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
     case PACKET_BOX: x = span8_box(l->shape, ray); break;
     case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
-    case PACKET_PLANE: x = span8_plane(l->shape, ray); break;
     default: return lone_cross(e, bits, object, leaf);
     }
     bits &= m8_bits(x.met);

@@ -178,27 +178,31 @@ LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct
     return bits;
 }
 
-// As push_children; *met_lanes grows by the lanes of the children met.
+// As push_children; *met_lanes grows by the lanes of the children met. any: in any order.
 LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tree8 *v,
-                                     struct packet_entry *stack, uint32_t depth,
+                                     struct packet_entry *stack, uint32_t depth, bool any,
                                      uint32_t *met_lanes)
 {
     const uint32_t base = depth;
     unsigned some = v->mixed ? node_children(n) : node_candidates(n, v);
     for (; some; some &= some - 1) {
         const int k = __builtin_ctz(some);
-        float near[8];
-        const unsigned met = child_meets(n, k, v, near);
+        struct packet_entry *top = &stack[depth];
+        const unsigned met = child_meets(n, k, v, top->near);
         if (!met)
             continue;
         *met_lanes += (uint32_t)__builtin_popcount(met);
-        const float t = near[__builtin_ctz(met)];
+        top->child = n->child[k];
         uint32_t at = depth++;
-        for (; at > base && stack[at - 1].t < t; at--)
+        if (any)
+            continue;
+        top->t = top->near[__builtin_ctz(met)];
+        if (at == base || !(stack[at - 1].t < top->t))
+            continue;
+        const struct packet_entry moved = *top;
+        for (; at > base && stack[at - 1].t < moved.t; at--)
             stack[at] = stack[at - 1];
-        f8_store(stack[at].near, f8_load(near));
-        stack[at].child = n->child[k];
-        stack[at].t = t;
+        stack[at] = moved;
     }
     return depth;
 }
