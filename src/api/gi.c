@@ -173,7 +173,9 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
     struct irradiance_report r;
     ctx->phase = LAMBERT_PHASE_RADIOSITY;
     // Surfaces that gathering rays see show their caustics too.
-    settings->photons = g->photons = render_photons(ctx->world, settings, &ctx->cancel);
+    if (!settings->photons)
+        settings->photons = g->photons =
+            render_photons(ctx->world, settings, NULL, &ctx->cancel);
     g->cache = irradiance_cache_new(ctx->world, settings, &watch, &r);
     ctx->phase = LAMBERT_PHASE_TILES;
     if (!g->cache) {

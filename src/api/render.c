@@ -7,8 +7,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "api/photon_file.h"
 #include "api/state.h"
-#include "trace/photon_map.h"
+#include "trace/photons.h"
 #include "trace/render.h"
 
 // A first and a last row or column (spec/language 7.5) as a half-open range.
@@ -130,14 +131,20 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
                             "a picture of %d x %d needs %.1f GiB of memory, there are "
                             "%.1f",
                             settings.width, settings.height, need / GIB, have / GIB);
-    struct gi *gi;
-    const enum lambert_status status = gi_prepare(ctx, &settings, &gi);
-    if (status != LAMBERT_OK)
+    struct gi *gi = NULL;
+    struct photons *photons;
+    enum lambert_status status = photon_files_use(ctx, &settings, &photons);
+    if (status == LAMBERT_OK)
+        status = gi_prepare(ctx, &settings, &gi);
+    if (status != LAMBERT_OK) {
+        photons_free(photons);
         return status;
+    }
     struct lambert_image *image = calloc(1, sizeof *image);
     if (!image || !image_init(&image->im, settings.width, settings.height, 4)) {
         free(image);
         gi_free(gi);
+        photons_free(photons);
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
     }
     set_working_space(image, &ctx->scene.settings);
@@ -150,6 +157,7 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
     }
     bool whole = render_world(ctx->world, &settings, &progress, &image->im, &stats);
     gi_free(gi);
+    photons_free(photons);
     if (ctx->state_path)
         render_state_close(&state, whole);
     ctx->cancel = false;

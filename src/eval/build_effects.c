@@ -1,5 +1,7 @@
 #include "eval/build.h"
 
+#include "eval/file_io.h"
+
 // radiosity { } and photons { } of global_settings (spec/language 4.14).
 
 #define AT(member) offsetof(struct radiosity_settings, member)
@@ -107,6 +109,18 @@ static const enum word photon_words[] = {WORD_gather,    WORD_radius,
                                          WORD_media,     WORD_expand_thresholds,
                                          WORD_load_file, WORD_save_file};
 
+static void photon_file(struct args *a, enum word w, struct photon_settings *p)
+{
+    const struct span where = args_span(a);
+    const char *name;
+    if (!args_string(a, "file", &name))
+        return;
+    if (w == WORD_load_file)
+        args_find_file(a, "file of photons", name, NULL, &p->load_file);
+    else if (!(p->save_file = file_to_write(a->b->e, name, where)))
+        args_fail(a);
+}
+
 static bool photon_item(struct args *a, struct photon_settings *p)
 {
     enum word w = args_at_word(a);
@@ -132,9 +146,9 @@ static bool photon_item(struct args *a, struct photon_settings *p)
         return true;
     case WORD_load_file:
     case WORD_save_file:
-        args_not_rendered(a, w, args_next(a)->where);
-        return args_string(a, "file", w == WORD_load_file ? &p->load_file : &p->save_file) ||
-               true;
+        args_next(a);
+        photon_file(a, w, p);
+        return true;
     default: return false;
     }
 }

@@ -66,8 +66,7 @@ static bool open_failed(struct eval *e, struct span where, const char *name)
     return false;
 }
 
-// The real path of a file to write, in a folder that is there; NULL after an error.
-static const char *path_to_write(struct eval *e, const char *name, struct span where)
+const char *file_to_write(struct eval *e, const char *name, struct span where)
 {
     const char *folder = e->options->output_folder ? e->options->output_folder : ".";
     const char *path =
@@ -92,7 +91,7 @@ static const char *path_to_write(struct eval *e, const char *name, struct span w
 static bool open_to_write(struct eval *e, struct scene_file *f, bool append,
                           struct span where)
 {
-    if (!(f->path = path_to_write(e, f->name, where)))
+    if (!(f->path = file_to_write(e, f->name, where)))
         return false;
     int flags = O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     int file = open(f->path, append ? flags | O_APPEND : flags, 0666);

@@ -310,14 +310,10 @@ static void map_finish(struct photon_map *m, const struct job *job, int which,
     m->step = 2 * m->radius;
 }
 
-struct photons *photons_shoot(const struct job *job, const volatile bool *cancel)
+static void shoot_all(struct photons *p, const struct job *job,
+                      const volatile bool *cancel)
 {
     const struct photon_settings *settings = &job->scene->settings.photons;
-    if (!photons_wanted(job))
-        return NULL;
-    struct photons *p = calloc(1, sizeof *p);
-    if (!p)
-        abort();
     // Photons end by limits of their own.
     struct job own = *job;
     own.photons = NULL;
@@ -330,6 +326,11 @@ struct photons *photons_shoot(const struct job *job, const volatile bool *cancel
     s.volley = photon_volley_new(&own, p, cancel);
     pairs(&s, shoot_from);
     photon_volley_free(s.volley);
+}
+
+static void finish(struct photons *p, const struct job *job)
+{
+    const struct photon_settings *settings = &job->scene->settings.photons;
     const uint32_t total =
         p->surface.count > p->media.count ? p->surface.count : p->media.count;
     p->gather.max = (uint32_t)(settings->gather_max > 0 ? settings->gather_max : 0);
@@ -341,6 +342,25 @@ struct photons *photons_shoot(const struct job *job, const volatile bool *cancel
         (uint32_t)(settings->expand_min > 0 ? settings->expand_min : 0);
     map_finish(&p->surface, job, 0, p->gather.max);
     map_finish(&p->media, job, 1, p->gather.max);
+}
+
+struct photons *photons_shoot(const struct job *job, const struct photon_store *store,
+                              const volatile bool *cancel)
+{
+    if (!photons_wanted(job))
+        return NULL;
+    struct photons *p = calloc(1, sizeof *p);
+    if (!p)
+        abort();
+    if (!store || !store->load) {
+        shoot_all(p, job, cancel);
+    } else if (!store->load(store->user, p)) {
+        photons_free(p);
+        return NULL;
+    }
+    if (store && store->save && !(cancel && *cancel))
+        store->save(store->user, p);
+    finish(p, job);
     return p;
 }
 

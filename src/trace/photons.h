@@ -17,8 +17,15 @@ bool photons_wanted(const struct job *job);
 // Whether a target bends (mirrors) the light of a lamp.
 bool photons_refract(const struct photon_target *target, const struct light *light);
 bool photons_reflect(const struct photon_target *target, const struct light *light);
-// Shoots them all; NULL: the scene has none. *cancel ends it early; may be NULL.
-struct photons *photons_shoot(const struct job *job, const volatile bool *cancel);
+// Where photons come from other than lamps, and who keeps them.
+struct photon_store {
+    void *user;
+    bool (*load)(void *user, struct photons *p); // fills the maps; false: there are none
+    void (*save)(void *user, const struct photons *p); // in the order of the shots
+};
+// Shoots them all; NULL: the scene has none. *cancel ends it early. Both may be NULL.
+struct photons *photons_shoot(const struct job *job, const struct photon_store *store,
+                              const volatile bool *cancel);
 void photons_free(struct photons *p);
 
 // Whether photons bring the light of a lamp to a surface past targets, which then throw

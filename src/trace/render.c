@@ -193,6 +193,7 @@ struct render_tile render_tile_at(const struct render_settings *settings, uint32
 
 struct shooting {
     const struct job *job;
+    const struct photon_store *store;
     const volatile bool *cancel;
     struct photons *photons;
 };
@@ -201,18 +202,20 @@ struct shooting {
 static void shoot(void *user)
 {
     struct shooting *s = user;
-    s->photons = photons_shoot(s->job, s->cancel);
+    s->photons = photons_shoot(s->job, s->store, s->cancel);
 }
 
-static struct photons *shot(const struct job *job, const volatile bool *cancel)
+static struct photons *shot(const struct job *job, const struct photon_store *store,
+                            const volatile bool *cancel)
 {
-    struct shooting s = {job, cancel, NULL};
+    struct shooting s = {job, store, cancel, NULL};
     if (job->shoots)
         stack_run(shoot, &s);
     return s.photons;
 }
 
 struct photons *render_photons(const struct world *w, const struct render_settings *settings,
+                               const struct photon_store *store,
                                const volatile bool *cancel)
 {
     struct render_settings s = *settings;
@@ -222,7 +225,7 @@ struct photons *render_photons(const struct world *w, const struct render_settin
         return NULL;
     struct arena *arena = arena_new(4096);
     job_init(&job, arena, w, &s);
-    struct photons *p = shot(&job, cancel);
+    struct photons *p = shot(&job, store, cancel);
     arena_free(arena);
     return p;
 }
@@ -247,7 +250,7 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     const double begin = clock_seconds(CLOCK_MONOTONIC), cpu_begin = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     struct photons *photons = NULL;
     if (r.tiles_total && !job.photons)
-        job.photons = photons = shot(&job, progress ? progress->cancel : NULL);
+        job.photons = photons = shot(&job, NULL, progress ? progress->cancel : NULL);
     if (r.tiles_total)
         work_in_threads(&r);
     r.stats.seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
