@@ -26,6 +26,9 @@ struct csg8 {
     uint8_t leaf[CSG_SPANS];                           // from the object's first
     uint8_t first[CSG_LEAVES], count[CSG_LEAVES];      // the spans of a leaf
     uint8_t turned[CSG_LEAVES]; // lanes that are in the leaf outside of its spans
+    // Of spans that are `kept`, in each lane: where scratch has the boundaries.
+    uint32_t begins[CSG_SPANS][8], ends[CSG_SPANS][8];
+    uint64_t kept;
     uint32_t spans;
     uint64_t live;              // nodes that may not be as they are far from all leaves
     struct real8 from, to;      // what begins or ends elsewhere is of no interest
@@ -195,23 +198,27 @@ static void csg8_ring(struct csg8 *v, uint32_t i, const struct ray8 *ray)
 struct lane_spans {
     double in[LEAF_SPANS][8], out[LEAF_SPANS][8], in_e[LEAF_SPANS][8],
         out_e[LEAF_SPANS][8];
+    uint32_t begins[LEAF_SPANS][8], ends[LEAF_SPANS][8];
     uint8_t met[LEAF_SPANS], in_drawn[LEAF_SPANS], out_drawn[LEAF_SPANS];
 };
 
-// The spans between the crossings of one lane; false: they do not take turns, or are many.
+// The spans between the crossings of one lane, those in the list from `from` on; false: they
+// do not take turns, or are many.
 static bool lane_spans_add(struct lane_spans *x, int lane, bool inverted,
-                           const struct boundary_list *list)
+                           const struct boundary_list *list, uint32_t from)
 {
     const uint8_t bit = (uint8_t)(1u << lane);
     uint32_t n = 0;
     bool within = false;
-    for (uint32_t k = 0; k < list->count; k++) {
+    for (uint32_t k = from; k < list->count; k++) {
         const struct boundary *b = &list->at[k];
         const bool enters = (b->crossing == CROSS_ENTER) != inverted;
-        if (b->crossing == CROSS_TOUCH || (k && enters == within) || n == LEAF_SPANS)
+        if (b->crossing == CROSS_TOUCH || (k > from && enters == within) ||
+            n == LEAF_SPANS)
             return false;
-        if (enters || k == 0) {
+        if (enters || k == from) {
             x->met[n] |= bit;
+            x->begins[n][lane] = k;
             x->in[n][lane] = enters ? b->t : -INFINITY;
             x->in_e[n][lane] = enters ? b->dt : 0;
             x->in_drawn[n] |= b->drawn ? bit : 0;
@@ -219,6 +226,7 @@ static bool lane_spans_add(struct lane_spans *x, int lane, bool inverted,
             x->out_e[n][lane] = 0;
         }
         if (!enters) {
+            x->ends[n][lane] = k;
             x->out[n][lane] = b->t;
             x->out_e[n][lane] = b->dt;
             x->out_drawn[n++] |= b->drawn ? bit : 0;
@@ -240,12 +248,12 @@ static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
     for (; lanes; lanes &= lanes - 1) {
         const int lane = __builtin_ctz(lanes);
         const struct ray ray = ray_of_lane(p, lane);
-        p->s->crossings.count = p->s->own_count = 0;
+        const uint32_t from = p->s->crossings.count;
         leaf_crossings_in_csg(p->w, p->s, leaf, &ray);
         p->s->stats.leaf_tests++;
-        if (!lane_spans_add(&x, lane, l->inverted, &p->s->crossings))
+        if (!lane_spans_add(&x, lane, l->inverted, &p->s->crossings, from))
             v->unsure |= 1u << lane;
-        if (p->s->crossings.count == 0 && !l->bounded &&
+        if (p->s->crossings.count == from && !l->bounded &&
             l->ops->inside(l->shape, transform_inverse_point(l->transform, ray.o)))
             csg8_turn(v, i, 1u << lane);
     }
@@ -255,7 +263,13 @@ static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
                                 .in_e = r8_load(x.in_e[k]),
                                 .out_e = r8_load(x.out_e[k]),
                                 .met = m8_of(x.met[k])};
+        const uint32_t at = v->spans;
         csg8_span(v, i, &s, x.in_drawn[k], x.out_drawn[k]);
+        if (v->spans == at)
+            continue;
+        v->kept |= (uint64_t)1 << at;
+        memcpy(v->begins[at], x.begins[k], sizeof x.begins[k]);
+        memcpy(v->ends[at], x.ends[k], sizeof x.ends[k]);
     }
 }
 
@@ -280,6 +294,47 @@ static void csg8_simple(struct csg8 *v, uint32_t i)
         csg8_convex(v, i, shape, ray);
 }
 
+// Lanes that are inside the leaf somewhere, or may be.
+static unsigned csg8_held(const struct csg8 *v, uint32_t i)
+{
+    unsigned held = v->turned[i];
+    for (uint32_t k = v->first[i]; k < (uint32_t)v->first[i] + v->count[i]; k++)
+        held |= m8_bits(r8_le(v->in[k], v->out[k]));
+    return held;
+}
+
+// The same of a node, by index from the root.
+static unsigned csg8_node_held(const struct csg8 *v, uint32_t n)
+{
+    const struct csg_node *node = &v->node[n];
+    if (node->op == NODE_LEAF)
+        return csg8_held(v, node->leaf - v->o->first_leaf);
+    const uint32_t first = node->first_child - v->o->root;
+    const bool all = node->op == NODE_INTERSECTION;
+    unsigned held = all ? 255 : 0;
+    for (uint32_t c = first; c < first + node->child_count; c++)
+        held = all ? held & csg8_node_held(v, c) : held | csg8_node_held(v, c);
+    return held;
+}
+
+// Lanes where a leaf makes a difference: no intersection above it is nowhere without it.
+static unsigned csg8_matters(const struct csg8 *v, uint32_t i)
+{
+    const uint32_t root = v->o->root;
+    uint32_t n = v->e->p->w->leaf[v->o->first_leaf + i].node - root;
+    unsigned lanes = v->lanes;
+    while (n && lanes) {
+        const uint32_t up = v->node[n].parent - root;
+        const uint32_t first = v->node[up].first_child - root;
+        if (v->node[up].op == NODE_INTERSECTION)
+            for (uint32_t c = first; c < first + v->node[up].child_count; c++)
+                if (c != n)
+                    lanes &= csg8_node_held(v, c);
+        n = up;
+    }
+    return lanes;
+}
+
 static void csg8_dear(struct csg8 *v, uint32_t i)
 {
     const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
@@ -287,8 +342,8 @@ static void csg8_dear(struct csg8 *v, uint32_t i)
                                                   ((const struct torus *)l->shape)->minor;
     struct ray8 own;
     csg8_begin_leaf(v, i);
-    unsigned lanes = v->lanes;
-    if (aabb_is_finite(l->bounds))
+    unsigned lanes = csg8_matters(v, i);
+    if (lanes && aabb_is_finite(l->bounds))
         lanes &= box_lanes_to(v->e, &l->bounds, v->to);
     if (!lanes)
         return;
@@ -296,15 +351,6 @@ static void csg8_dear(struct csg8 *v, uint32_t i)
         csg8_ring(v, i, leaf_ray(l, &v->e->ray, &own));
     else
         csg8_other(v, i, lanes);
-}
-
-// Lanes that are inside the leaf somewhere.
-static unsigned csg8_held(const struct csg8 *v, uint32_t i)
-{
-    unsigned held = v->turned[i];
-    for (uint32_t k = v->first[i]; k < (uint32_t)v->first[i] + v->count[i]; k++)
-        held |= m8_bits(r8_le(v->in[k], v->out[k]));
-    return held;
 }
 
 // Solids without which there is nothing: what lies outside of them is of no interest.
@@ -331,10 +377,18 @@ static void csg8_others(struct csg8 *v)
     for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++)
         if (csg8_is_convex(v, i) && !w->leaf[v->o->first_leaf + i].required)
             csg8_simple(v, i);
-    for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++)
-        if (!csg8_is_convex(v, i)) {
+    for (uint32_t i = 0; i < v->o->leaf_count; i++)
+        if (!csg8_is_convex(v, i)) { // not known yet
+            v->first[i] = v->count[i] = 0;
+            v->turned[i] = 255;
+        }
+    for (int inverted = 0; inverted < 2; inverted++)
+        for (uint32_t i = 0; i < v->o->leaf_count && v->lanes; i++) {
+            const struct leaf *l = &w->leaf[v->o->first_leaf + i];
+            if (csg8_is_convex(v, i) || l->inverted != inverted)
+                continue;
             csg8_dear(v, i);
-            if (w->leaf[v->o->first_leaf + i].required)
+            if (l->required)
                 v->lanes &= csg8_held(v, i) | v->unsure;
         }
 }
@@ -384,9 +438,22 @@ static unsigned csg8_first(struct csg8 *v, struct real8 *t, struct real8 *at)
     return found;
 }
 
+// The lane's hit is the boundary at that place.
+static void csg8_keep(struct packet *p, int lane, uint32_t at)
+{
+    const struct boundary b = boundary_as_shape_has_it(p->s, &p->s->crossings.at[at]);
+    p->dt[lane] = b.dt;
+    p->u[lane] = b.u;
+    p->v[lane] = b.v;
+    p->part[lane] = b.part;
+    p->crossing[lane] = b.crossing;
+    p->whole |= 1u << lane;
+}
+
 static unsigned csg8_take(const struct csg8 *v, unsigned found, struct real8 t,
                           struct real8 at, uint32_t object)
 {
+    struct packet *p = v->e->p;
     const uint32_t first_leaf = v->o->first_leaf;
     const unsigned won = found ? take(v->e, found, t, object, first_leaf) : 0;
     double which[8];
@@ -394,7 +461,10 @@ static unsigned csg8_take(const struct csg8 *v, unsigned found, struct real8 t,
         r8_store(which, at);
     for (unsigned m = won; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
-        v->e->p->leaf[lane] = first_leaf + v->leaf[(uint32_t)which[lane] / 2];
+        const uint32_t i = (uint32_t)which[lane], k = i / 2;
+        p->leaf[lane] = first_leaf + v->leaf[k];
+        if (v->kept >> k & 1)
+            csg8_keep(p, lane, i % 2 ? v->ends[k][lane] : v->begins[k][lane]);
     }
     return won;
 }
@@ -425,7 +495,8 @@ static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
     p->s->stats.csg_tests++;
     v.node = p->w->node + v.o->root;
     v.spans = 0;
-    v.live = 0;
+    v.live = v.kept = 0;
+    p->s->crossings.count = p->s->own_count = 0;
     v.bounds = r8_set(0);
     v.lanes = bits;
     v.unsure = 0;

@@ -65,7 +65,7 @@ static bool walk_spheres(struct search *f, const struct ray8 *ray, uint32_t firs
 // Shapes that packets know are for packets, of one ray as well; a mesh is walked by the ray.
 LANES_INLINE bool takes_one(unsigned shape)
 {
-    return shape == PACKET_PRODUCT || shape == PACKET_CARVED ||
+    return shape == PACKET_PRODUCT || shape == PACKET_CARVED || shape == PACKET_CSG ||
            (shape >= PACKET_SPHERE && shape <= PACKET_TORUS);
 }
 

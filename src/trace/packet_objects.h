@@ -324,36 +324,6 @@ static unsigned exact_leaves(struct eight *e, struct product *x, bool complement
     return bits;
 }
 
-// A merge has the boundaries of what lies outside of it, which is a product.
-static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
-{
-    struct packet *p = e->p;
-    const struct world_object *o = &p->w->object[object];
-    const bool merge = p->w->accel->object_shape[object] == PACKET_MERGE;
-    struct product x;
-    product_begin(&x, e->t_min, e->t_max);
-    bits = exact_leaves(e, &x, false, merge, o, bits);
-    product_solids_end(&x);
-    bits = exact_leaves(e, &x, true, merge, o, bits);
-    if (!bits)
-        return 0;
-    struct real8 t, at;
-    unsigned unsure;
-    const unsigned found = product_first(&x, bits, &t, &at, &unsure);
-    const unsigned won = take_leaves(e, found, t, at, object);
-    return unsure ? won | packet_try_object(p, unsure, object) : won;
-}
-
-static unsigned merge8(struct eight *e, unsigned bits, uint32_t object)
-{
-    if (!e->boxed)
-        bits &= box_lanes(e, &e->p->w->object[object].bounds);
-    if (!bits)
-        return 0;
-    e->p->s->stats.csg_tests++;
-    return product_exact(e, bits, object);
-}
-
 // ---- hits -----------------------------------------------------------------------------------
 
 // Lanes whose t is one of the crossings become whole; not those whose hit is of another

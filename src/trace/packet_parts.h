@@ -2,7 +2,7 @@
 #define TRACE_PACKET_PARTS_H
 
 // Eight rays and a product, part by part (trace/packet_quick.h).
-#include "trace/packet_objects.h"
+#include "trace/packet_csg.h"
 #include "trace/packet_quick.h"
 
 // The span of a cone or a quadric: its own bounds tell whether it is clear.
@@ -108,6 +108,39 @@ LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_prod
         quick_complement(q, v, &part[i], bits, &s);
     }
     return bits;
+}
+
+// A merge has the boundaries of what lies outside of it, which is a product.
+static unsigned product_exact(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct world_object *o = &p->w->object[object];
+    const bool merge = p->w->accel->object_shape[object] == PACKET_MERGE;
+    struct product x;
+    product_begin(&x, e->t_min, e->t_max);
+    bits = exact_leaves(e, &x, false, merge, o, bits);
+    product_solids_end(&x);
+    bits = exact_leaves(e, &x, true, merge, o, bits);
+    if (!bits)
+        return 0;
+    struct real8 t, at;
+    unsigned unsure;
+    const unsigned found = product_first(&x, bits, &t, &at, &unsure);
+    const unsigned won = take_leaves(e, found, t, at, object);
+    if (!unsure)
+        return won;
+    return won | (o->node_count > CSG_NODES ? packet_try_object(p, unsure, object)
+                                            : csg8(e, unsure, object));
+}
+
+static unsigned merge8(struct eight *e, unsigned bits, uint32_t object)
+{
+    if (!e->boxed)
+        bits &= box_lanes(e, &e->p->w->object[object].bounds);
+    if (!bits)
+        return 0;
+    e->p->s->stats.csg_tests++;
+    return product_exact(e, bits, object);
 }
 
 static unsigned product(struct eight *e, unsigned bits, uint32_t object)
