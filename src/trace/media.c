@@ -36,14 +36,15 @@ static const struct media *const *media_of(struct arena *a, const struct inside 
     return all;
 }
 
-struct media_walker media_walker(struct tracer *t, const struct media_way *way)
+struct media_walker media_walker(struct tracer *t, const struct media_way *way,
+                                 const uint8_t *missed, uint8_t lane)
 {
     const uint32_t most = t->job->lamps[way->group].count;
     struct media_walker w = {.way = way};
     if (most) {
         struct media_lamp *lamp =
             arena_new_array(t->media[WAY_EYE].arena, struct media_lamp, most + 1);
-        w.lamp_count = media_lamps(t->job, way->group, way->o, way->d, way->s, lamp);
+        w.lamp_count = media_lamps(t->job, way, missed, lane, lamp);
         w.lamp = lamp;
     }
     return w;
@@ -53,7 +54,7 @@ static void apply(struct tracer *t, struct path *path, const struct media_mix *m
                   const struct media_way *way)
 {
     struct media_scratch *s = &t->media[WAY_EYE];
-    struct media_walker w = media_walker(t, way);
+    struct media_walker w = media_walker(t, way, NULL, 0);
     struct media_march m = {
         .t = t, .scratch = s, .mix = mix, .walker = &w, .walker_count = 1};
     m.interval =

@@ -56,21 +56,37 @@ static void shadows(struct lighting *l, const struct media_sample *sample)
     }
 }
 
-// The samples that the lamp may light become rays in `near`.
-static void ask(struct lighting *l, const struct media_lamp *const *reach,
-                const struct media_sample *sample, uint32_t count)
+// A walker's samples among those that are found together, which stand in its order, and its
+// lamps that are still to come.
+struct turn {
+    uint32_t walker, begin, end, lamp;
+};
+
+static uint32_t turns_of(const struct media_march *m, const struct media_sample *sample,
+                         uint32_t count, struct turn *turn)
 {
-    const struct media_march *m = l->m;
-    struct shadow_batch *b = &m->t->near;
-    const uint8_t photons = photons_instead_in_media(m->t->job, m->mix, l->lamp->light);
-    l->count = 0;
+    uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct media_interval *v = &m->interval[sample[i].interval];
-        const struct media_lamp *lamp = reach[v->walker];
-        if (!v->lit || !lamp || sample[i].t < lamp->begin || sample[i].t > lamp->end)
+        if (!n || turn[n - 1].walker != v->walker)
+            turn[n++] = (struct turn){v->walker, i, i, 0};
+        turn[n - 1].end = i + 1;
+    }
+    return n;
+}
+
+// Those that the lamp may light become rays in `near`.
+static void ask(struct lighting *l, const struct turn *turn, const struct media_lamp *lamp,
+                const struct media_sample *sample, uint8_t photons)
+{
+    const struct media_march *m = l->m;
+    const struct media_way *way = m->walker[turn->walker].way;
+    struct shadow_batch *b = &m->t->near;
+    for (uint32_t i = turn->begin; i < turn->end; i++) {
+        if (!m->interval[sample[i].interval].lit || sample[i].t < lamp->begin ||
+            sample[i].t > lamp->end)
             continue;
         const uint32_t n = l->count++;
-        const struct media_way *way = m->walker[v->walker].way;
         const struct vec3 p = vec3_mad(way->o, sample[i].t, way->d);
         l->sample[n] = i;
         b->rays->o[0][n] = p.x;
@@ -131,24 +147,19 @@ void media_samples_lit(struct media_march *m, struct media_sample *sample,
                        const struct media_point *point, uint32_t count)
 {
     const struct lamp_list *all = &m->t->job->lamps[m->walker[0].way->group];
-    const struct media_lamp *reach[BATCH_SIZE]; // of each walker
-    uint32_t next[BATCH_SIZE];                  // of each walker's lamps, in their order
-    struct lighting l = {.m = m};
-    for (uint32_t i = 0; i < m->walker_count; i++)
-        next[i] = 0;
+    struct turn turn[MEDIA_SAMPLES];
+    const uint32_t turns = turns_of(m, sample, count, turn);
+    struct lighting l; // not set to zero as a whole: it is large
+    l.m = m;
     for (uint32_t k = 0; k < all->count; k++) {
-        bool any = false;
         l.lamp = all->lamp[k];
-        for (uint32_t i = 0; i < m->walker_count; i++) {
-            const struct media_walker *w = &m->walker[i];
-            const bool lights =
-                next[i] < w->lamp_count && w->lamp[next[i]].lamp == l.lamp;
-            reach[i] = lights ? &w->lamp[next[i]++] : NULL;
-            any |= lights;
+        l.count = 0;
+        const uint8_t photons = photons_instead_in_media(m->t->job, m->mix, l.lamp->light);
+        for (uint32_t i = 0; i < turns; i++) {
+            const struct media_walker *w = &m->walker[turn[i].walker];
+            if (turn[i].lamp < w->lamp_count && w->lamp[turn[i].lamp].lamp == l.lamp)
+                ask(&l, &turn[i], &w->lamp[turn[i].lamp++], sample, photons);
         }
-        if (!any)
-            continue;
-        ask(&l, reach, sample, count);
         if (l.count)
             samples_lit(&l, sample, point);
     }

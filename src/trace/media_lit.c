@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "scene/effects.h"
+#include "trace/shade_kernel.h"
 
 // ---- cones and cylinders ---------------------------------------------------------------
 
@@ -102,17 +103,38 @@ static bool lamp_reaches(const struct lamp *lamp, struct vec3 o, struct vec3 d, 
     return true;
 }
 
-uint32_t media_lamps(const struct job *job, uint32_t group, struct vec3 o, struct vec3 d,
-                     double s, struct media_lamp *out)
+uint32_t media_lamps(const struct job *job, const struct media_way *way,
+                     const uint8_t *missed, uint8_t lane, struct media_lamp *out)
 {
-    const struct lamp_list *list = &job->lamps[group];
+    const struct lamp_list *list = &job->lamps[way->group];
     uint32_t n = 0;
     for (uint32_t i = 0; i < list->count; i++) {
         const struct lamp *l = list->lamp[i];
-        if (!l->inert && !l->light->shadowless && l->light->media_interaction)
-            n += lamp_reaches(l, o, d, s, &out[n]);
+        if (!(missed && missed[i] & lane) && !l->inert && !l->light->shadowless &&
+            l->light->media_interaction)
+            n += lamp_reaches(l, way->o, way->d, way->s, &out[n]);
     }
     return n;
+}
+
+void media_lamps_missed(const struct job *job, const struct media_way *way, uint32_t count,
+                        uint8_t *missed)
+{
+    const struct lamp_list *list = &job->lamps[way->group];
+    double o[3][8], d[3][8], s[8];
+    for (uint32_t i = 0; i < 8; i++) {
+        const struct media_way *w = &way[i < count ? i : 0];
+        o[0][i] = w->o.x, o[1][i] = w->o.y, o[2][i] = w->o.z;
+        d[0][i] = w->d.x, d[1][i] = w->d.y, d[2][i] = w->d.z;
+        s[i] = w->s;
+    }
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct lamp *l = list->lamp[i];
+        missed[i] = 0;
+        if (l->light->kind == LIGHT_SPOT && l->cos_falloff > 0)
+            missed[i] = (uint8_t)job->kernels->misses_cone(
+                l, (const double(*)[8])o, (const double(*)[8])d, s);
+    }
 }
 
 // ---- intervals -----------------------------------------------------------------------

@@ -79,8 +79,9 @@ void media_walk_together(struct media_march *m, const uint32_t *first,
 // Intervals that are walked at once, at most.
 uint32_t media_stride(const struct media_mix *mix);
 
-// A way to the eye and what lights it; in the arena of its scratch.
-struct media_walker media_walker(struct tracer *t, const struct media_way *way);
+// A way to the eye and what lights it (media_lamps); in the arena of its scratch.
+struct media_walker media_walker(struct tracer *t, const struct media_way *way,
+                                 const uint8_t *missed, uint8_t lane);
 
 // Light that reaches samples from the lamps: added to their `light` (media_light.c).
 void media_samples_lit(struct media_march *m, struct media_sample *sample,

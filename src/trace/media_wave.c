@@ -43,10 +43,11 @@ static void march_end(struct march_batch *b)
 }
 
 // Walks a way, or lets it wait.
-static void march_add(struct march_batch *b, const struct media_way *way, bool together)
+static void march_add(struct march_batch *b, const struct media_way *way, bool together,
+                      const uint8_t *missed, uint8_t lane)
 {
     struct media_march *m = &b->march;
-    struct media_walker w = media_walker(m->t, way);
+    struct media_walker w = media_walker(m->t, way, missed, lane);
     uint32_t count;
     struct media_interval *own =
         media_intervals(m->scratch->arena, m->mix, way->s, w.lamp, w.lamp_count, &count);
@@ -84,8 +85,13 @@ static void ways_walk(struct tracer *t, const struct media_mix *mix,
     b.most = SEVERAL * media_stride(mix);
     b.interval = arena_new_array(s->arena, struct media_interval, b.most);
     b.march.interval = b.interval;
-    for (uint32_t i = 0; i < count; i++)
-        march_add(&b, &way[i], together);
+    uint8_t *missed =
+        arena_new_array(s->arena, uint8_t, t->job->lamps[way->group].count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        if (i % 8 == 0)
+            media_lamps_missed(t->job, &way[i], count - i, missed);
+        march_add(&b, &way[i], together, missed, (uint8_t)(1u << i % 8));
+    }
     march_end(&b);
 }
 

@@ -364,6 +364,37 @@ static bool views(const struct lamp *lamp, uint32_t count, struct ray_batch *ray
     return any;
 }
 
+// Between two numbers, both left out.
+LANES_INLINE struct mask8 inside8(struct real8 x, struct real8 most)
+{
+    return m8_and(r8_lt(r8_set(0), x), r8_lt(x, most));
+}
+
+// Those for which cut_roots of trace/media_lit.c finds nothing on the way and in_cone is false
+// in its middle.
+static unsigned misses_cone(const struct lamp *lamp, const double o[3][8],
+                            const double d[3][8], const double s[8])
+{
+    const struct vec8 from = v8_sub(v8_load(o), V8_SET(lamp->light->location)),
+                      to = v8_load(d), axis = V8_SET(lamp->light->axis);
+    const struct real8 e = v8_dot(from, axis), f = v8_dot(to, axis), b = v8_dot(from, to),
+                       c = v8_dot(from, from), length = r8_load(s), none = r8_set(0);
+    const struct real8 k = r8_set(lamp->cos_falloff * lamp->cos_falloff);
+    const struct real8 qa = r8_sub(r8_mul(f, f), k),
+                       qb = r8_sub(r8_mul(f, e), r8_mul(k, b)),
+                       qc = r8_sub(r8_mul(e, e), r8_mul(k, c));
+    const struct real8 q = r8_sub(r8_mul(qb, qb), r8_mul(qa, qc));
+    const struct real8 root =
+        r8_neg(r8_add(qb, r8_copysign(r8_sqrt(r8_max(q, none)), qb)));
+    const unsigned cut = m8_bits(inside8(r8_div(qc, root), length)) |
+                         m8_bits(inside8(r8_div(root, qa), length));
+    const struct vec8 middle = v8_mad(from, r8_div(length, r8_set(2)), to);
+    const unsigned lit =
+        m8_bits(r8_le(r8_mul(r8_set(lamp->cos_falloff), r8_sqrt(v8_dot(middle, middle))),
+                      v8_dot(middle, axis)));
+    return ~lit & (m8_bits(r8_lt(q, none)) | ~cut) & 255;
+}
+
 // ---- sums ---------------------------------------------------------------------------------
 
 static void lit(struct wavefront *w, const struct shadow_batch *b, uint32_t count)
@@ -451,7 +482,7 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     bounce,        lit,
     sums,          exps,
     meets,         fogs,
-    toward,        views,
+    toward,        views,         misses_cone,
     points,        texture_space,
     world_normals, sheet_pass,
     own_sheets,    light_sheets};

@@ -62,6 +62,9 @@ struct shade_kernels {
     // whether it is anywhere. Arrays have room for eight more.
     bool (*views)(const struct lamp *lamp, uint32_t count, struct ray_batch *rays,
                   uint8_t *dark, float *color, uint32_t stride);
+    // Of eight ways of length s, those that certainly do not meet the cone of a spot light.
+    unsigned (*misses_cone)(const struct lamp *lamp, const double o[3][8],
+                            const double d[3][8], const double s[8]);
     // ---- painted hits (trace/paint.h)
     // `place` without colours. uv: with uv coordinates.
     void (*points)(struct tracer *t, const uint16_t *ray, uint32_t count, bool uv,
