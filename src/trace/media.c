@@ -127,35 +127,30 @@ static struct media_way shadow_way(struct vec3 o, struct vec3 d, double s)
     return (struct media_way){.o = o, .d = d, .s = s, .hash = hash_of_double(h, d.x)};
 }
 
-static struct rgb shadow_of(struct tracer *t, const struct media *const *media,
-                            uint32_t count, struct vec3 o, struct vec3 d, double length)
+static struct rgb shadow_through(struct tracer *t, const struct media_mix *mix,
+                                 struct vec3 o, struct vec3 d, double length)
 {
     struct media_scratch *s = &t->media[WAY_SHADOW];
-    const struct media_mix mix = dark_mix(s->arena, media, count);
-    if (mix.even) // none at all, too
-        return rgb_of(media_even_pass(mix.everywhere.extinction, length));
+    if (mix->even) // none at all, too
+        return rgb_of(media_even_pass(mix->everywhere.extinction, length));
     const struct media_way way = shadow_way(o, d, length);
     struct media_walker w = {.way = &way};
     struct media_march m = {.t = t,
                             .scratch = s,
-                            .mix = &mix,
+                            .mix = mix,
                             .walker = &w,
                             .walker_count = 1,
                             .depth_only = true};
-    m.interval = media_intervals(s->arena, &mix, length, NULL, 0, &m.interval_count);
+    m.interval = media_intervals(s->arena, mix, length, NULL, 0, &m.interval_count);
     return rgb_of(media_walk(&m).pass);
 }
 
 struct rgb media_shadow(struct tracer *t, const struct inside *list, struct vec3 o,
                         struct vec3 d, double s)
 {
-    if (!media_inside(list))
-        return rgb(1, 1, 1);
-    struct arena *a = t->media[WAY_SHADOW].arena;
-    arena_reset(a);
-    uint32_t count;
-    const struct media *const *media = media_of(a, list, &count);
-    return shadow_of(t, media, count, o, d, s);
+    struct media_dark one = {.inside = list, .o = o, .d = d, .s = s};
+    media_shadows(t, &one, 1);
+    return one.pass;
 }
 
 bool media_same(const struct inside *a, const struct inside *b)
@@ -168,8 +163,7 @@ bool media_same(const struct inside *a, const struct inside *b)
 
 enum { TOGETHER = 64 }; // rays at most
 
-// The first rays of `ray`, while they are in the media `mix`, together; returns how many
-// there were.
+// The first rays of `ray`, all in the media `mix`, together; returns how many there were.
 static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
                          struct media_dark *ray, uint32_t count)
 {
@@ -180,8 +174,7 @@ static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
     struct media_walker walker[TOGETHER];
     struct media_result result[TOGETHER];
     struct media_interval *all = arena_new_array(s->arena, struct media_interval, most);
-    for (; n < count && n < TOGETHER && (!n || media_same(ray[n].inside, ray[0].inside));
-         n++) {
+    for (; n < count && n < TOGETHER; n++) {
         uint32_t intervals;
         way[n] = shadow_way(ray[n].o, ray[n].d, ray[n].s);
         const struct media_interval *own =
@@ -209,31 +202,36 @@ static uint32_t walk_few(struct tracer *t, const struct media_mix *mix,
     return n;
 }
 
-// Walks the first ray, and those after it that go with it; returns how many.
-static uint32_t shadows_from(struct tracer *t, struct media_dark *ray, uint32_t count)
+// Rays that are in the same media.
+static void shadows_of_run(struct tracer *t, struct media_dark *ray, uint32_t count)
 {
     struct arena *a = t->media[WAY_SHADOW].arena;
     arena_reset(a);
     uint32_t all;
     const struct media *const *media = media_of(a, ray->inside, &all);
     const struct media_mix mix = dark_mix(a, media, all);
-    if (count > 1 && mix.count && media_goes_together(&mix, true) &&
-        media_same(ray[0].inside, ray[1].inside) &&
-        (uint32_t)mix.rules->intervals <= media_stride(&mix))
-        return walk_few(t, &mix, ray, count);
-    ray->pass = media_shadow(t, ray->inside, ray->o, ray->d, ray->s);
-    return 1;
+    const bool together = mix.count && media_goes_together(&mix, true) &&
+                          (uint32_t)mix.rules->intervals <= media_stride(&mix);
+    for (uint32_t i = 0; i < count;) {
+        if (together) {
+            i += walk_few(t, &mix, &ray[i], count - i);
+        } else {
+            ray[i].pass = shadow_through(t, &mix, ray[i].o, ray[i].d, ray[i].s);
+            i++;
+        }
+    }
 }
 
 void media_shadows(struct tracer *t, struct media_dark *ray, uint32_t count)
 {
-    for (uint32_t i = 0; i < count;) {
-        if (media_inside(ray[i].inside)) {
-            i += shadows_from(t, &ray[i], count - i);
-        } else {
-            ray[i].pass = rgb(1, 1, 1);
-            i++;
-        }
+    for (uint32_t i = 0, end; i < count; i = end) {
+        end = i + 1;
+        ray[i].pass = rgb(1, 1, 1);
+        if (!media_inside(ray[i].inside))
+            continue;
+        while (end < count && media_same(ray[end].inside, ray[i].inside))
+            end++;
+        shadows_of_run(t, &ray[i], end - i);
     }
 }
 
@@ -244,7 +242,9 @@ struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, doub
     if (shadow->air_even)
         return rgb_of(media_even_pass(shadow->air_extinction, s));
     arena_reset(shadow->arena);
-    return shadow_of(t, scene->media, scene->media_count, o, d, s);
+    const struct media_mix mix =
+        dark_mix(shadow->arena, scene->media, scene->media_count);
+    return shadow_through(t, &mix, o, d, s);
 }
 
 // ---- preparation -----------------------------------------------------------------------
