@@ -612,5 +612,6 @@ const struct noise_kernels OF_ISA(noise_kernels_) = {ISA_TEXT,
                                                      powers,
                                                      OF_ISA(noise_rings_),
                                                      OF_ISA(noise_ring_slopes_),
+                                                     OF_ISA(noise_grid_),
                                                      &OF_ISA(tape_kernels_),
                                                      &OF_ISA(surface_kernels_)};

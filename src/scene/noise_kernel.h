@@ -65,6 +65,13 @@ noise_rings_kernel noise_rings_base, noise_rings_avx2, noise_rings_avx512;
 noise_ring_slopes_kernel noise_ring_slopes_base, noise_ring_slopes_avx2,
     noise_ring_slopes_avx512;
 
+// Samples of a grid that fills the unit cube, with linear steps between them; 0 outside
+// (scene/patterns/density_file.c).
+struct density_grid;
+typedef void noise_grid_kernel(const struct density_grid *g, const double p[3][8],
+                               double out[8]);
+noise_grid_kernel noise_grid_base, noise_grid_avx2, noise_grid_avx512;
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -85,7 +92,8 @@ struct noise_kernels {
     void (*power)(const double x[8], double y, double out[8]);
     noise_rings_kernel *rings;
     noise_ring_slopes_kernel *ring_slopes;
-    const struct tape_kernels *tapes; // functions of the same instruction set
+    noise_grid_kernel *grid;
+    const struct tape_kernels *tapes;      // functions of the same instruction set
     const struct surface_kernels *surface; // likewise
 };
 

@@ -76,8 +76,9 @@ static uint32_t turns_of(const struct media_march *m, const struct media_sample 
 }
 
 // Those that the lamp may light become rays in `near`.
-static void ask(struct lighting *l, const struct turn *turn, const struct media_lamp *lamp,
-                const struct media_sample *sample, uint8_t photons)
+static void ask(struct lighting *l, const struct turn *turn,
+                const struct media_lamp *lamp, const struct media_sample *sample,
+                uint8_t photons)
 {
     const struct media_march *m = l->m;
     const struct media_way *way = m->walker[turn->walker].way;
@@ -154,7 +155,8 @@ void media_samples_lit(struct media_march *m, struct media_sample *sample,
     for (uint32_t k = 0; k < all->count; k++) {
         l.lamp = all->lamp[k];
         l.count = 0;
-        const uint8_t photons = photons_instead_in_media(m->t->job, m->mix, l.lamp->light);
+        const uint8_t photons =
+            photons_instead_in_media(m->t->job, m->mix, l.lamp->light);
         for (uint32_t i = 0; i < turns; i++) {
             const struct media_walker *w = &m->walker[turn[i].walker];
             if (turn[i].lamp < w->lamp_count && w->lamp[turn[i].lamp].lamp == l.lamp)

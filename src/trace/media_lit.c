@@ -117,8 +117,8 @@ uint32_t media_lamps(const struct job *job, const struct media_way *way,
     return n;
 }
 
-void media_lamps_missed(const struct job *job, const struct media_way *way, uint32_t count,
-                        uint8_t *missed)
+void media_lamps_missed(const struct job *job, const struct media_way *way,
+                        uint32_t count, uint8_t *missed)
 {
     const struct lamp_list *list = &job->lamps[way->group];
     double o[3][8], d[3][8], s[8];
@@ -132,8 +132,8 @@ void media_lamps_missed(const struct job *job, const struct media_way *way, uint
         const struct lamp *l = list->lamp[i];
         missed[i] = 0;
         if (l->light->kind == LIGHT_SPOT && l->cos_falloff > 0)
-            missed[i] = (uint8_t)job->kernels->misses_cone(
-                l, (const double(*)[8])o, (const double(*)[8])d, s);
+            missed[i] = (uint8_t)job->kernels->misses_cone(l, (const double(*)[8])o,
+                                                           (const double(*)[8])d, s);
     }
 }
 

@@ -21,8 +21,8 @@ struct media_interval {
 uint32_t media_lamps(const struct job *job, const struct media_way *way,
                      const uint8_t *missed, uint8_t lane, struct media_lamp *out);
 // The lamps that eight ways of a light group certainly miss, a bit a way.
-void media_lamps_missed(const struct job *job, const struct media_way *way, uint32_t count,
-                        uint8_t *missed);
+void media_lamps_missed(const struct job *job, const struct media_way *way,
+                        uint32_t count, uint8_t *missed);
 // How the stretch is divided (spec/lighting.md 10.3); in the arena.
 struct media_interval *media_intervals(struct arena *a, const struct media_mix *mix,
                                        double s, const struct media_lamp *lamp,

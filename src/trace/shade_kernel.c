@@ -482,7 +482,8 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     bounce,        lit,
     sums,          exps,
     meets,         fogs,
-    toward,        views,         misses_cone,
-    points,        texture_space,
-    world_normals, sheet_pass,
-    own_sheets,    light_sheets};
+    toward,        views,
+    misses_cone,   points,
+    texture_space, world_normals,
+    sheet_pass,    own_sheets,
+    light_sheets};

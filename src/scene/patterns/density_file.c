@@ -1,6 +1,7 @@
 // density_file: samples of a grid that fills the unit cube (spec/textures 5.4)
 
 #include "scene/density_grid.h"
+#include "scene/noise_kernel.h"
 #include "scene/pattern.h"
 #include "scene/pattern_formula.h"
 
@@ -43,19 +44,18 @@ static void places_of(const struct density_grid *g, const struct cell c[3], int 
 static double linear(const struct density_grid *g, const struct cell c[3])
 {
     size_t at[3][4];
-    double sum = 0, weight[3][2], sample[8];
+    double sum = 0;
     places_of(g, c, 0, 2, at);
-    for (int k = 0; k < 3; k++) {
-        weight[k][0] = 1 - c[k].fraction;
-        weight[k][1] = c[k].fraction;
+    for (int i = 0; i < 8; i++) {
+        size_t place = 0;
+        double weight = 1;
+        for (int k = 0; k < 3; k++) {
+            const int next = i >> k & 1;
+            place += at[k][next];
+            weight *= next ? c[k].fraction : 1 - c[k].fraction;
+        }
+        sum += weight * density_grid_sample(g, place);
     }
-    for (int i = 0; i < 8; i++)
-        sample[i] = density_grid_raw(g, at[0][i & 1] + at[1][i >> 1 & 1] + at[2][i >> 2]);
-    for (int i = 0; i < 8; i++)
-        sample[i] = weight[0][i & 1] * weight[1][i >> 1 & 1] * weight[2][i >> 2] *
-                    (sample[i] / density_grid_most(g));
-    for (int i = 0; i < 8; i++)
-        sum += sample[i];
     return sum;
 }
 
@@ -102,11 +102,25 @@ static double value(const struct pattern *p, struct vec3 at,
     }
 }
 
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    if (p->density && p->integer[0] % 10 == 1) {
+        k->grid(p->density, at, out);
+        return;
+    }
+    for (int i = 0; i < 8; i++)
+        out[i] = value(p, vec3(at[0][i], at[1][i], at[2][i]), NULL);
+}
+
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
     // Cubic curves overshoot by a quarter along each axis.
     return formula_unknown(f, 0, p->integer[0] % 10 <= 1 ? 1 : 2, at);
 }
 
-const struct pattern_ops density_file_pattern_ops = {
-    .keyword = "density_file", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops density_file_pattern_ops = {.keyword = "density_file",
+                                                     .frequency = 1,
+                                                     .value = value,
+                                                     .values = values,
+                                                     .formula = formula};

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "scene/density_grid.h"
 #include "scene/noise.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern.h"
@@ -96,9 +97,8 @@ static double halved(const void *data, struct vec3 p)
 // Patterns that need data of a scene; by value alone, and tested by the scenes.
 static bool needs_data(const struct pattern_ops *ops)
 {
-    static const char *const names[] = {"object",        "pigment_pattern",
-                                        "image_pattern", "density_file",
-                                        "tiling",        "pavement"};
+    static const char *const names[] = {"object", "pigment_pattern", "image_pattern",
+                                        "tiling", "pavement"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(ops->keyword, names[i]) == 0) {
             assert_null(ops->values);
@@ -143,6 +143,16 @@ static struct pattern variant(const struct pattern_ops *ops, unsigned turn)
         p.exterior_factor = 3.5;
         p.interior_factor = 0.7;
     }
+    if (ops == &density_file_pattern_ops) {
+        static uint8_t sample[240];
+        static struct density_grid grid[3];
+        for (size_t i = 0; i < sizeof sample; i++)
+            sample[i] = (uint8_t)(i * i * 37 + i);
+        struct density_grid *g = &grid[turn / 4 % 3];
+        *g = (struct density_grid){{3, 4, 5}, 1u << turn / 4 % 3, sample};
+        p.density = turn % 16 == 15 ? NULL : g;
+        p.integer[0] = (int)(turn % 4 == 3 ? 1 : turn % 4);
+    }
     return p;
 }
 
@@ -156,6 +166,8 @@ static void check_pattern(const struct noise_kernels *k, const struct pattern_op
         random_points(at, turn);
         random_points(normal, 0);
         random_points(ray, 0);
+        for (int i = 0; i < 24 && ops == &density_file_pattern_ops && turn % 8 < 6; i++)
+            at[i / 8][i % 8] = random_unit();
         const struct pattern_packet packet = {(const double(*)[8])at,
                                               (const double(*)[8])normal,
                                               (const double(*)[8])ray, NULL};
