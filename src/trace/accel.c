@@ -328,8 +328,10 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
     }
 }
 
-// Adds what a leaf has. Of cones and quadrics the bounds of each crossing are known.
-static void leaf_adds(const struct leaf *l, unsigned shape, struct accel_product *x)
+// Adds what a leaf in a space has. Of cones and quadrics the bounds of each crossing are
+// known.
+static void leaf_adds(const struct leaf *l, unsigned shape, uint32_t space,
+                      struct accel_product *x)
 {
     double extent = 0, radius = INFINITY;
     if (shape == PACKET_SPHERE) {
@@ -346,7 +348,7 @@ static void leaf_adds(const struct leaf *l, unsigned shape, struct accel_product
     } else if (shape == PACKET_PLANE) {
         extent = vec3_max_abs(((const struct plane *)l->shape)->point);
     }
-    x->extent = fmax(x->extent, extent);
+    x->extent[space] = fmax(x->extent[space], extent);
     x->least = fmin(x->least, radius);
 }
 
@@ -401,10 +403,11 @@ static struct accel_product product_of(struct arena *a, const struct world *w,
     struct accel_product x = {.least = INFINITY, .count = (uint16_t)o->leaf_count};
     uint32_t space[PRODUCT_LEAVES], n = 0;
     for (uint32_t i = 0; i < o->leaf_count; i++) {
-        leaf_adds(&w->leaf[o->first_leaf + i], accel->leaf_shape[o->first_leaf + i], &x);
         space[i] = space_of(w, o, i, &x);
         if (space[i] > PRODUCT_SPACES)
             return (struct accel_product){.part = NULL};
+        leaf_adds(&w->leaf[o->first_leaf + i], accel->leaf_shape[o->first_leaf + i],
+                  space[i], &x);
     }
     struct product_part *part = arena_new_array(a, struct product_part, o->leaf_count);
     for (uint32_t group = 0; group < GROUPS; group++) {

@@ -73,7 +73,9 @@ struct product_part {
 // solids, complements.
 struct accel_product {
     const struct product_part *part; // NULL: there are no quick tests
-    double extent; // the most that coordinates and radii of a part add up to
+    // Of each space, as in product_part: the most that coordinates and radii of a part add up
+    // to.
+    double extent[1 + PRODUCT_SPACES];
     double least;  // radius
     uint16_t world_solids, solids, count;
     uint16_t spaces;

@@ -91,7 +91,7 @@ LANES_INLINE unsigned quick_parts(const struct eight *e, const struct accel_prod
     for (uint32_t k = 0; k < x->spaces && bits; k++) {
         const struct leaf *l = &e->p->w->leaf[first_leaf + x->space[k]];
         own[k] = local_ray(l->transform, &e->ray);
-        quick_moved(q, x, l, &e->ray, &own[k]);
+        quick_moved(q, x, k + 1, l, &e->ray, &own[k]);
     }
     for (; i < x->solids && bits; i++) {
         const struct ray8 *ray = part[i].space ? &own[part[i].space - 1] : &e->ray;
@@ -160,7 +160,7 @@ static unsigned product(struct eight *e, unsigned bits, uint32_t object)
     struct ray8 own[PRODUCT_SPACES];
     v.count = v.hollows = 0;
     quick_begin(&q, e->t_min, e->t_max);
-    quick_space(&q, x, &e->ray, r8_set(0), r8_set(0));
+    quick_space(&q, x, 0, &e->ray, r8_set(0), r8_set(0));
     bits = quick_parts(e, x, o->first_leaf, bits, &q, &v, own);
     if (!bits)
         return 0;

@@ -141,10 +141,10 @@ LANES_INLINE struct real8 quick_bound(const struct quick *q, double times, struc
 // How much the bounds must allow for in a space: that of the ray. `more` is what the
 // rounding of the way there adds to coordinates and to speed.
 LANES_INLINE void quick_space(struct quick *q, const struct accel_product *x,
-                              const struct ray8 *ray, struct real8 more,
+                              uint32_t space, const struct ray8 *ray, struct real8 more,
                               struct real8 more_speed)
 {
-    const struct real8 size = r8_add(ray->o_max, r8_set(x->extent));
+    const struct real8 size = r8_add(ray->o_max, r8_set(x->extent[space]));
     const struct real8 unit = r8_mul(r8_set(SPAN_CLEAR), ray->per_length);
     q->a = r8_max(r8_mul(unit, r8_add(size, more)), q->a);
     q->b = r8_max(r8_mul(unit, r8_add(v8_max_abs(ray->d), more_speed)), q->b);
@@ -157,16 +157,16 @@ LANES_INLINE void quick_space(struct quick *q, const struct accel_product *x,
 // ray in the world and o_max in the leaf's space; dt is in proportion to o_max + extent
 // there, which is at most 65 o_max where the lane is not in doubt.
 LANES_INLINE void quick_moved(struct quick *q, const struct accel_product *x,
-                              const struct leaf *l, const struct ray8 *ray,
-                              const struct ray8 *own)
+                              uint32_t space, const struct leaf *l,
+                              const struct ray8 *ray, const struct ray8 *own)
 {
     enum { ROOM = 64 };
     const double share = (1 + ROOM) * 4.01 * l->stretch; // GAMMA(32) < 4.01 GAMMA(8)
     const struct real8 size =
         r8_add(ray->o_max, r8_set(2 * vec3_max_abs(l->transform->offset)));
-    q->doubt =
-        m8_or(q->doubt, r8_lt(r8_mul(r8_set(ROOM), own->o_max), r8_set(x->extent)));
-    quick_space(q, x, own, r8_mul(r8_set(share), size),
+    q->doubt = m8_or(q->doubt,
+                     r8_lt(r8_mul(r8_set(ROOM), own->o_max), r8_set(x->extent[space])));
+    quick_space(q, x, space, own, r8_mul(r8_set(share), size),
                 r8_mul(r8_set(share), v8_max_abs(ray->d)));
 }
 
