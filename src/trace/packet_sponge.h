@@ -80,22 +80,62 @@ LANES_INLINE bool sponge_look(const struct eight *e, const struct sponge *v,
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 c = a == 0 ? p.x : a == 1 ? p.y : p.z;
-        double lo[8], hi[8];
-        r8_store(lo, r8_select(m, r8_sub(c, reach), none));
-        r8_store(hi, r8_select(m, r8_add(c, reach), r8_neg(none)));
-        for (int i = 4; i > 0; i /= 2)
-            for (int k = 0; k < i; k++) {
-                lo[k] = lo[k] < lo[k + i] ? lo[k] : lo[k + i];
-                hi[k] = hi[k] > hi[k + i] ? hi[k] : hi[k + i];
-            }
-        box->lo[a] = (float)lo[0];
-        box->hi[a] = (float)hi[0];
+        float lo[8], hi[8], other;
+        r8_store_floats(lo, r8_select(m, r8_sub(c, reach), none));
+        r8_store_floats(hi, r8_select(m, r8_add(c, reach), r8_neg(none)));
+        f8_range(f8_load(lo), &box->lo[a], &other);
+        f8_range(f8_load(hi), &other, &box->hi[a]);
         const double side =
             vec3_axis(tree->bounds.max, a) - vec3_axis(tree->bounds.min, a);
-        size = hi[0] - lo[0] > size ? hi[0] - lo[0] : size;
+        const double length = (double)box->hi[a] - box->lo[a];
+        size = length > size ? length : size;
         whole = side > whole ? side : whole;
     }
     return size * SPONGE_APART < whole;
+}
+
+// Where lanes move to, and those that cannot be told.
+struct sponge_move {
+    struct real8 in, e, at;
+    struct mask8 unclear;
+};
+
+// Items of the tree that may be near the points reached.
+static void sponge_items(struct eight *e, const struct sponge *v, unsigned bits,
+                         uint32_t first, uint32_t count, struct sponge_move *next)
+{
+    const struct bvh8 *tree = &v->large->leaves;
+    for (uint32_t i = first; i < first + count; i++) {
+        const struct accel_ball *b = &v->large->ball[i];
+        const struct sphere ball = {.centre = b->centre, .radius = b->radius};
+        if (!(ball.radius > 0))
+            continue;
+        e->p->s->stats.leaf_tests++;
+        const struct span8 x = span8_sphere(&ball, &e->ray);
+        if (!(m8_bits(x.met) & bits))
+            continue;
+        const double at = 2. * (tree->item[i] - v->first_leaf);
+        const struct mask8 unclear =
+            m8_or(unclear8(v, x.in, x.in_e, at), unclear8(v, x.out, x.out_e, at + 1));
+        next->unclear = m8_or(next->unclear, m8_and(x.met, unclear));
+        const struct mask8 in =
+            m8_and(m8_and(x.met, r8_lt(x.in, v->in)), r8_lt(next->in, x.out));
+        next->in = r8_select(in, x.out, next->in);
+        next->e = r8_select(in, x.out_e, next->e);
+        next->at = r8_select(in, r8_set(at + 1), next->at);
+    }
+}
+
+// The children of a node that touch the box.
+LANES_INLINE unsigned sponge_touched(const struct bvh8_node *n,
+                                     const struct sponge_box *box)
+{
+    unsigned bits = 255;
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++)
+        bits &= f8_le(f8_set(box->lo[a]), f8_load(n->box[3 + a])) &
+                f8_le(f8_load(n->box[a]), f8_set(box->hi[a]));
+    return bits;
 }
 
 // Looks at the spheres near the points reached: lanes in one move to its end. Returns the
@@ -104,41 +144,33 @@ static unsigned sponge_round(struct eight *e, struct sponge *v, unsigned bits,
                              const struct sponge_box *box)
 {
     const struct bvh8 *tree = &v->large->leaves;
-    struct real8 next = v->in, next_e = v->in_e, next_at = v->at;
-    struct mask8 unclear = m8_of(0);
+    struct sponge_move next = {v->in, v->in_e, v->at, m8_of(0)};
     for (uint32_t i = 0; i < v->large->required_count; i++) {
         const struct span8 *x = &v->solid[i];
         const double at = 2. * (v->large->required[i] - v->first_leaf);
-        unclear = m8_or(unclear, unclear8(v, x->in, x->in_e, at));
-        unclear = m8_or(unclear, unclear8(v, x->out, x->out_e, at + 1));
+        next.unclear = m8_or(next.unclear, unclear8(v, x->in, x->in_e, at));
+        next.unclear = m8_or(next.unclear, unclear8(v, x->out, x->out_e, at + 1));
     }
-    struct bvh8_walk walk;
-    bvh8_walk_begin(&walk, tree);
-    for (uint32_t first, n; bvh8_walk_box(&walk, tree, box->lo, box->hi, &first, &n);)
-        for (uint32_t i = first; i < first + n; i++) {
-            const struct accel_ball *b = &v->large->ball[i];
-            const struct sphere ball = {.centre = b->centre, .radius = b->radius};
-            if (!(ball.radius > 0))
-                continue;
-            e->p->s->stats.leaf_tests++;
-            const struct span8 x = span8_sphere(&ball, &e->ray);
-            if (!(m8_bits(x.met) & bits))
-                continue;
-            const double at = 2. * (tree->item[i] - v->first_leaf);
-            unclear = m8_or(unclear, m8_and(x.met, unclear8(v, x.in, x.in_e, at)));
-            unclear = m8_or(unclear, m8_and(x.met, unclear8(v, x.out, x.out_e, at + 1)));
-            const struct mask8 in =
-                m8_and(m8_and(x.met, r8_lt(x.in, v->in)), r8_lt(next, x.out));
-            next = r8_select(in, x.out, next);
-            next_e = r8_select(in, x.out_e, next_e);
-            next_at = r8_select(in, r8_set(at + 1), next_at);
+    int32_t stack[BVH8_STACK];
+    uint32_t depth = tree->node != NULL;
+    stack[0] = 0;
+    while (depth) {
+        const int32_t child = stack[--depth];
+        if (child < 0) {
+            sponge_items(e, v, bits, bvh8_leaf_first(child), bvh8_leaf_count(child),
+                         &next);
+            continue;
         }
-    e->p->s->stats.node_visits += walk.visits;
-    v->unsure |= bits & m8_bits(unclear);
-    const struct mask8 moved = m8_and(r8_lt(v->in, next), m8_of(bits & ~v->unsure));
-    v->in = r8_select(moved, next, v->in);
-    v->in_e = r8_select(moved, next_e, v->in_e);
-    v->at = r8_select(moved, next_at, v->at);
+        const struct bvh8_node *n = &tree->node[child];
+        e->p->s->stats.node_visits++;
+        for (unsigned some = sponge_touched(n, box); some; some &= some - 1)
+            stack[depth++] = n->child[__builtin_ctz(some)];
+    }
+    v->unsure |= bits & m8_bits(next.unclear);
+    const struct mask8 moved = m8_and(r8_lt(v->in, next.in), m8_of(bits & ~v->unsure));
+    v->in = r8_select(moved, next.in, v->in);
+    v->in_e = r8_select(moved, next.e, v->in_e);
+    v->at = r8_select(moved, next.at, v->at);
     return m8_bits(moved);
 }
 
