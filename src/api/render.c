@@ -92,7 +92,7 @@ static void set_working_space(struct lambert_image *image, const struct settings
     }
 }
 
-enum { PIXEL_BYTES = 4 * sizeof(float), GIB = 1 << 30 };
+enum { GIB = 1 << 30 };
 
 // 0: unknown. The system promises more memory than it has and ends who takes it.
 static double physical_memory(void)
@@ -124,7 +124,8 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
     if (!settings_of(ctx, &settings))
         return context_fail(ctx, LAMBERT_ERROR_OPTION,
                             "the first row or column lies beyond the last");
-    double need = (double)settings.width * settings.height * PIXEL_BYTES;
+    const int channels = settings.output_alpha ? 4 : 3;
+    double need = (double)settings.width * settings.height * channels * sizeof(float);
     double have = physical_memory();
     if (have > 0 && need > have)
         return context_fail(ctx, LAMBERT_ERROR_MEMORY,
@@ -141,7 +142,7 @@ enum lambert_status lambert_render(struct lambert_context *ctx,
         return status;
     }
     struct lambert_image *image = calloc(1, sizeof *image);
-    if (!image || !image_init(&image->im, settings.width, settings.height, 4)) {
+    if (!image || !image_init(&image->im, settings.width, settings.height, channels)) {
         free(image);
         gi_free(gi);
         photons_free(photons);

@@ -91,13 +91,17 @@ static uint64_t key_of(const struct lambert_context *ctx)
     return key;
 }
 
+static size_t row_bytes(const struct image *im, int x0, int x1)
+{
+    return (size_t)(x1 - x0) * (size_t)im->channels * sizeof *im->pixel;
+}
+
 static struct record record_of(const struct image *im, const struct render_tile *tile)
 {
     struct record r = {tile->index, tile->x0, tile->y0, tile->x1, tile->y1, 0, 0};
     r.digest = digest_add(digest_start, &r, offsetof(struct record, digest));
     for (int y = r.y0; y < r.y1; y++)
-        r.digest = digest_add(r.digest, image_at(im, r.x0, y),
-                              (size_t)(r.x1 - r.x0) * 4 * sizeof(float));
+        r.digest = digest_add(r.digest, image_at(im, r.x0, y), row_bytes(im, r.x0, r.x1));
     return r;
 }
 
@@ -133,7 +137,7 @@ static void keep_tile(void *user, const struct render_tile *tile)
     bool ok = write_all(s->file, &r, sizeof r);
     for (int y = r.y0; ok && y < r.y1; y++)
         ok = write_all(s->file, image_at(s->picture, r.x0, y),
-                       (size_t)(r.x1 - r.x0) * 4 * sizeof(float));
+                       row_bytes(s->picture, r.x0, r.x1));
     if (!ok)
         give_up(s);
 }
@@ -141,7 +145,7 @@ static void keep_tile(void *user, const struct render_tile *tile)
 static void clear_tile(struct image *im, const struct render_tile *t)
 {
     for (int y = t->y0; y < t->y1; y++)
-        memset(image_at(im, t->x0, y), 0, (size_t)(t->x1 - t->x0) * 4 * sizeof(float));
+        memset(image_at(im, t->x0, y), 0, row_bytes(im, t->x0, t->x1));
 }
 
 // One tile into the picture. False at the end and at what was not written whole.
@@ -157,8 +161,8 @@ static bool read_tile(struct render_state *s, FILE *f,
         return false;
     bool ok = true;
     for (int y = r.y0; ok && y < r.y1; y++)
-        ok = fread(image_at(s->picture, r.x0, y), 4 * sizeof(float),
-                   (size_t)(r.x1 - r.x0), f) == (size_t)(r.x1 - r.x0);
+        ok = fread(image_at(s->picture, r.x0, y), row_bytes(s->picture, r.x0, r.x1), 1,
+                   f) == 1;
     if (!ok || record_of(s->picture, &tile).digest != r.digest) {
         clear_tile(s->picture, &tile);
         return false;

@@ -1,6 +1,9 @@
 // The lambert command.
 #include "cmd/cmd.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -177,8 +180,18 @@ static int run(struct cmd *c, int argc, char **argv)
     return code ? code : closed;
 }
 
+// One heap for all threads: they take memory a few times a tile, and a heap of its own for
+// each would be new pages, given back when it ends.
+static void share_heap(void)
+{
+#ifdef M_ARENA_MAX
+    mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 int main(int argc, char **argv)
 {
+    share_heap();
     struct cmd c = {.ctx = lambert_context_new(), .program = argv[0]};
     if (!c.ctx)
         return cmd_fail(CMD_FAILED, "out of memory");

@@ -76,7 +76,8 @@ struct photons *render_photons(const struct world *w, const struct render_settin
                                const struct photon_store *store,
                                const volatile bool *cancel);
 
-// Renders into a picture of premultiplied linear (working space) RGBA floats.
+// Renders into a picture of linear (working space) RGB floats, or premultiplied RGBA when it
+// has four channels.
 // True when every tile was done; false after a cancel (missing tiles are zero).
 bool render_world(const struct world *w, const struct render_settings *settings,
                   const struct render_progress *progress, struct image *out,

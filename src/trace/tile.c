@@ -43,11 +43,12 @@ void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *
     }
 }
 
-static void store(const struct job *job, float *pixel, const float c[4])
+// The color is red, green, blue and transparency.
+static inline void store(const struct image *out, float *pixel, const float c[4])
 {
-    for (int k = 0; k < 3; k++)
-        pixel[k] = c[k];
-    pixel[3] = job->settings.output_alpha ? 1 - c[3] : 1;
+    memcpy(pixel, c, 3 * sizeof *c);
+    if (out->channels == 4)
+        pixel[3] = 1 - c[3];
 }
 
 static void sample(void *user, const struct vec2 *position, uint32_t count,
@@ -67,7 +68,6 @@ static void plain_trace(struct tracer *t, const struct tile *tile,
                         const struct tile_place *place, uint32_t count,
                         struct plain_batch *b, struct image *out)
 {
-    const bool alpha = t->job->settings.output_alpha;
     const float *color = b->color[0]; // red, green, blue, transparency
     // Wanted when all are traced, in an order that no processor foresees.
     for (uint32_t k = 0; k < count; k += 2)
@@ -80,11 +80,8 @@ static void plain_trace(struct tracer *t, const struct tile *tile,
         tracer_samples(t, b->position, count, b->color);
     else
         color = &tracer_batch(t, b->position, count)->light.r;
-    for (uint32_t k = 0; k < count; k++, color += 4) {
-        float *pixel = image_at(out, tile->x0 + place[k].x, tile->y0 + place[k].y);
-        memcpy(pixel, color, 3 * sizeof *color);
-        pixel[3] = alpha ? 1 - color[3] : 1;
-    }
+    for (uint32_t k = 0; k < count; k++, color += 4)
+        store(out, image_at(out, tile->x0 + place[k].x, tile->y0 + place[k].y), color);
 }
 
 // One ray a pixel, in Morton order, so that rays of a packet stay close together.
@@ -134,7 +131,7 @@ static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
                                 working_gamma(&job->scene->settings), sample, t};
     antialias_block(&a, tile->x0, tile->y0, tile->x1, tile->y1, color);
     for (int i = 0; i < width * height; i++)
-        store(job, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);
+        store(out, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);
     free(color);
 }
 
@@ -233,7 +230,7 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
         float mean[4];
         for (int k = 0; k < 4; k++)
             mean[k] = (float)(pixel[i].sum[k] / pixel[i].done);
-        store(t->job, image_at(out, tile->x0 + i % width, tile->y0 + i / width), mean);
+        store(out, image_at(out, tile->x0 + i % width, tile->y0 + i / width), mean);
     }
     free(pixel);
     free(rays);
