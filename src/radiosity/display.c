@@ -13,11 +13,12 @@ static struct rgb of_double(const double c[3])
 
 // Irradiance by elements, interpolated. *own: the element of the hit.
 static struct rgb mesh_light(const struct radiosity *r, struct tracer *t,
-                             const struct ray *ray, const struct hit *hit, uint32_t *own)
+                             const struct indirect_query *q, uint32_t *own)
 {
     uint32_t element[4] = {ELEMENT_NONE};
     double weight[4], sum[3] = {0, 0, 0};
-    const uint32_t n = patch_around(r->patches, t->scratch, ray, hit, element, weight);
+    const uint32_t n =
+        patch_around(r->patches, t->scratch, q->ray, q->hit, q->at, element, weight);
     for (uint32_t k = 0; k < n; k++)
         for (int c = 0; c < 3; c++)
             sum[c] += weight[k] * r->shown[element[k]][c];
@@ -58,7 +59,7 @@ static struct rgb irradiance(const void *data, void *state, struct tracer *t,
     const struct vec3 o = trace_offset(q->at, q->side);
     uint32_t own = ELEMENT_NONE;
     struct rgb c = r->settings.gather ? gathered_light(r, t, o, q->side, q->hash)
-                                      : mesh_light(r, t, q->ray, q->hit, &own);
+                                      : mesh_light(r, t, q, &own);
     if (r->emitter_count)
         c = rgb_add(c, emitters_light(r, state, t, o, q->side, own, q->hash));
     return c;

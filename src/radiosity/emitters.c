@@ -93,6 +93,12 @@ static void find_shafts(struct radiosity *r)
         r->shafts = is_polygon(&r->emitter[i].e);
         r->emitter[i].shaft = patches_shaft(p, &r->emitter[i].e, &r->emitter[i].at);
     }
+    if (!r->shafts)
+        return;
+    r->between = solver_alloc(p->element_count, sizeof *r->between);
+    for (uint32_t k = 0; k < p->element_count; k++)
+        for (uint32_t i = 0; i < r->emitter_count; i++)
+            r->between[k] |= shafts_hide(p, &p->shaft[k], &r->emitter[i].shaft);
 }
 
 void emitters_find(struct radiosity *r)
@@ -228,13 +234,16 @@ static bool all_open(const struct radiosity *r, uint32_t element, struct vec3 o,
     *light = rgb(0, 0, 0);
     if (!r->shafts)
         return false;
-    if (element != ELEMENT_NONE && shaft_holds(&p->shaft[element], o))
+    uint64_t some = shafts_all(p);
+    if (element != ELEMENT_NONE && shaft_holds(&p->shaft[element], o)) {
         at.hollow = p->shaft[element].hollow;
+        some = r->between[element];
+    }
     for (uint32_t i = 0; i < r->emitter_count; before = up_to[i++]) {
         const struct rgb e = r->emitter[i].e.emission;
         if (up_to[i] <= before)
             continue;
-        if (shafts_may_hide(p, &at, &r->emitter[i].shaft))
+        if (shafts_may_hide(p, &at, &r->emitter[i].shaft, some))
             return false;
         const double given = (up_to[i] - before) / (double)rgb_max(e);
         *light = rgb_add(*light, rgb_scale((float)given, e));

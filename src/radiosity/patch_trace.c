@@ -85,22 +85,21 @@ struct place {
 };
 
 static bool place_of(const struct patches *p, const struct ray *ray,
-                     const struct hit *hit, struct place *out)
+                     const struct hit *hit, const struct interaction *at,
+                     struct place *out)
 {
     const struct world *w = p->job->world;
     const uint32_t leaf = hit->b.leaf, first = p->leaf_first[leaf];
-    struct interaction at;
-    trace_interaction(w, ray, hit, &at);
     const uint32_t count = p->leaf_first[leaf + 1] - first;
-    const uint32_t k = leaf_chart_of(w, p->chart + first, count, &hit->b, at.p);
+    const uint32_t k = leaf_chart_of(w, p->chart + first, count, &hit->b, at->p);
     if (k >= count)
         return false;
     out->chart = &p->chart[first + k];
     if (!out->chart->nu)
         return false;
-    chart_locate(out->chart, &w->leaf[leaf], &hit->b, at.p, &out->u, &out->v);
-    out->side = vec3_dot(at.ng, ray->d) > 0;
-    out->p = at.p;
+    chart_locate(out->chart, &w->leaf[leaf], &hit->b, at->p, &out->u, &out->v);
+    out->side = vec3_dot(at->ng, ray->d) > 0;
+    out->p = at->p;
     return true;
 }
 
@@ -144,8 +143,10 @@ static uint32_t element_near(const struct patches *p, struct trace_scratch *scra
 uint32_t patch_of_hit(const struct patches *p, struct trace_scratch *scratch,
                       const struct ray *ray, const struct hit *hit)
 {
+    struct interaction met;
     struct place at;
-    if (!place_of(p, ray, hit, &at))
+    trace_interaction(p->job->world, ray, hit, &met);
+    if (!place_of(p, ray, hit, &met, &at))
         return ELEMENT_NONE;
     return element_near(p, scratch, &at);
 }
@@ -181,11 +182,12 @@ uint32_t patch_neighbour(const struct patches *p, uint32_t element, int k)
 }
 
 uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
-                      const struct ray *ray, const struct hit *hit, uint32_t element[4],
+                      const struct ray *ray, const struct hit *hit,
+                      const struct interaction *met, uint32_t element[4],
                       double weight[4])
 {
     struct place at;
-    if (!place_of(p, ray, hit, &at))
+    if (!place_of(p, ray, hit, met, &at))
         return 0;
     const uint32_t own = element_near(p, scratch, &at);
     if (own == ELEMENT_NONE)

@@ -6,6 +6,7 @@
 #include "radiosity/enclosure.h"
 #include "trace/job.h"
 
+struct interaction;
 struct tracer;
 
 // The elements of a scene: cells of charts on the exact surfaces. A point belongs to an
@@ -85,9 +86,11 @@ uint32_t *patches_refine(struct patches *p, const bool *split);
 uint32_t patch_of_hit(const struct patches *p, struct trace_scratch *scratch,
                       const struct ray *ray, const struct hit *hit);
 // Elements around a hit and how much each counts there (bilinear within one chart, none
-// that the hit's own element does not see). Returns how many, at most 4; 0: no element.
+// that the hit's own element does not see). met: trace_interaction of the hit. Returns how
+// many, at most 4; 0: no element.
 uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
-                      const struct ray *ray, const struct hit *hit, uint32_t element[4],
+                      const struct ray *ray, const struct hit *hit,
+                      const struct interaction *met, uint32_t element[4],
                       double weight[4]);
 
 // The point at (u, v) of an element's square, uniform in area on planar ones. False: this
@@ -140,8 +143,13 @@ bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b);
 // The same for what is no element of the list; not beyond SHAFT_OBJECTS objects.
 struct shaft patches_shaft(const struct patches *p, const struct element *e,
                            const struct cell *c);
+// Whether one of `some` objects (bits) may hide part of one from the other.
 bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+                     const struct shaft *b, uint64_t some);
+// The objects that may.
+uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
                      const struct shaft *b);
+uint64_t shafts_all(const struct patches *p);
 // Whether a point lies in the box, up to rounding.
 bool shaft_holds(const struct shaft *s, struct vec3 at);
 // Drops elements that no light can reach on its way to the camera.

@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-#include "math/elementary.h"
+#include "math/quick.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -44,7 +44,7 @@ double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
         const struct vec3 c = vec3_cross(a, b);
         const double sine = vec3_length(c);
         if (sine > 0)
-            sum += det_atan2(sine, vec3_dot(a, b)) * (vec3_dot(c, n) / sine);
+            sum += quick_atan2(sine, vec3_dot(a, b)) * (vec3_dot(c, n) / sine);
     }
     // Seen from the front, corners that are counter-clockwise about the polygon's
     // normal, which faces us, go clockwise about ours.

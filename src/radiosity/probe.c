@@ -43,6 +43,7 @@ static void probe_point(const struct probing *p, struct factor_state *s,
     const struct patch_probe probe = {scratch, patches};
     const uint32_t seed = sequence_seed(i, 17 + k);
     struct element_point at;
+    struct interaction met;
     struct hit hit;
     struct ray ray;
     uint32_t around[4];
@@ -51,7 +52,8 @@ static void probe_point(const struct probing *p, struct factor_state *s,
     if (!patch_point(&probe, c, patches->element_cell[i] & 1, x[0], x[1], &at, &hit,
                      &ray))
         return;
-    const uint32_t n = patch_around(patches, scratch, &ray, &hit, around, weight);
+    trace_interaction(patches->job->world, &ray, &hit, &met);
+    const uint32_t n = patch_around(patches, scratch, &ray, &hit, &met, around, weight);
     for (uint32_t j = 0; j < n; j++)
         for (int m = 0; m < 3; m++)
             shown[m] += weight[j] * r->solution.h[around[j]][m];

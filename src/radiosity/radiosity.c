@@ -245,6 +245,7 @@ void radiosity_free(struct radiosity *r)
         return;
     radiosity_level_free(r);
     free(r->emitter);
+    free(r->between);
     free(r->shown);
     free(r);
 }

@@ -54,6 +54,7 @@ struct radiosity {
     struct emitter *emitter; // whose light is found per pixel
     uint32_t emitter_count;
     bool shafts;        // theirs are known
+    uint64_t *between;  // then: the objects (bits) that may hide one from an element
     double (*shown)[3]; // irradiance for the picture, without what emitters give it
     uint64_t key;       // of the scene as elements and lamps see it
 };

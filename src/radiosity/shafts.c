@@ -132,23 +132,40 @@ static bool sweeps_into(const struct shaft *a, const struct shaft *b,
     return true;
 }
 
-bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+static bool may_hide(const struct world *w, uint32_t object, const struct shaft *a,
                      const struct shaft *b)
 {
-    const struct world *w = p->job->world;
-    const uint64_t free = a->hollow & b->hollow;
-    for (uint32_t o = 0; o < w->object_count; o++) {
-        if ((free >> o) & 1 || (w->object[o].flags & OBJECT_NO_RADIOSITY))
-            continue;
-        if (sweeps_into(a, b, &w->object[o].bounds))
+    const struct world_object *o = &w->object[object];
+    return !((a->hollow & b->hollow) >> object & 1) &&
+           !(o->flags & OBJECT_NO_RADIOSITY) && sweeps_into(a, b, &o->bounds);
+}
+
+bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+                     const struct shaft *b, uint64_t some)
+{
+    for (; some; some &= some - 1)
+        if (may_hide(p->job->world, (uint32_t)__builtin_ctzll(some), a, b))
             return true;
-    }
     return false;
+}
+
+uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
+                     const struct shaft *b)
+{
+    uint64_t found = 0;
+    for (uint32_t o = 0; o < p->job->world->object_count; o++)
+        found |= (uint64_t)may_hide(p->job->world, o, a, b) << o;
+    return found;
+}
+
+uint64_t shafts_all(const struct patches *p)
+{
+    return UINT64_MAX >> (SHAFT_OBJECTS - p->job->world->object_count);
 }
 
 bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
 {
-    return !p->shaft || shafts_may_hide(p, &p->shaft[a], &p->shaft[b]);
+    return !p->shaft || shafts_may_hide(p, &p->shaft[a], &p->shaft[b], shafts_all(p));
 }
 
 bool shaft_holds(const struct shaft *s, struct vec3 at)

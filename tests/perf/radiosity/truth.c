@@ -83,9 +83,11 @@ static void bin_value(const struct radiosity *r, struct trace_scratch *scratch,
         const struct hit hit = trace_closest_1(r->patches->job->world, scratch, &q);
         uint32_t e[4], n = 0;
         double weight[4] = {1};
-        if (hit.b.t < 2 * height && interpolate)
-            n = patch_around(r->patches, scratch, &q.ray, &hit, e, weight);
-        else if (hit.b.t < 2 * height)
+        if (hit.b.t < 2 * height && interpolate) {
+            struct interaction at;
+            trace_interaction(r->patches->job->world, &q.ray, &hit, &at);
+            n = patch_around(r->patches, scratch, &q.ray, &hit, &at, e, weight);
+        } else if (hit.b.t < 2 * height)
             n = (e[0] = patch_of_hit(r->patches, scratch, &q.ray, &hit)) != ELEMENT_NONE;
         for (uint32_t i = 0; i < n; i++)
             for (int c = 0; c < 3; c++)
