@@ -99,16 +99,17 @@ static uint32_t parts_of(const struct media *rules)
 static uint32_t span_add(struct media_march *m, uint32_t first, uint32_t last)
 {
     struct media_scratch *s = m->scratch;
-    const struct media_sample a = s->sample[first], b = s->sample[last];
+    const double from = s->sample[first].t, to = s->sample[last].t;
+    const uint32_t interval = s->sample[first].interval;
     const double jitter = (double)m->mix->rules->jitter;
-    double t = (a.t + b.t) / 2;
+    double t = (from + to) / 2;
     if (jitter != 0)
-        t += jitter * (b.t - a.t) * (drawn(walker_of(m, a.interval)) - 0.5);
+        t += jitter * (to - from) * (drawn(walker_of(m, interval)) - 0.5);
     if (s->span_count == s->span_capacity) {
         s->span_capacity = s->span_capacity ? 2 * s->span_capacity : 256;
         s->span = grow(s->span, s->span_capacity, sizeof *s->span);
     }
-    const uint32_t middle = sample_add(m, a.interval, t);
+    const uint32_t middle = sample_add(m, interval, t);
     s->span[s->span_count] = (struct media_span){first, middle, last, {0, 0}};
     return s->span_count++;
 }
@@ -127,6 +128,8 @@ static void spans_refine(struct media_march *m, uint32_t first)
     enum { DEEPEST = 20 }; // a millionth of a span
     struct media_scratch *s = m->scratch;
     int depth = m->mix->rules->aa_level - 1;
+    if (m->depth_only && !m->mix->emits && m->mix->aa_threshold >= 0)
+        return; // all samples have the same light: none
     if (depth > DEEPEST)
         depth = DEEPEST;
     for (; depth > 0; depth--) {
@@ -179,6 +182,19 @@ static struct value span_value(const struct media_march *m, uint32_t i, int dept
                       : value_add(v, value_of(b, 1.0 / 6, c, 1.0 / 3), 1);
 }
 
+// The same of the depth alone.
+static struct vec3 span_depth(const struct media_march *m, uint32_t i)
+{
+    const struct media_scratch *s = m->scratch;
+    const struct media_span *p = &s->span[i];
+    const struct vec3 a = s->sample[p->first].depth, b = s->sample[p->middle].depth,
+                      c = s->sample[p->last].depth;
+    const struct vec3 v = p->half[0] ? vec3_scale(0.5, span_depth(m, p->half[0]))
+                                     : vec3_mad(vec3_scale(1.0 / 3, a), 1.0 / 6, b);
+    return p->half[1] ? vec3_mad(v, 0.5, span_depth(m, p->half[1]))
+                      : vec3_add(v, vec3_mad(vec3_scale(1.0 / 6, b), 1.0 / 3, c));
+}
+
 // The first samples of an interval and the spans between them.
 static void interval_begin(struct media_march *m, uint32_t k, uint32_t parts)
 {
@@ -213,6 +229,12 @@ static void interval_end(const struct media_march *m, uint32_t first, uint32_t p
                          struct total *all)
 {
     struct vec3 light = {0, 0, 0}, depth = {0, 0, 0};
+    if (m->depth_only) {
+        for (uint32_t j = 0; j < parts; j++)
+            depth = vec3_add(depth, span_depth(m, first + j));
+        all->depth = vec3_mad(all->depth, 1.0 / parts, depth);
+        return;
+    }
     for (uint32_t j = 0; j < parts; j++) {
         const struct value v = span_value(m, first + j, 0);
         const struct vec3 clear = exp_minus(vec3_scale(1.0 / parts, depth));

@@ -118,7 +118,10 @@ static void density_times(const struct job *job, const struct pigment *p,
     const struct pattern_packet packet = {w->at, w->normal, w->ray_d, NULL};
     const unsigned live = (1u << w->count) - 1;
     const unsigned found = job->surface_kernels->colors(tape, &packet, w->at, live, c);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && found == 255; k++)
+        for (uint32_t i = 0; i < 8; i++)
+            out[k][i] *= (double)c[k][i];
+    for (int k = 0; k < 3 && found != 255; k++)
         for (uint32_t i = 0; i < w->count; i++)
             out[k][i] *= found >> i & 1 ? (double)c[k][i] : 0;
 }
@@ -137,11 +140,21 @@ static void places_fill(struct places *w, const struct media_at *at)
     }
 }
 
+// Adds the density of a medium times one of its colours.
+static void add_times(double sum[3][8], const double density[3][8], struct vec3 color)
+{
+    const double c[3] = {color.x, color.y, color.z};
+    if (c[0] == 0 && c[1] == 0 && c[2] == 0)
+        return;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 8; i++)
+            sum[k][i] += density[k][i] * c[k];
+}
+
 static void eight(const struct job *job, const struct media_mix *mix,
                   const struct places *w, struct media_point *out)
 {
-    for (uint32_t i = 0; i < w->count; i++)
-        out[i] = (struct media_point){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    double lost[3][8] = {{0}}, given[3][8] = {{0}}, scattered[3][8] = {{0}};
     for (uint32_t k = 0; k < mix->count; k++) {
         const struct media *m = mix->media[k];
         double density[3][8];
@@ -150,9 +163,15 @@ static void eight(const struct job *job, const struct media_mix *mix,
         const struct pigment_tape *const *tape = tapes_of(job, m);
         for (uint32_t j = 0; j < m->density_count; j++)
             density_times(job, m->density[j], tape ? tape[j] : NULL, w, density);
-        for (uint32_t i = 0; i < w->count; i++)
-            point_add(&out[i], m, vec3(density[0][i], density[1][i], density[2][i]));
+        add_times(lost, (const double(*)[8])density, extinction(m));
+        add_times(given, (const double(*)[8])density, vec3_of_rgb(m->emission));
+        add_times(scattered, (const double(*)[8])density, vec3_of_rgb(m->scattering));
     }
+    for (uint32_t i = 0; i < w->count; i++)
+        out[i] =
+            (struct media_point){{lost[0][i], lost[1][i], lost[2][i]},
+                                 {given[0][i], given[1][i], given[2][i]},
+                                 {scattered[0][i], scattered[1][i], scattered[2][i]}};
 }
 
 void media_points(const struct job *job, const struct media_mix *mix,
