@@ -1,6 +1,8 @@
 // The command line: GNU options, POV-Ray switches, INI keywords, files.
 #include "cmd/cmd.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -62,10 +64,12 @@ static int set_format(struct cmd *c, const char *switch_text, const char *rest, 
             code = set_named(c, "grey", "on");
             rest++;
         } else if (*rest >= '0' && *rest <= '9') {
-            char bits[4] = {0};
-            size_t n = strspn(rest, "0123456789");
-            memcpy(bits, rest, n < 3 ? n : 3);
-            rest += n;
+            // Numbers out of range are taken as the nearest in it, as POV-Ray does.
+            const struct lambert_option *o = lambert_option_find("bits");
+            const double n = strtod(rest, NULL);
+            char bits[16];
+            rest += strspn(rest, "0123456789");
+            snprintf(bits, sizeof bits, "%.0f", fmin(fmax(n, o->min), o->max));
             code = set_named(c, "bits", bits);
         } else {
             return cmd_fail(CMD_USAGE,

@@ -14,7 +14,7 @@ struct context {
     struct transform world;        // from the space outside the node
     struct placed_texture texture; // inherited; NULL: none yet
     struct placed_texture interior_texture;
-    const struct interior *interior;
+    struct interior *interior;
     const struct photon_target *photons;
     unsigned flags; // OR of the flags above
     bool inverted, drawn;
@@ -151,8 +151,8 @@ static struct placed_texture attach(const struct attached_texture *own,
     return (struct placed_texture){own->texture, transform_then(own->transform, world)};
 }
 
-static const struct interior *new_interior(struct build *b, const struct interior *given,
-                                           bool hollow)
+static struct interior *new_interior(struct build *b, const struct interior *given,
+                                     bool hollow)
 {
     struct interior *i = arena_new_struct(b->arena, struct interior);
     if (given)
@@ -164,16 +164,37 @@ static const struct interior *new_interior(struct build *b, const struct interio
     return i;
 }
 
+// The finish of an object's own plain texture, the top layer's, where it says what today an
+// interior says (spec/lighting.md 5.1); NULL: there is none.
+static const struct finish *old_finish(const struct object *o)
+{
+    const struct texture *x = o->texture.texture;
+    if (!x || x->kind != TEXTURE_PLAIN || !x->layer_count)
+        return NULL;
+    const struct finish *f = x->layer[x->layer_count - 1].finish;
+    return f->old_ior >= 0 || f->old_caustics >= 0 || f->old_refraction >= 0 ? f : NULL;
+}
+
 // Every object has an interior of its own, whose identity says which surfaces bound the
 // same medium; children without one share their parent's (spec/lighting.md 4.1). That of a
-// shape nothing is said of waits for its surface: see plain_interior.
-static const struct interior *interior_of(struct build *b, const struct object *o,
-                                          const struct context *c, bool hollow)
+// shape nothing is said of waits for its surface: see plain_interior. What an old finish says
+// of a shared one holds for all that share it.
+static struct interior *interior_of(struct build *b, const struct object *o,
+                                    const struct context *c, bool hollow)
 {
-    if (!o->interior && (c->interior || o->kind == OBJECT_SHAPE))
-        return c->interior;
-    return new_interior(
-        b, o->interior ? interior_moved(b->arena, o->interior, &c->world) : NULL, hollow);
+    const struct finish *f = old_finish(o);
+    struct interior *i = c->interior;
+    if (o->interior || (!i && (f || o->kind != OBJECT_SHAPE)))
+        i = new_interior(
+            b, o->interior ? interior_moved(b->arena, o->interior, &c->world) : NULL,
+            hollow);
+    if (f && f->old_ior >= 0)
+        i->ior = f->old_ior;
+    if (f && f->old_caustics >= 0)
+        i->caustics = f->old_caustics;
+    if (f && f->old_refraction >= 0)
+        i->old_refraction = f->old_refraction;
+    return i;
 }
 
 // No ray enters through an opaque surface, so nobody asks for the identity of an interior
@@ -207,7 +228,7 @@ static struct context enter(struct build *b, const struct object *o,
     if (o->importance > 0)
         in.importance = o->importance;
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
-    in.interior_given = o->interior || c->interior_given;
+    in.interior_given = o->interior || old_finish(o) || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
     if (o->photons)
         in.photons = o->photons;

@@ -9,6 +9,7 @@ check "the extension is added" made x.png sphere.pov -o x
 check "type from the name" made x.exr sphere.pov -o x.exr
 check "another extension stays" made x.5.png sphere.pov +Ox.5
 check "type from the switch" made x.png.ppm sphere.pov +FP +Ox.png
+check "with more bits than there are" made x.png.ppm sphere.pov +FP90 +Ox.png
 mkdir d
 check "a folder" made d/sphere.png sphere.pov -o d
 check "scene without .pov" made sphere.png sphere

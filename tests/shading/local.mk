@@ -264,4 +264,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/362-media-truth-rayleigh.pov \
 	%D%/363-media-truth-eccentric.pov \
 	%D%/364-media-truth-shadow.pov \
-	%D%/370-patterns-more.pov
+	%D%/370-patterns-more.pov \
+	%D%/371-old-finish.pov
