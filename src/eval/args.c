@@ -14,7 +14,7 @@ bool args_expected(struct args *a, const char *role, const char *type)
 {
     const struct ast *n = a->at;
     const char *hint = n && n->kind == AST_UNDECLARED
-                           ? undeclared_hint(a->b->e, n->text, n->len, false, NULL)
+                           ? undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL)
                            : NULL;
     diag_hint(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), hint, a->name, role, type);
     args_fail(a);

@@ -131,7 +131,7 @@ void args_unknown(struct args *a, const enum word *known, size_t count)
     if (n->kind == AST_UNDECLARED) {
         const char *close = closest_word(name, strlen(name), known, count);
         if (!close)
-            hint = undeclared_hint(a->b->e, n->text, n->len, false, NULL);
+            hint = undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL);
         if (!close && !hint)
             close = diag_closest(name, strlen(name), word_list(), WORD_COUNT - 1);
         if (close)

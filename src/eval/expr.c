@@ -38,7 +38,7 @@ static bool not_numeric(struct eval *e, const struct ast *n)
     if (n->op == OP_FAILED)
         return false;
     if (n->kind == AST_UNDECLARED) {
-        const char *hint = undeclared_hint(e, n->text, n->len, false, NULL);
+        const char *hint = undeclared_hint(e, n->text, n->len, UNDECLARED_VALUE, NULL);
         diag_hint(e->diags, DIAG_UNDECLARED, n->where, hint, (int)n->len, n->text);
     } else {
         diag_at(e->diags, DIAG_EXPECTED_NUMBER, n->where,

@@ -50,10 +50,10 @@ static const struct value *hold(void *user, const struct value *v)
     return value_hold(((struct eval *)user)->nodes, v);
 }
 
-static const char *undeclared(void *user, const char *name, size_t len, bool macro,
-                              const char *word)
+static const char *undeclared(void *user, const char *name, size_t len,
+                              enum undeclared_kind kind, const char *word)
 {
-    return undeclared_hint(user, name, len, macro, word);
+    return undeclared_hint(user, name, len, kind, word);
 }
 
 static bool number(void *user, const struct ast *expr, double *out)

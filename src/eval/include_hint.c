@@ -147,12 +147,13 @@ static size_t place_of(const struct declared_names *d, const char *name, size_t 
     return i;
 }
 
-const char *undeclared_hint(struct eval *e, const char *name, size_t len, bool macro,
-                            const char *word)
+const char *undeclared_hint(struct eval *e, const char *name, size_t len,
+                            enum undeclared_kind kind, const char *word)
 {
     struct declared_names d;
     size_t i;
-    for (int macros = 0; macros <= macro; macros++) { // what is called may be a function
+    const bool macro = kind != UNDECLARED_VALUE;
+    for (int macros = kind == UNDECLARED_MACRO; macros <= macro; macros++) {
         d = declared_names(e, macros);
         i = place_of(&d, name, len);
         if (i < d.count)

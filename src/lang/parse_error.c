@@ -6,11 +6,11 @@
 #include "lang/stream_state.h"
 #include "parser.h"
 
-static const char *undeclared_hint(struct stream *s, const struct token *t, bool call,
-                                   const char *word)
+static const char *undeclared_hint(struct stream *s, const struct token *t,
+                                   enum undeclared_kind kind, const char *word)
 {
     return s->host.undeclared
-               ? s->host.undeclared(s->host.user, t->text, t->len, call, word)
+               ? s->host.undeclared(s->host.user, t->text, t->len, kind, word)
                : NULL;
 }
 
@@ -31,9 +31,10 @@ static const char *closest_function(const struct token *t)
 void parse_undeclared(struct stream *s, const struct token *t, bool call)
 {
     const char *word = call ? closest_function(t) : NULL;
-    const char *hint = undeclared_hint(s, t, call, word);
+    const char *hint =
+        undeclared_hint(s, t, call ? UNDECLARED_CALL : UNDECLARED_VALUE, word);
     if (!hint && call) // a function of the scene's own
-        hint = undeclared_hint(s, t, false, NULL);
+        hint = undeclared_hint(s, t, UNDECLARED_VALUE, NULL);
     diag_hint(s->diags, DIAG_UNDECLARED, t->where, hint, (int)t->len, t->text);
 }
 
@@ -50,7 +51,7 @@ void parse_unknown_word(struct stream *s, const struct token *t, bool call)
     if (near)
         hint = arena_printf(s->nodes, "did you mean '%s'?", near);
     if (!near)
-        hint = undeclared_hint(s, t, call, NULL);
+        hint = undeclared_hint(s, t, call ? UNDECLARED_MACRO : UNDECLARED_VALUE, NULL);
     diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
 }
 

@@ -83,6 +83,13 @@ enum calc_outcome {
     CALC_FAILED, // and reported; `used` tokens belong to it all the same
 };
 
+// What a name that is not declared was to be.
+enum undeclared_kind {
+    UNDECLARED_VALUE,
+    UNDECLARED_MACRO,
+    UNDECLARED_CALL, // a macro or a function
+};
+
 // How the stream asks for the worth of expressions and where names are kept;
 // eval/ fills it in, so that lang/ need not know eval/. All report their own
 // errors; false or NULL means the statement had an error and was dropped. Nodes
@@ -92,10 +99,10 @@ struct stream_host {
     struct name_info (*lookup)(void *user, const char *name, size_t len);
     // The value of a lookup to keep for as long as nodes are; may be NULL: they are kept.
     const struct value *(*hold)(void *user, const struct value *value);
-    // What to say of a name, or macro, that is not declared; NULL: nothing, as without it.
+    // What to say of a name that is not declared; NULL: nothing, as without it.
     // `word`: the closest of the language, or NULL.
-    const char *(*undeclared)(void *user, const char *name, size_t len, bool macro,
-                              const char *word);
+    const char *(*undeclared)(void *user, const char *name, size_t len,
+                              enum undeclared_kind kind, const char *word);
     void (*deprecated)(void *user, const char *name, size_t len, struct span where);
     bool (*number)(void *user, const struct ast *expr, double *out); // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated

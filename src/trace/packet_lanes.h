@@ -2,6 +2,7 @@
 #define TRACE_PACKET_LANES_H
 
 // Eight rays and an object whose shape takes eight rays itself (shape_ops.closest8).
+#include "math/lanes_vec.h"
 #include "scene/shape_kernels.h"
 #include "trace/packet_objects.h"
 
