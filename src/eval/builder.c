@@ -71,9 +71,11 @@ bool builder_is_block_word(enum word w)
 
 static void find_tables(struct builder *b)
 {
-    for (int w = 1; w < WORD_COUNT; w++) {
-        const char *text = word_text((enum word)w);
-        b->pattern[w] = pattern_find(text, strlen(text));
+    for (size_t i = 0; i < pattern_count; i++) {
+        const char *text = pattern_table[i]->keyword;
+        const enum word w = word_find(text, strlen(text));
+        if (w != WORD_NONE)
+            b->pattern[w] = pattern_table[i];
     }
     for (size_t i = 0; i < ARRAY_COUNT(object_words); i++) {
         const char *text = word_text(object_words[i]);
