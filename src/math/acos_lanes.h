@@ -5,29 +5,9 @@
 #include "math/trig.h"
 #include "math/trig_lanes.h"
 
-LANES_INLINE struct dd8 dd8_two_prod(struct real8 a, struct real8 b)
-{
-    const struct real8 split = r8_set(134217729.0);
-    const struct real8 ca = r8_mul(split, a), ah = r8_sub(ca, r8_sub(ca, a)),
-                       al = r8_sub(a, ah);
-    const struct real8 cb = r8_mul(split, b), bh = r8_sub(cb, r8_sub(cb, b)),
-                       bl = r8_sub(b, bh);
-    const struct real8 p = r8_mul(a, b);
-    return (struct dd8){
-        p,
-        r8_add(r8_add(r8_add(r8_sub(r8_mul(ah, bh), p), r8_mul(ah, bl)), r8_mul(al, bh)),
-               r8_mul(al, bl))};
-}
-
-LANES_INLINE struct dd8 dd8_select(struct mask8 m, struct dd8 x, struct dd8 y)
-{
-    return (struct dd8){r8_select(m, x.hi, y.hi), r8_select(m, x.lo, y.lo)};
-}
-
 LANES_INLINE struct dd8 dd8_from(struct dd less, struct dd8 x)
 {
-    return dd8_add((struct dd8){r8_set(less.hi), r8_set(less.lo)},
-                   (struct dd8){r8_neg(x.hi), r8_neg(x.lo)});
+    return dd8_add(dd8_set(less), (struct dd8){r8_neg(x.hi), r8_neg(x.lo)});
 }
 
 // atan_ratio.

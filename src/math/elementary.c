@@ -6,13 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "math/dd.h"
+#include "math/power.h"
 
-// ln 2 in two parts, the first with 32 bits so that k * LN2_HIGH is exact, and
-// the second as a double-double.
-static const double LN2_HIGH = 0x1.62e42fee00000p-1;
-static const struct dd LN2_LOW = {0x1.a39ef35793c76p-33, 0x1.cc01f97b57a08p-87};
-static const double INV_LN2 = 0x1.71547652b82fep+0;
 static const struct dd LOG10_E = {0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};
 
 // exp(x.hi + x.lo) = (result) * 2^*k, |x.hi| < 2^11. Relative error below 2^-60:
@@ -22,18 +17,14 @@ static struct dd exp_parts(struct dd x, int *k)
     double kd = floor(x.hi * INV_LN2 + 0.5);
     double r = x.hi - kd * LN2_HIGH;
     struct dd a = dd_two_sum(r, x.lo - kd * LN2_LOW.hi);
-    static const double c[] = {
-        1. / 2,          1. / 6,           1. / 24,          1. / 120,     1. / 720,
-        1. / 5040,       1. / 40320,       1. / 362880,      1. / 3628800, 1. / 39916800.,
-        1. / 479001600., 1. / 6227020800., 1. / 87178291200.};
     // Even and odd powers apart: two short chains of operations instead of a long one.
     const double square = a.hi * a.hi;
-    double q = c[12], odd = c[11];
+    double q = EXP_TERMS[12], odd = EXP_TERMS[11];
     for (int i = 10; i > 0; i -= 2) {
-        q = q * square + c[i];
-        odd = odd * square + c[i - 1];
+        q = q * square + EXP_TERMS[i];
+        odd = odd * square + EXP_TERMS[i - 1];
     }
-    q = (q * square + c[0] + a.hi * odd) * square;
+    q = (q * square + EXP_TERMS[0] + a.hi * odd) * square;
     struct dd s = dd_fast_sum(1, a.hi);
     *k = (int)kd;
     return dd_fast_sum(s.hi, s.lo + (q + a.lo + a.lo * a.hi));
@@ -67,7 +58,7 @@ static struct dd log_dd(struct dd x)
 {
     int k;
     double m = split(x.hi, &k);
-    if (m < 0.70710678118654752) {
+    if (m < SQRT_HALF) {
         m *= 2;
         k--;
     }
@@ -84,8 +75,7 @@ static struct dd log_dd(struct dd x)
         odd = odd * square + 2. / (n - 2);
     }
     p = p * square + 2. / 5 + s2.hi * odd;
-    static const struct dd two_thirds = {0x1.5555555555555p-1, 0x1.5555555555555p-55};
-    struct dd t = dd_add(two_thirds, dd_fast_sum(p * s2.hi, 0));
+    struct dd t = dd_add(TWO_THIRDS, dd_fast_sum(p * s2.hi, 0));
     struct dd series = dd_mul(s, dd_mul(s2, t));
     struct dd log_m = dd_add((struct dd){2 * s.hi, 2 * s.lo}, series);
     struct dd log_k = dd_scale(k, LN2_LOW);

@@ -2,39 +2,11 @@
 #define MATH_TRIG_LANES_H
 
 // det_sin and det_cos in lanes, operation by operation as math/trig.c: the same bits.
+
+#include "math/dd_lanes.h"
 #include "math/elementary.h"
 #include "math/lanes.h"
 #include "math/trig.h"
-
-// math/dd.h.
-struct dd8 {
-    struct real8 hi, lo;
-};
-
-LANES_INLINE struct dd8 dd8_fast_sum(struct real8 a, struct real8 b)
-{
-    const struct real8 s = r8_add(a, b);
-    return (struct dd8){s, r8_sub(b, r8_sub(s, a))};
-}
-LANES_INLINE struct dd8 dd8_two_sum(struct real8 a, struct real8 b)
-{
-    const struct real8 s = r8_add(a, b), t = r8_sub(s, a);
-    return (struct dd8){s, r8_add(r8_sub(a, r8_sub(s, t)), r8_sub(b, t))};
-}
-// The square; a below 2^900.
-LANES_INLINE struct dd8 dd8_square(struct real8 a)
-{
-    const struct real8 c = r8_mul(r8_set(134217729.0), a), h = r8_sub(c, r8_sub(c, a)),
-                       l = r8_sub(a, h), p = r8_mul(a, a);
-    const struct real8 hl = r8_mul(h, l), lh = r8_mul(l, h);
-    return (struct dd8){
-        p, r8_add(r8_add(r8_add(r8_sub(r8_mul(h, h), p), hl), lh), r8_mul(l, l))};
-}
-LANES_INLINE struct dd8 dd8_add(struct dd8 a, struct dd8 b)
-{
-    const struct dd8 s = dd8_two_sum(a.hi, b.hi);
-    return dd8_fast_sum(s.hi, r8_add(s.lo, r8_add(a.lo, b.lo)));
-}
 
 // |x| <= 2^20 less the nearest multiple of pi/2; turns: which.
 LANES_INLINE struct dd8 trig8_reduce(struct real8 x, struct real8 *turns)

@@ -5,6 +5,7 @@
 
 #include "math/isa.h"
 #include "math/lanes_vec.h"
+#include "math/power_lanes.h"
 #include "scene/image_map.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern_lanes.h"
@@ -129,10 +130,7 @@ static void wave_step(const struct pattern *p, double v[8])
         r8_store(v, r8_mul(r8_add(r8_set(1), cycloidal8(x)), r8_set(0.5)));
         break;
     case WAVE_SCALLOP: r8_store(v, r8_abs(cycloidal8(r8_mul(x, r8_set(0.5))))); break;
-    case WAVE_POLY:
-        for (int i = 0; i < 8; i++)
-            v[i] = pattern_wave(p, v[i]);
-        break;
+    case WAVE_POLY: r8_store(v, det_pow8(x, r8_set(p->exponent))); break;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "math/isa.h"
 #include "math/lanes.h"
+#include "math/power_lanes.h"
 #include "math/trig_lanes.h"
 #include "scene/noise_kernel.h"
 #include "scene/range_lanes.h"
@@ -584,6 +585,9 @@ LANES_INLINE void run_values(const struct tape *t, bool exact, const double at[3
             r[s->to] = exact ? value_by_lanes(TAPE_ATAN2, a, b) : quick_atan2_8(a, b);
             break;
         case TAPE_MOD: r[s->to] = quick_fmod8(a, b); break;
+        case TAPE_EXP: r[s->to] = det_exp8(a); break;
+        case TAPE_LOG: r[s->to] = det_log8(a); break;
+        case TAPE_POW: r[s->to] = det_pow8(a, b); break;
         case TAPE_FLOOR: r[s->to] = r8_floor(a); break;
         case TAPE_LESS: r[s->to] = one_where(r8_lt(a, b)); break;
         case TAPE_GREATER: r[s->to] = one_where(r8_lt(b, a)); break;

@@ -7,6 +7,7 @@
 
 #include "math/acos_lanes.h"
 #include "math/elementary.h"
+#include "math/power_lanes.h"
 
 typedef double (*fn)(double);
 typedef long double (*reference)(long double);
@@ -168,6 +169,49 @@ static void acos_in_lanes(void **state)
     }
 }
 
+static void assert_same(double got, double want)
+{
+    if (!(isnan(got) && isnan(want)))
+        assert_memory_equal(&want, &got, sizeof want);
+}
+
+// Of all sizes, and special values among them.
+static double random_argument(uint64_t *seed)
+{
+    static const double special[] = {
+        0,  -0.0,      1,     -1,      2,        -2,        0.5,    3,
+        -3, 0x1p-1074, 1e308, -1e-310, HUGE_VAL, -HUGE_VAL, 0x1p60, (double)NAN};
+    const double u = 2 * random_unit(seed) - 1, pick = random_unit(seed);
+    if (pick < 0.1)
+        return special[(int)(160 * pick)];
+    if (pick < 0.2)
+        return floor(20 * u);
+    return pick < 0.6 ? u : pick < 0.8 ? 100 * u : u * exp2(600 * (pick - 0.9));
+}
+
+static void powers_in_lanes(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    for (int i = 0; i < 20000; i++) {
+        double x[8], y[8], p[8], e[8], l[8];
+        for (int k = 0; k < 8; k++) {
+            x[k] = random_argument(&seed);
+            y[k] = random_argument(&seed);
+            if (i % 2)
+                x[k] = fabs(x[k]);
+        }
+        r8_store(p, det_pow8(r8_load(x), r8_load(y)));
+        r8_store(e, det_exp8(r8_load(y)));
+        r8_store(l, det_log8(r8_load(x)));
+        for (int k = 0; k < 8; k++) {
+            assert_same(p[k], det_pow(x[k], y[k]));
+            assert_same(e[k], det_exp(y[k]));
+            assert_same(l[k], det_log(x[k]));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -177,6 +221,7 @@ int main(void)
         cmocka_unit_test(atan2_in_all_quadrants),
         cmocka_unit_test(special_values),
         cmocka_unit_test(acos_in_lanes),
+        cmocka_unit_test(powers_in_lanes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
