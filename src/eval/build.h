@@ -94,6 +94,7 @@ enum field_kind {
     FIELD_FLOAT,       // float
     FIELD_DOUBLE,      // double
     FIELD_INT,         // int
+    FIELD_NEAREST,     // int, the nearest in the range
     FIELD_SWITCH,      // bool, optional value
     FIELD_FLAG,        // bool, no value
     FIELD_NUMBER_BOOL, // bool, value required

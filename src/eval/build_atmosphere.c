@@ -10,7 +10,7 @@ static const struct field fog_fields[] = {
     {WORD_fog_alt, FIELD_DOUBLE, AT(alt), 0, 0},
     {WORD_fog_offset, FIELD_DOUBLE, AT(offset), 0, 0},
     {WORD_up, FIELD_UNIT, AT(up), 0, 0},
-    {WORD_octaves, FIELD_INT, AT(turbulence.octaves), 1, 10},
+    {WORD_octaves, FIELD_NEAREST, AT(turbulence.octaves), 1, 10},
     {WORD_omega, FIELD_FLOAT, AT(turbulence.omega), 0, 0},
     {WORD_lambda, FIELD_FLOAT, AT(turbulence.lambda), 0, 0},
     {WORD_turb_depth, FIELD_DOUBLE, AT(turb_depth), 0, 0},

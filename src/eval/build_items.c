@@ -204,7 +204,8 @@ bool args_switch(struct args *a)
 static bool field_in_range(struct args *a, const struct field *f, struct span where,
                            double v)
 {
-    if ((f->min == 0 && f->max == 0) || (v >= f->min && v <= f->max))
+    if ((f->min == 0 && f->max == 0) || (v >= f->min && v <= f->max) ||
+        f->kind == FIELD_NEAREST)
         return true;
     diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, word_text(f->word), v, f->min,
             f->max);
@@ -222,6 +223,7 @@ static void read_number(struct args *a, const struct field *f, void *at)
     case FIELD_FLOAT: *(float *)at = (float)v; break;
     case FIELD_DOUBLE: *(double *)at = v; break;
     case FIELD_INT: *(int *)at = (int)fmax(fmin(v, 2147483647.0), -2147483648.0); break;
+    case FIELD_NEAREST: *(int *)at = (int)fmax(fmin(v, f->max), f->min); break;
     case FIELD_RECIPROCAL: *(float *)at = v == 0 ? 0 : (float)(1 / v); break;
     default: *(bool *)at = v > 0; break;
     }
@@ -271,6 +273,7 @@ bool fields_read(struct args *a, const struct field *f, size_t n, void *into)
         case FIELD_FLOAT:
         case FIELD_DOUBLE:
         case FIELD_INT:
+        case FIELD_NEAREST:
         case FIELD_RECIPROCAL:
         case FIELD_NUMBER_BOOL: read_number(a, &f[i], at); break;
         default: read_other(a, &f[i], at); break;

@@ -323,16 +323,16 @@ bool build_pattern(struct args *a, struct body *body)
 
 static void classic(struct args *a, struct pattern *p, enum word w)
 {
+    static const struct field fields[] = {
+        {WORD_octaves, FIELD_NEAREST, offsetof(struct turbulence, octaves), 1, 10},
+        {WORD_omega, FIELD_FLOAT, offsetof(struct turbulence, omega), 0, 0},
+        {WORD_lambda, FIELD_FLOAT, offsetof(struct turbulence, lambda), 0, 0}};
     struct turbulence *t = arena_new_struct(a->b->arena, struct turbulence);
-    double v;
     *t = p->turbulence ? *p->turbulence : (struct turbulence){vec3(0, 0, 0), 6, 2, 0.5f};
-    args_next(a);
-    if (w == WORD_turbulence)
+    if (w != WORD_turbulence)
+        fields_read(a, fields, ARRAY_COUNT(fields), t);
+    else if (args_take(a, w))
         args_vec3(a, "turbulence", &t->amount);
-    else if (w == WORD_octaves)
-        t->octaves = (int)read_int(a, "octaves", 1, 10);
-    else if (args_float(a, word_text(w), &v))
-        *(w == WORD_lambda ? &t->lambda : &t->omega) = (float)v;
     p->turbulence = t;
 }
 

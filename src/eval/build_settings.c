@@ -46,13 +46,11 @@ static void max_trace_level(struct args *a, struct settings *s)
     long n;
     if (!args_int(a, "max_trace_level", &n))
         return;
-    if (n < 1) {
-        args_error(a, where, "max_trace_level must be at least 1");
-        return;
-    }
+    if (n < 1)
+        args_warning(a, where, "max_trace_level below 1, 1 is used");
     if (n > 256)
         args_warning(a, where, "max_trace_level above 256, 256 is used");
-    s->max_trace_level = n > 256 ? 256 : (int)n;
+    s->max_trace_level = n > 256 ? 256 : n < 1 ? 1 : (int)n;
 }
 
 static void noise_generator(struct args *a, struct settings *s)

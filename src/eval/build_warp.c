@@ -71,7 +71,7 @@ static void black_hole(struct args *a, struct warp *w)
 static void turbulence(struct args *a, struct warp *w)
 {
     static const struct field fields[] = {
-        {WORD_octaves, FIELD_INT, AT(turbulence.octaves), 1, 10},
+        {WORD_octaves, FIELD_NEAREST, AT(turbulence.octaves), 1, 10},
         {WORD_omega, FIELD_FLOAT, AT(turbulence.omega), 0, 0},
         {WORD_lambda, FIELD_FLOAT, AT(turbulence.lambda), 0, 0}};
     w->kind = WARP_TURBULENCE;
