@@ -50,8 +50,7 @@ struct rough8 {
 // bound on their rounding: up to 6 n roundings of sums no larger than the polynomial's terms
 // at |end| + w.
 LANES_INLINE struct real8 poly8_polygon(const struct real8 *c, int n, struct real8 a,
-                                        struct real8 w, struct real8 *b,
-                                        struct rough8 *rough)
+                                        struct real8 w, struct real8 *b)
 {
     const struct real8 end = r8_add(a, w), zero = r8_set(0);
     const struct mask8 turned = r8_lt(r8_add(a, end), zero);
@@ -76,12 +75,26 @@ LANES_INLINE struct real8 poly8_polygon(const struct real8 *c, int n, struct rea
             b[i] = r8_select(turned, y, x);
             b[n - i] = r8_select(turned, x, y);
         }
-    const struct real8 near = r8_max(r8_max(a, r8_neg(end)), zero);
     const struct real8 size = poly8_size(c, n, r8_add(r8_abs(from), r8_abs(w)));
-    const struct real8 least = r8_mul(r8_set(0.25), size);
-    rough->within = r8_lt(poly8_size(c, n, near), least);
-    rough->end = r8_lt(poly8_size(c, n, end), least);
     return r8_mul(r8_set((6 * n + 8) * ROUNDOFF), size);
+}
+
+// Given that bound. Where all signs are clear it is not asked for.
+LANES_INLINE struct rough8 poly8_rough(const struct real8 *c, int n, struct real8 a,
+                                       struct real8 end, struct real8 noise)
+{
+    const struct real8 near = r8_max(r8_max(a, r8_neg(end)), r8_set(0));
+    const struct real8 least = r8_mul(r8_set(0.25 / ((6 * n + 8) * ROUNDOFF)), noise);
+    return (struct rough8){r8_lt(poly8_size(c, n, near), least),
+                           r8_lt(poly8_size(c, n, end), least)};
+}
+
+LANES_INLINE struct mask8 poly8_clear(const struct real8 *b, int n, struct real8 noise)
+{
+    struct mask8 clear = r8_lt(noise, r8_abs(b[1]));
+    for (int i = 2; i <= n; i++)
+        clear = m8_and(clear, r8_lt(noise, r8_abs(b[i])));
+    return clear;
 }
 
 // How often the polygon's sign changes from the first on, the place of the first change as a
@@ -134,9 +147,11 @@ LANES_INLINE struct brackets8 poly8_isolate(const struct real8 *c, int n, struct
     for (int i = 0; i < LOOKS_MAX && lanes && !(cancel && *cancel); i++) {
         const struct real8 a = r8_add(lo, r8_mul(width, from)), w = r8_mul(width, share);
         struct real8 at, before = r.sign;
-        struct rough8 rough;
+        struct rough8 rough = {m8_of(0), m8_of(0)};
         struct mask8 clear, murky;
-        const struct real8 noise = poly8_polygon(c, n, a, w, b, &rough);
+        const struct real8 noise = poly8_polygon(c, n, a, w, b);
+        if (lanes & ~m8_bits(poly8_clear(b, n, noise)))
+            rough = poly8_rough(c, n, a, r8_add(a, w), noise);
         const struct real8 changes =
             poly8_changes(b, n, noise, &before, &at, &rough, &clear, &murky);
         const struct real8 halves = r8_floor(r8_mul(changes, half));

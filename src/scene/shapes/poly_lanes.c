@@ -3,6 +3,8 @@
 // as at double roots, a lane is left to poly.c. ISA names the instruction set.
 #include "scene/shapes/poly_lanes.h"
 
+#include <string.h>
+
 #include "math/polynomial_lanes.h"
 #include "scene/shapes/lanes.h"
 #include "scene/shapes/poly.h"
@@ -166,17 +168,53 @@ static struct first8 first_root(const struct poly *s, const struct line_poly8 *p
     }
 }
 
-// Where the set has no box, all roots are within this.
+// As polynomial_root_bound, of the lane.
+static double lane_bound(const struct line_poly8 *p, int lane)
+{
+    double c[POLYNOMIAL_DEGREE_MAX + 1], each[8];
+    for (int i = 0; i <= p->degree; i++) {
+        r8_store(each, p->c[i]);
+        c[i] = each[lane];
+    }
+    return polynomial_root_bound(c, p->degree);
+}
+
+// The exponents that frexp has, but for numbers too small to be normal: these get the least.
+enum { LEAST_EXPONENT = -1022 };
+static struct real8 exponent8(struct real8 x)
+{
+    double v[8];
+    uint64_t bits[8];
+    r8_store(v, x);
+    memcpy(bits, v, sizeof bits);
+    for (int i = 0; i < 8; i++)
+        v[i] = (double)((int)(bits[i] >> 52 & 0x7ff) + LEAST_EXPONENT);
+    return r8_load(v);
+}
+
+// Where the set has no box, all roots are within polynomial_root_bound.
 static void clip_to_roots(const struct line_poly8 *p, struct lines8 *l)
 {
-    double c[POLYNOMIAL_DEGREE_MAX + 1][8], far[8];
-    for (int i = 0; i <= p->degree; i++)
-        r8_store(c[i], p->c[i]);
+    const struct real8 lead = exponent8(p->c[p->degree]), none = r8_set(-INFINITY);
+    struct real8 most = none;
+    double e[8], far[8];
+    for (int i = 0; i < p->degree; i++) {
+        const struct real8 above = r8_add(r8_sub(exponent8(p->c[i]), lead), r8_set(1));
+        const struct real8 share =
+            r8_neg(r8_floor(r8_div(r8_neg(above), r8_set(p->degree - i)))); // rounded up
+        const struct mask8 zero = r8_eq(p->c[i], r8_set(0));
+        most = r8_max(most, r8_select(zero, none, share));
+    }
+    const unsigned normal = m8_bits(
+        m8_and(r8_lt(r8_set(LEAST_EXPONENT), lead), r8_lt(r8_abs(most), r8_set(1000))));
+    r8_store(e, most);
     for (int k = 0; k < 8; k++) {
-        double lane[POLYNOMIAL_DEGREE_MAX + 1];
-        for (int i = 0; i <= p->degree; i++)
-            lane[i] = c[i][k];
-        far[k] = polynomial_root_bound(lane, p->degree);
+        if (normal >> k & 1) {
+            const uint64_t bits = (uint64_t)((int)e[k] + 1 + 1023) << 52;
+            memcpy(&far[k], &bits, sizeof bits);
+        } else {
+            far[k] = lane_bound(p, k);
+        }
     }
     l->lo = r8_max(r8_neg(r8_load(far)), l->lo);
     l->hi = r8_min(r8_load(far), l->hi);

@@ -189,6 +189,8 @@ bool revolve_inside(const struct revolve *r, struct vec3 p)
     for (uint32_t i = 0; i < r->count; i++) {
         const struct revolve_segment *s = &r->segment[i];
         double f[4], w[8];
+        if (p.y < s->low || p.y > s->high || rho2 > s->most2 * (1 + 0x1p-40))
+            continue;
         for (int k = 0; k <= s->h_degree; k++)
             f[k] = s->h[k];
         f[0] -= p.y;
