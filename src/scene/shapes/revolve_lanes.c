@@ -19,6 +19,10 @@ static const double SMALLEST = 0x1p-20; // piece of a segment that is halved
 // How far beyond its piece rounding may take a root.
 static const double BEYOND = 0x1p-40;
 
+// A line may pass the axis this many times the coordinates above or below where it begins: its
+// heights, as a share of them, are then as exact as its distances.
+static const double FAR_RISE = 64;
+
 // In rows of four, as r8_load_rows takes them.
 enum { FROM = 7, WIDTH, NOISE, MOST2, CHANGES, PIECE };
 struct piece {
@@ -460,7 +464,7 @@ static void set_up(struct search *x, struct turn8 *l, unsigned lanes)
     // Nearly flat lines, and those along the axis, are not for these sums.
     const struct mask8 steep =
         r8_lt(r8_mul(r8_set(REVOLVE_NEARLY_FLAT), r8_sqrt(l->q)), r8_abs(d.y));
-    const struct mask8 near = r8_le(r8_abs(rise), size);
+    const struct mask8 near = r8_le(r8_abs(rise), r8_mul(r8_set(FAR_RISE), size));
     const unsigned odd = lanes & ~m8_bits(m8_and(steep, near));
     x->odd = odd;
     x->lanes = lanes & ~odd;
