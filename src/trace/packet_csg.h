@@ -119,8 +119,11 @@ static void csg8_turn(struct csg8 *v, uint32_t i, unsigned lanes)
 static void csg8_span(struct csg8 *v, uint32_t i, const struct span8 *x,
                       unsigned in_drawn, unsigned out_drawn)
 {
-    const struct mask8 met = m8_and(m8_and(x->met, m8_of(v->lanes)),
-                                    m8_and(r8_le(x->in, v->to), r8_le(v->from, x->out)));
+    const struct real8 error = r8_add(x->in_e, x->out_e);
+    const struct mask8 behind = r8_lt(r8_add(x->out, error), v->from),
+                       beyond = r8_lt(v->to, r8_sub(x->in, error)); // not if no number
+    const struct mask8 met =
+        m8_without(m8_and(x->met, m8_of(v->lanes)), m8_or(behind, beyond));
     if (!m8_bits(met))
         return;
     if (v->spans == CSG_SPANS) {
@@ -134,7 +137,7 @@ static void csg8_span(struct csg8 *v, uint32_t i, const struct span8 *x,
     v->out[k] = r8_select(met, x->out, r8_set(-INFINITY));
     v->in_drawn[k] = (uint8_t)in_drawn;
     v->out_drawn[k] = (uint8_t)out_drawn;
-    v->bounds = r8_add(v->bounds, r8_select(met, r8_add(x->in_e, x->out_e), r8_set(0)));
+    v->bounds = r8_add(v->bounds, r8_select(met, error, r8_set(0)));
     csg8_live(v, i);
 }
 
@@ -344,13 +347,20 @@ static void csg8_dear(struct csg8 *v, uint32_t i)
     csg8_begin_leaf(v, i);
     unsigned lanes = csg8_matters(v, i);
     if (lanes && aabb_is_finite(l->bounds))
-        lanes &= box_lanes_to(v->e, &l->bounds, v->to);
+        lanes &= box_lanes_to(v->e, &l->bounds,
+                              r8_add(v->to, r8_mul(r8_set(0x1p20), v->margin)));
     if (!lanes)
         return;
     if (ring)
         csg8_ring(v, i, leaf_ray(l, &v->e->ray, &own));
     else
         csg8_other(v, i, lanes);
+}
+
+// More than a batch is long: 2 would do, but for the rounding of the sum.
+static struct real8 csg8_slack(const struct csg8 *v)
+{
+    return r8_mul(r8_set(2.5), v->bounds);
 }
 
 // Solids without which there is nothing: what lies outside of them is of no interest.
@@ -364,7 +374,8 @@ static void csg8_required(struct csg8 *v)
         if (!v->count[i])
             continue;
         const uint32_t k = v->first[i];
-        const struct mask8 known = m8_of(v->lanes & ~v->unsure);
+        const struct mask8 known =
+            m8_and(m8_of(v->lanes & ~v->unsure), r8_le(csg8_slack(v), v->margin));
         v->from = r8_select(known, r8_max(r8_sub(v->in[k], v->margin), v->from), v->from);
         v->to = r8_select(known, r8_min(r8_add(v->out[k], v->margin), v->to), v->to);
         v->lanes &= m8_bits(r8_le(v->from, v->to)) | v->unsure;
@@ -503,8 +514,7 @@ static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
     csg8_stretch(&v);
     csg8_required(&v);
     csg8_others(&v);
-    // 2 would do, but for the rounding of the sum.
-    v.slack = r8_mul(r8_set(2.5), v.bounds);
+    v.slack = csg8_slack(&v);
     v.unsure |= ~m8_bits(r8_le(v.slack, v.margin));
     v.unsure &= v.lanes;
     v.lanes &= ~v.unsure;

@@ -238,18 +238,30 @@ LANES_INLINE struct span8 shape_span(const struct leaf *l, enum packet_shape sha
     }
 }
 
-// dt and no less than moved_error of trace/sweep.c; ends at infinity stay as they are.
-LANES_INLINE struct real8 moved8(const struct leaf *l, const struct ray8 *ray,
-                                 const struct ray8 *own, struct real8 t, struct real8 dt)
+// dt and no less than moved_error of trace/sweep.c; ends at infinity stay as they are. dt allows
+// for a place that is off by GAMMA(8) of the origin's size and `extent`, which counts where
+// moved_error asks for the slope: where the share of the origin's size alone is above 64.
+LANES_INLINE struct real8 moved8_by(const struct leaf *l, const struct ray8 *ray,
+                                    const struct ray8 *own, struct real8 extent,
+                                    struct real8 t, struct real8 dt)
 {
     const double unit = GAMMA(32) / GAMMA(8) * (1 + 0x1p-18) * l->stretch;
     const struct real8 size =
         r8_add(r8_add(ray->o_max, r8_set(2 * vec3_max_abs(l->transform->offset))),
                r8_mul(r8_abs(t), v8_max_abs(ray->d)));
-    const struct real8 share =
-        r8_div(r8_mul(r8_set(unit), size), r8_add(own->o_max, r8_set(0x1p-900)));
+    const struct real8 error = r8_mul(r8_set(unit), size),
+                       o_max = r8_add(own->o_max, r8_set(0x1p-900)),
+                       most = r8_div(error, o_max);
+    const struct real8 share = r8_select(r8_le(most, r8_set(65)), most,
+                                         r8_div(error, r8_add(o_max, extent)));
     const struct mask8 finite = r8_lt(r8_abs(t), r8_set(INFINITY));
     return r8_select(finite, r8_add(dt, r8_mul(dt, share)), dt);
+}
+
+LANES_INLINE struct real8 moved8(const struct leaf *l, const struct ray8 *ray,
+                                 const struct ray8 *own, struct real8 t, struct real8 dt)
+{
+    return moved8_by(l, ray, own, r8_set(0), t, dt);
 }
 
 // The same of a torus.
@@ -274,7 +286,25 @@ static struct real8 torus_error(const struct leaf *l, const struct ray8 *ray,
                              r8_max(slope, r8_mul(r8_set(GAMMA(12)), v8_max_abs(d)))));
 }
 
-// The same of a convex leaf, seen by the rays of its own space.
+// What dt allows for besides the origin's size, of shapes where that is known.
+LANES_INLINE double own_extent(const struct leaf *l, enum packet_shape shape)
+{
+    if (shape == PACKET_SPHERE)
+        return ((const struct sphere *)l->shape)->radius;
+    if (shape == PACKET_PLANE)
+        return vec3_max_abs(((const struct plane *)l->shape)->point);
+    if (shape == PACKET_BOX) {
+        const struct box *b = l->shape;
+        return fmax(vec3_max_abs(b->min), vec3_max_abs(b->max));
+    }
+    if (shape != PACKET_CYLINDER)
+        return 0;
+    const struct cylinder *c = l->shape;
+    return vec3_max_abs(c->frame.origin) + c->length + c->radius;
+}
+
+// The same of a convex leaf, seen by the rays of its own space. Where a line hardly enters a
+// round shape, dt is less than what the slope alone would give.
 LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
                                     enum packet_shape shape, const struct ray8 *own,
                                     struct mask8 *odd)
@@ -282,8 +312,12 @@ LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
     struct span8 x = shape_span(l, shape, own, odd);
     if (l->transform->identity)
         return x;
-    x.in_e = moved8(l, &e->ray, own, x.in, x.in_e);
-    x.out_e = moved8(l, &e->ray, own, x.out, x.out_e);
+    const struct mask8 deep =
+        r8_le(r8_mul(r8_set(2), r8_add(x.in_e, x.out_e)), r8_sub(x.out, x.in));
+    const struct real8 extent =
+        r8_select(deep, r8_set(own_extent(l, shape)), r8_set(0));
+    x.in_e = moved8_by(l, &e->ray, own, extent, x.in, x.in_e);
+    x.out_e = moved8_by(l, &e->ray, own, extent, x.out, x.out_e);
     return x;
 }
 

@@ -36,6 +36,7 @@ struct maker {
     int crossed; // surfaces in lists of all that a ray crosses
     bool alone;  // the one-ray form is the reference, not all crossings
     bool grid;   // coordinates are multiples of 1/4, nothing is turned: faces coincide
+    bool middle; // the camera is at the origin, or close to it
 };
 
 static double between(struct maker *m, double lo, double hi)
@@ -204,7 +205,8 @@ static void put(struct ray_batch *b, struct vec3 o, struct vec3 d, double t_min,
 // ending early.
 static void fill(struct maker *m, struct ray_batch *b, int kind)
 {
-    const struct vec3 eye = vec3_scale(kind == 3 ? 1e5 : 3, somewhere(m, 4));
+    const double far = m->middle ? (kind == 3 ? 1e-9 : 0) : kind == 3 ? 1e5 : 3;
+    const struct vec3 eye = vec3_scale(far, somewhere(m, 4));
     b->count = 0;
     for (int i = 0; i < RAYS; i++) {
         const struct vec3 to = kind == 0 || kind == 3 ? vec3(8. * (i % 32) / 32 - 4,
@@ -749,7 +751,7 @@ static struct object *random_nest(struct maker *m, int depth, double off)
     struct object *o;
     if (depth == 0 || chance(m) < .2) {
         const double kind = chance(m);
-        o = kind < .7   ? random_solid(m, somewhere(m, .75), .5 + chance(m), off, kind < .3)
+        o = kind < .7 ? random_solid(m, somewhere(m, .75), .5 + chance(m), off, kind < .3)
             : kind < .8 ? random_torus(m, 1, m->grid ? 1 : (int)(3 * chance(m)))
                         : random_shape(m);
     } else {
@@ -778,8 +780,9 @@ static void nests(void **state)
     for (uint64_t k = 0; k < 24; k++) {
         struct maker m = {.a = arena_new(1 << 16), .random = 700 + k, .grid = k % 2 == 0};
         for (int i = 0; i < 12; i++) {
-            struct object *part[2] = {random_nest(&m, 2, off[k / 6]),
-                                      random_solid(&m, somewhere(&m, .5), 1.5, .5, i % 2)};
+            struct object *part[2] = {
+                random_nest(&m, 2, off[k / 6]),
+                random_solid(&m, somewhere(&m, .5), 1.5, .5, i % 2)};
             const struct object **child = arena_new_array(m.a, const struct object *, 2);
             child[0] = part[0];
             child[1] = part[1];
@@ -788,6 +791,36 @@ static void nests(void **state)
             if (i % 4 == 0)
                 clip_by_solids(&m, o, off[k / 6]);
             add_within(&m, o, 2);
+        }
+        check_made(&m);
+    }
+}
+
+// Turned solids less others, all around the origin, where the camera is.
+static void seen_from_within(void **state)
+{
+    (void)state;
+    static const double off[] = {0, 1e-15, 1e-9, .01};
+    for (uint64_t k = 0; k < 16; k++) {
+        struct maker m = {.a = arena_new(1 << 16),
+                          .random = 800 + k,
+                          .grid = k % 4 == 0,
+                          .middle = true};
+        for (int i = 0; i < 8; i++) {
+            const uint32_t n = 3 + (uint32_t)(4 * chance(&m));
+            const struct object **child = arena_new_array(m.a, const struct object *, n);
+            for (uint32_t j = 0; j < n; j++) {
+                struct object *o = random_solid(&m, somewhere(&m, j > 2 ? .5 : 0),
+                                                j ? .3 + .5 * chance(&m) : 1 + .5 * i,
+                                                off[k / 4], j % 2);
+                struct transform t = transform_scale(vec3(.8, 1.3, j % 2 ? 1 : .4));
+                object_transform(m.a, o, &t);
+                t = transform_rotate(vec3(0, 30. * i, m.grid ? 0 : 25. * j));
+                object_transform(m.a, o, &t);
+                child[j] = o;
+            }
+            m.object[m.count++] = object_new_csg(
+                m.a, i % 4 == 3 ? CSG_MERGE : CSG_DIFFERENCE, child, n, (struct span){0});
         }
         check_made(&m);
     }
@@ -834,6 +867,7 @@ int main(void)
         cmocka_unit_test(meshes),
         cmocka_unit_test(nested_csg),
         cmocka_unit_test(nests),
+        cmocka_unit_test(seen_from_within),
         cmocka_unit_test(many_spheres),
         cmocka_unit_test(the_environment_names_the_kernels),
     };
