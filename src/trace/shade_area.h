@@ -11,39 +11,54 @@ struct area_eight {
     double u[8], v[8]; // of the point
 };
 
+LANES_INLINE void places_copy(double (*to)[8], const double (*from)[BATCH_SIZE],
+                              int count, const uint32_t place[8], bool in_row)
+{
+    for (int a = 0; a < count; a++)
+        if (in_row)
+            memcpy(to[a], from[a] + place[0], sizeof to[a]);
+        else
+            for (int i = 0; i < 8; i++)
+                to[a][i] = from[a][place[i]];
+}
+
+// Moves the points as area_point.
+static void points_jitter(const uint32_t hash[8], const uint32_t point[8],
+                          struct area_eight *e)
+{
+    for (int i = 0; i < 8; i++) {
+        const uint32_t h = hash_mix(hash[i], point[i]);
+        e->u[i] += hash_unit(hash_mix(h, 1)) - 0.5;
+        e->v[i] += hash_unit(hash_mix(h, 2)) - 0.5;
+    }
+}
+
 static void area_eight_of(const struct lamp *lamp, const struct area_places *from,
                           const struct area_ray *const ray[8], struct area_eight *e)
 {
     const uint32_t size2 = (uint32_t)lamp->light->size2;
-    uint32_t hash[8], h[2][8];
-    for (int i = 0; i < 8; i++) {
-        const uint32_t k = ray[i]->place;
-        for (int a = 0; a < 3; a++) {
-            e->p[a][i] = from->p[a][k];
-            e->ng[a][i] = from->ng[a][k];
-        }
-        e->error[i] = from->error[k];
-        e->u[i] = ray[i]->point / size2;
-        e->v[i] = ray[i]->point % size2;
-        hash[i] = from->hash[k];
-    }
-    for (int i = 0; i < 8 && lamp->light->orient; i++)
-        for (int a = 0; a < 3; a++) {
-            e->axis1[a][i] = from->axis1[a][ray[i]->place];
-            e->axis2[a][i] = from->axis2[a][ray[i]->place];
-        }
-    if (!lamp->light->jitter)
-        return;
-    for (int i = 0; i < 8; i++)
-        hash[i] = hash_mix(hash[i], ray[i]->point);
-    for (int i = 0; i < 8; i++) {
-        h[0][i] = hash_mix(hash[i], 1);
-        h[1][i] = hash_mix(hash[i], 2);
+    uint32_t hash[8], place[8], point[8];
+    bool to_one = true, in_row = true;
+    for (uint32_t i = 0; i < 8; i++) {
+        place[i] = ray[i]->place;
+        point[i] = ray[i]->point;
+        hash[i] = from->hash[place[i]];
+        to_one &= point[i] == point[0];
+        in_row &= place[i] == place[0] + i;
     }
     for (int i = 0; i < 8; i++) {
-        e->u[i] += hash_unit(h[0][i]) - 0.5;
-        e->v[i] += hash_unit(h[1][i]) - 0.5;
+        e->u[i] = to_one && i ? e->u[0] : point[i] / size2;
+        e->v[i] = to_one && i ? e->v[0] : point[i] % size2;
     }
+    places_copy(e->p, from->p, 3, place, in_row);
+    places_copy(e->ng, from->ng, 3, place, in_row);
+    places_copy(&e->error, &from->error, 1, place, in_row);
+    if (lamp->light->orient) {
+        places_copy(e->axis1, from->axis1, 3, place, in_row);
+        places_copy(e->axis2, from->axis2, 3, place, in_row);
+    }
+    if (lamp->light->jitter)
+        points_jitter(hash, point, e);
 }
 
 // lamp_grid_point.
