@@ -1,6 +1,5 @@
 // Pigments: a colour for a point (spec/textures 8, 10).
 
-#include <string.h>
 
 #include "base/arena.h"
 #include "scene/image_map.h"
@@ -99,22 +98,6 @@ bool pigment_color(const struct pigment *p, const struct texture_point *at,
         return true;
     }
     return color_at(p, texture_place(at), at, out);
-}
-
-void pigment_colors8(const struct surface_kernels *k, const struct pigment *p,
-                     const struct pattern_packet *packet, const double place[3][8],
-                     float out[3][8])
-{
-    double at[3][8], v[8];
-    memcpy(at, place, sizeof at);
-    k->warp(p->pattern, at);
-    k->values(p->pattern, packet, (const double(*)[8])at, 255, v);
-    for (int i = 0; i < 8; i++) {
-        const struct rgbft c = map_color(p->colors, v[i]);
-        out[0][i] = c.r;
-        out[1][i] = c.g;
-        out[2][i] = c.b;
-    }
 }
 
 const struct pigment *pigment_transform(struct arena *a, const struct pigment *p,

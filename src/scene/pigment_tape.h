@@ -130,10 +130,6 @@ struct surface_kernels {
 
 extern const struct surface_kernels surface_kernels_base, surface_kernels_avx2,
     surface_kernels_avx512;
-// A pigment of kind PIGMENT_COLORS that is not compiled; red, green and blue alone.
-void pigment_colors8(const struct surface_kernels *k, const struct pigment *p,
-                     const struct pattern_packet *packet, const double place[3][8],
-                     float out[3][8]);
 // By the name of noise_kernels_find.
 const struct surface_kernels *surface_kernels_find(const char *name);
 
