@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "math/elementary.h"
+#include "trace/accel.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
 #include "trace/media.h"
@@ -88,6 +89,12 @@ static void air_between(struct tracer *t, struct shadow_walk *s, const struct ra
             s->pass, air_filter(t, vec3_mad(ray->o, s->t, ray->d), ray->d, end - s->t));
 }
 
+// How far on a shape that is searched from where the ray begins may find this crossing again.
+static double found_again(const struct world *w, const struct hit *hit)
+{
+    return w->accel->leaf_shape[hit->b.leaf] == PACKET_LANES ? 2 * hit->b.dt : 0;
+}
+
 // Crosses the surface that was hit, behind media that let `dim` pass; false: nothing
 // passes.
 static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
@@ -111,7 +118,7 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
         s->inside = inside_enter(t, s->inside, x);
     }
     s->pass = rgb_mul(s->pass, pass);
-    s->t = hit->b.t;
+    s->t = hit->b.t + found_again(w, hit);
     if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)NEAR_ZERO)
         return true;
     s->pass = none;
