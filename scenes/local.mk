@@ -3,7 +3,7 @@ gallery_scenes = \
 	%D%/gallery/quadrics.scn %D%/gallery/sponge.scn %D%/gallery/spots.scn
 
 EXTRA_DIST += %D%/radiosity/room.scn %D%/gallery/montage.sh doc/architecture.md doc/gallery.png doc/room.png \
-	doc/examples.md doc/performance.md doc/radiosity.md doc/testing.md
+	doc/examples.md doc/optimisation.md doc/performance.md doc/radiosity.md doc/testing.md
 gallerydir = $(pkgdatadir)/gallery
 dist_gallery_DATA = $(gallery_scenes)
 

@@ -617,4 +617,5 @@ static void exact(const struct tape *t, const double at[3][8], double out[8])
     run_values(t, true, at, out);
 }
 
-const struct tape_kernels OF_ISA(tape_kernels_) = {values, exact, bounds, along};
+const struct tape_kernels OF_ISA(tape_kernels_) = {values, exact, bounds, along,
+                                                   &OF_ISA(noise_kernels_)};

@@ -18,6 +18,7 @@ struct tape_kernels {
     // derivative along it.
     void (*along)(const struct tape *t, const struct tape_boxes *in, const double d[3][8],
                   struct tape_slopes *out);
+    const struct noise_kernels *noise; // for the patterns and pigments that tapes call
 };
 
 extern const struct tape_kernels tape_kernels_base, tape_kernels_avx2,

@@ -1,6 +1,7 @@
 // Running a tape at one point, at eight, and with derivatives (tape.h).
 #include <string.h>
 
+#include "scene/tape_kernel.h"
 #include "scene/tape_steps.h"
 
 int tape_arguments(const struct tape *t) { return t->arguments; }
@@ -132,7 +133,7 @@ static void called_packet(const struct tape *t, const struct tape_step *s, lanes
         s->op == TAPE_EXTERN ? ((const struct tape_extern *)s->callee)->width : 1;
     for (uint32_t i = 0; i < s->count; i++)
         memcpy(in[i], r[t->list[s->list + i]], sizeof *in);
-    tape_call_packet(NULL, s, (const double(*)[TAPE_LANES])in, out);
+    tape_call_packet(tape_kernels_best()->noise, s, (const double(*)[TAPE_LANES])in, out);
     for (int i = 0; i < width; i++)
         memcpy(r[s->to + i], out[i], sizeof *r);
 }
