@@ -24,10 +24,10 @@ struct diag {
     const char *hint; // NULL, or what to do: "did you mean 'pigment'?"
 };
 
-// Stages report here and go on; the caller decides whether to stop. A sink is
-// owned by one context, so two contexts never share messages.
 enum { DIAG_REPEATS_MAX = 1000 }; // of errors already said: then a loop is not worth its end
 
+// Stages report here and go on; the caller decides whether to stop. A sink is
+// owned by one context, so two contexts never share messages.
 struct diag_sink {
     void (*emit)(void *user, const struct diag *d);
     void *user;

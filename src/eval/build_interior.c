@@ -40,15 +40,23 @@ static void scattering(struct args *a, struct media *m)
 
 static void samples(struct args *a, struct media *m)
 {
+    static const double most = 1e6;
     double low = 1, high;
     struct span where = args_span(a);
     if (!args_float(a, "samples", &low))
         return;
     high = low;
     args_optional(a, &high);
-    if (low < 1 || high < low)
+    if (!(low >= 1 && high >= low)) {
         args_error(a, where,
                    "samples must be at least 1, the second not below the first");
+        return;
+    }
+    if (high > most) { // a table is as long
+        diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, "samples", high, 1.0, most);
+        args_fail(a);
+        return;
+    }
     m->samples_min = (int)low;
     m->samples_max = (int)high;
 }

@@ -183,7 +183,7 @@ static void take_undeclared(struct parse *p, struct token *t)
         return;
     if (!reported)
         parse_undeclared(s, t, open == '(');
-    while (raw_kind(s) == '[' || raw_kind(s) == '(')
+    while (!s->stopped && (raw_kind(s) == '[' || raw_kind(s) == '('))
         skip_group(s);
     t->len = 0; // reported
 }
