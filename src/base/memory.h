@@ -12,4 +12,13 @@ static inline void *must_calloc(size_t count, size_t size)
     return p;
 }
 
+// As realloc, for what cannot go on without; count > 0.
+static inline void *must_realloc(void *at, size_t count, size_t size)
+{
+    at = realloc(at, count * size);
+    if (!at)
+        abort();
+    return at;
+}
+
 #endif

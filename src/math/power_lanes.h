@@ -90,35 +90,34 @@ LANES_INLINE struct mask8 power8_normal(struct real8 x)
     return m8_and(r8_le(r8_set(DBL_MIN), x), r8_le(x, r8_set(DBL_MAX)));
 }
 
-static inline struct real8 det_exp8(struct real8 x)
+// v, but f(x) in the lanes that are not `done`.
+static inline struct real8 power8_rest(struct real8 v, struct real8 x, unsigned done,
+                                       double (*f)(double))
 {
-    const struct mask8 small = r8_lt(r8_abs(x), r8_set(700));
-    const struct real8 zero = r8_set(0);
-    const struct real8 v = power8_exp((struct dd8){r8_select(small, x, zero), zero});
-    const unsigned left = 255 & ~m8_bits(small);
+    unsigned left = 255 & ~done;
     if (!left)
         return v;
     double at[8], out[8];
     r8_store(at, x);
     r8_store(out, v);
-    for (unsigned bits = left; bits; bits &= bits - 1)
-        out[__builtin_ctz(bits)] = det_exp(at[__builtin_ctz(bits)]);
+    for (; left; left &= left - 1)
+        out[__builtin_ctz(left)] = f(at[__builtin_ctz(left)]);
     return r8_load(out);
+}
+
+static inline struct real8 det_exp8(struct real8 x)
+{
+    const struct mask8 small = r8_lt(r8_abs(x), r8_set(700));
+    const struct real8 zero = r8_set(0);
+    const struct real8 v = power8_exp((struct dd8){r8_select(small, x, zero), zero});
+    return power8_rest(v, x, m8_bits(small), det_exp);
 }
 
 static inline struct real8 det_log8(struct real8 x)
 {
     const struct mask8 normal = power8_normal(x);
     const struct real8 v = power8_log(r8_select(normal, x, r8_set(1))).hi;
-    const unsigned left = 255 & ~m8_bits(normal);
-    if (!left)
-        return v;
-    double at[8], out[8];
-    r8_store(at, x);
-    r8_store(out, v);
-    for (unsigned bits = left; bits; bits &= bits - 1)
-        out[__builtin_ctz(bits)] = det_log(at[__builtin_ctz(bits)]);
-    return r8_load(out);
+    return power8_rest(v, x, m8_bits(normal), det_log);
 }
 
 // In lanes: normal x and zeros, and exponents that are whole if x is negative.

@@ -1,6 +1,5 @@
 // Pigments: a colour for a point (spec/textures 8, 10).
 
-
 #include "base/arena.h"
 #include "scene/image_map.h"
 #include "scene/pigment_tape.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
 
 void jitter_tables_init(struct jitter_tables *t)
@@ -297,14 +298,6 @@ static struct vec2 grid_position(const struct antialias *a, double x, double y)
     return (struct vec2){x + reach * j.u + 0.5, y + reach * j.v + 0.5};
 }
 
-static void *grown(void *at, size_t count, size_t size)
-{
-    at = realloc(at, count * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 // Whether all five are known; asks for those that are not.
 static bool grid_ask(struct quarters *q, const int at[5][2])
 {
@@ -317,8 +310,8 @@ static bool grid_ask(struct quarters *q, const int at[5][2])
         q->point[i].state = POINT_ASKED;
         if (q->count == q->capacity) {
             q->capacity = q->capacity ? 2 * q->capacity : 1024;
-            q->position = grown(q->position, q->capacity, sizeof *q->position);
-            q->at = grown(q->at, q->capacity, sizeof *q->at);
+            q->position = must_realloc(q->position, q->capacity, sizeof *q->position);
+            q->at = must_realloc(q->at, q->capacity, sizeof *q->at);
         }
         q->at[q->count] = q->base + (uint32_t)i;
         q->position[q->count++] =

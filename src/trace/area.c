@@ -51,14 +51,6 @@ struct area_queue {
     uint32_t *begin, begin_capacity; // of each point's rays among the sorted
 };
 
-static void *grow(void *at, uint32_t capacity, size_t size)
-{
-    at = realloc(at, capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 static uint32_t points_of(const struct light *l)
 {
     return (uint32_t)(l->size1 * l->size2);
@@ -92,13 +84,13 @@ static void cells_reserve(struct area_queue *q, uint32_t count)
 {
     while (q->cell_count + count > q->cell_capacity) {
         q->cell_capacity = q->cell_capacity ? 2 * q->cell_capacity : BATCH_SIZE;
-        q->cell = grow(q->cell, q->cell_capacity, sizeof *q->cell);
+        q->cell = must_realloc(q->cell, q->cell_capacity, sizeof *q->cell);
     }
     while (q->value_count + 4 * count > q->ray_capacity) {
         q->ray_capacity = q->ray_capacity ? 2 * q->ray_capacity : 4 * BATCH_SIZE;
-        q->value = grow(q->value, q->ray_capacity, sizeof *q->value);
-        q->ray = grow(q->ray, q->ray_capacity, sizeof *q->ray);
-        q->sorted = grow(q->sorted, q->ray_capacity, sizeof *q->sorted);
+        q->value = must_realloc(q->value, q->ray_capacity, sizeof *q->value);
+        q->ray = must_realloc(q->ray, q->ray_capacity, sizeof *q->ray);
+        q->sorted = must_realloc(q->sorted, q->ray_capacity, sizeof *q->sorted);
     }
 }
 
@@ -232,11 +224,11 @@ static void places_light(struct tracer *t, const struct area_request *const *r,
     q->value_count = q->cell_count = 0;
     if (count * points > q->known_capacity) {
         q->known_capacity = count * points;
-        q->known = grow(q->known, q->known_capacity, sizeof *q->known);
+        q->known = must_realloc(q->known, q->known_capacity, sizeof *q->known);
     }
     if (points > q->begin_capacity) {
         q->begin_capacity = points;
-        q->begin = grow(q->begin, points, sizeof *q->begin);
+        q->begin = must_realloc(q->begin, points, sizeof *q->begin);
     }
     memset(q->known, 0, count * points * sizeof *q->known);
     cells_reserve(q, count);
@@ -303,7 +295,7 @@ void area_add(struct tracer *t, const struct area_request *r)
     struct area_queue *q = t->area;
     if (q->count == q->capacity) {
         q->capacity = q->capacity ? 2 * q->capacity : BATCH_SIZE;
-        q->at = grow(q->at, q->capacity, sizeof *q->at);
+        q->at = must_realloc(q->at, q->capacity, sizeof *q->at);
     }
     q->at[q->count++] = *r;
 }

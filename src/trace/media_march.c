@@ -2,17 +2,10 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
 #include "scene/effects.h"
 #include "trace/photons.h"
-
-static void *grow(void *at, uint32_t capacity, size_t size)
-{
-    at = realloc(at, capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
 
 static struct media_walker *walker_of(const struct media_march *m, uint32_t interval)
 {
@@ -41,7 +34,7 @@ static uint32_t sample_add(struct media_march *m, uint32_t interval, double t)
     struct media_scratch *s = m->scratch;
     if (s->sample_count == s->sample_capacity) {
         s->sample_capacity = s->sample_capacity ? 2 * s->sample_capacity : 256;
-        s->sample = grow(s->sample, s->sample_capacity, sizeof *s->sample);
+        s->sample = must_realloc(s->sample, s->sample_capacity, sizeof *s->sample);
     }
     s->sample[s->sample_count] = (struct media_sample){
         .t = t, .interval = interval, .number = walker_of(m, interval)->asked++};
@@ -107,7 +100,7 @@ static uint32_t span_add(struct media_march *m, uint32_t first, uint32_t last)
         t += jitter * (to - from) * (drawn(walker_of(m, interval)) - 0.5);
     if (s->span_count == s->span_capacity) {
         s->span_capacity = s->span_capacity ? 2 * s->span_capacity : 256;
-        s->span = grow(s->span, s->span_capacity, sizeof *s->span);
+        s->span = must_realloc(s->span, s->span_capacity, sizeof *s->span);
     }
     const uint32_t middle = sample_add(m, interval, t);
     s->span[s->span_count] = (struct media_span){first, middle, last, {0, 0}};

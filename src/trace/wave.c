@@ -1,10 +1,11 @@
-#include "trace/area.h"
 #include "trace/wave.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
+#include "trace/area.h"
 #include "trace/paint.h"
 #include "trace/shade_kernel.h"
 #include "trace/simple.h"
@@ -21,22 +22,14 @@ struct wave_frame {
     struct wave_frame *deeper;
 };
 
-static void *grow(void *at, uint32_t capacity, size_t size)
-{
-    at = realloc(at, capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 static uint32_t more(uint32_t capacity) { return capacity ? 2 * capacity : 256; }
 
 void path_queue_reserve(struct path_queue *q, uint32_t count)
 {
     while (q->count + count > q->capacity) {
         q->capacity = more(q->capacity);
-        q->at = grow(q->at, q->capacity, sizeof *q->at);
-        q->order = grow(q->order, q->capacity, sizeof *q->order);
+        q->at = must_realloc(q->at, q->capacity, sizeof *q->at);
+        q->order = must_realloc(q->order, q->capacity, sizeof *q->order);
     }
 }
 
@@ -70,7 +63,7 @@ void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
         return;
     if (t->power_count == t->power_capacity) {
         t->power_capacity = more(t->power_capacity);
-        t->power = grow(t->power, t->power_capacity, sizeof *t->power);
+        t->power = must_realloc(t->power, t->power_capacity, sizeof *t->power);
     }
     t->power[t->power_count++] =
         (struct power_request){*path, factor, exponent, path->sample};
@@ -80,7 +73,7 @@ void wave_sums_grow(struct tracer *t, uint32_t count)
 {
     while (t->sum_count + count > t->sum_capacity) {
         t->sum_capacity = more(t->sum_capacity);
-        t->sum = grow(t->sum, t->sum_capacity, sizeof *t->sum);
+        t->sum = must_realloc(t->sum, t->sum_capacity, sizeof *t->sum);
     }
     for (uint32_t i = 0; i < count; i++)
         t->sum[t->sum_count + i] = (struct sample_sum){0};
