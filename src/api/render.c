@@ -113,62 +113,80 @@ static enum state_mode state_mode_of(const struct lambert_context *ctx)
     return option_flag(ctx, "save-state") ? STATE_KEEP : STATE_AT_END;
 }
 
-enum lambert_status lambert_render(struct lambert_context *ctx,
-                                   struct lambert_image **out)
+// A picture of `channels` for these settings, or why there is none.
+static enum lambert_status new_picture(struct lambert_context *ctx,
+                                       const struct render_settings *s, int channels,
+                                       struct lambert_image **out)
 {
-    struct render_settings settings;
-    struct render_stats stats = {0};
-    *out = NULL;
-    if (!ctx->world)
-        return context_fail(ctx, LAMBERT_ERROR_ARGUMENT, "no scene is loaded");
-    if (!settings_of(ctx, &settings))
-        return context_fail(ctx, LAMBERT_ERROR_OPTION,
-                            "the first row or column lies beyond the last");
-    const int channels = settings.output_alpha ? 4 : 3;
-    double need = (double)settings.width * settings.height * channels * sizeof(float);
-    double have = physical_memory();
+    const double need = (double)s->width * s->height * channels * sizeof(float);
+    const double have = physical_memory();
     if (have > 0 && need > have)
         return context_fail(ctx, LAMBERT_ERROR_MEMORY,
                             "a picture of %d x %d needs %.1f GiB of memory, there are "
                             "%.1f",
-                            settings.width, settings.height, need / GIB, have / GIB);
-    struct gi *gi = NULL;
-    struct photons *photons;
-    enum lambert_status status = photon_files_use(ctx, &settings, &photons);
-    if (status == LAMBERT_OK)
-        status = gi_prepare(ctx, &settings, &gi);
-    if (status != LAMBERT_OK) {
-        photons_free(photons);
-        return status;
-    }
+                            s->width, s->height, need / GIB, have / GIB);
     struct lambert_image *image = calloc(1, sizeof *image);
-    if (!image || !image_init(&image->im, settings.width, settings.height, channels)) {
+    if (!image || !image_init(&image->im, s->width, s->height, channels)) {
         free(image);
-        gi_free(gi);
-        photons_free(photons);
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory for the picture");
     }
     set_working_space(image, &ctx->scene.settings);
+    *out = image;
+    return LAMBERT_OK;
+}
+
+// Returns whether the picture is whole.
+static bool trace(struct lambert_context *ctx, const struct render_settings *settings,
+                  struct image *image)
+{
+    struct render_stats stats = {0};
     struct render_progress progress = {
         .tile = tile_done, .user = ctx, .cancel = &ctx->cancel};
     struct render_state state;
     if (ctx->state_path) {
-        render_state_open(&state, ctx, state_mode_of(ctx), &settings, &image->im);
+        render_state_open(&state, ctx, state_mode_of(ctx), settings, image);
         render_state_attach(&state, &progress);
     }
-    bool whole = render_world(ctx->world, &settings, &progress, &image->im, &stats);
-    gi_free(gi);
-    photons_free(photons);
+    const bool whole = render_world(ctx->world, settings, &progress, image, &stats);
     if (ctx->state_path)
         render_state_close(&state, whole);
-    ctx->cancel = false;
     keep_stats(ctx, &stats);
     if (stats.photons_left_out)
         diag_at(&ctx->diags, DIAG_BLOCK_WARNING, (struct span){0}, "photons",
                 "a map holds %d; the others are left out (a larger spacing or a smaller "
                 "count leaves fewer)",
                 PHOTONS_MOST);
-    *out = image;
-    return whole ? LAMBERT_OK
-                 : context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
+    return whole;
+}
+
+enum lambert_status lambert_render(struct lambert_context *ctx,
+                                   struct lambert_image **out)
+{
+    struct render_settings settings;
+    *out = NULL;
+    if (!ctx->world)
+        return context_fail(ctx, LAMBERT_ERROR_ARGUMENT, "no scene is loaded");
+    if (!settings_of(ctx, &settings))
+        return context_fail(ctx, LAMBERT_ERROR_OPTION,
+                            "the first row or column lies beyond the last");
+    struct lambert_image *image = NULL;
+    struct photons *photons = NULL;
+    struct gi *gi = NULL;
+    enum lambert_status status =
+        new_picture(ctx, &settings, settings.output_alpha ? 4 : 3, &image);
+    if (status == LAMBERT_OK)
+        status = photon_files_use(ctx, &settings, &photons);
+    if (status == LAMBERT_OK)
+        status = gi_prepare(ctx, &settings, &gi);
+    const bool ready = status == LAMBERT_OK;
+    if (ready && !trace(ctx, &settings, &image->im))
+        status = context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
+    gi_free(gi);
+    photons_free(photons);
+    ctx->cancel = false;
+    if (ready)
+        *out = image;
+    else
+        lambert_image_free(image);
+    return status;
 }
