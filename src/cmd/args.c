@@ -43,6 +43,25 @@ static int set_named(struct cmd *c, const char *name, const char *value)
     return cmdline_set(c, lambert_option_find(name), value);
 }
 
+// What POV-Ray calls an option: where only the quality or the form of the picture depends
+// on a number, one out of range is the nearest in it, as there.
+static int set_pov(struct cmd *c, const struct lambert_option *o, const char *value)
+{
+    static const char *const groups[] = {"quality", "output", "compatibility"};
+    bool forgives = false;
+    char *end, near[32];
+    const double n = strtod(value, &end), nearest = fmin(fmax(n, o->min), o->max);
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        forgives |= strcmp(o->group, groups[i]) == 0;
+    if ((o->kind != LAMBERT_OPTION_INT && o->kind != LAMBERT_OPTION_FLOAT) || !forgives ||
+        end == value || *end || !(fabs(n - nearest) > 0))
+        return cmdline_set(c, o, value);
+    snprintf(near, sizeof near, "%.9g", nearest);
+    cmd_warn(c, "%s=%s is taken as %s: the range is %.9g to %.9g", o->keyword, value,
+             near, o->min, o->max);
+    return cmdline_set(c, o, near);
+}
+
 // POV-Ray's C is Targa with packed runs, its T plain.
 static int set_type(struct cmd *c, const struct lambert_option *o, const char *value)
 {
@@ -64,13 +83,12 @@ static int set_format(struct cmd *c, const char *switch_text, const char *rest, 
             code = set_named(c, "grey", "on");
             rest++;
         } else if (*rest >= '0' && *rest <= '9') {
-            // Numbers out of range are taken as the nearest in it, as POV-Ray does.
             const struct lambert_option *o = lambert_option_find("bits");
-            const double n = strtod(rest, NULL);
-            char bits[16];
-            rest += strspn(rest, "0123456789");
-            snprintf(bits, sizeof bits, "%.0f", fmin(fmax(n, o->min), o->max));
-            code = set_named(c, "bits", bits);
+            const size_t n = strspn(rest, "0123456789");
+            char *bits = text_format("%.*s", (int)n, rest);
+            rest += n;
+            code = set_pov(c, o, bits);
+            free(bits);
         } else {
             return cmd_fail(CMD_USAGE,
                             "'%s' is no option: after +F come a file type, a "
@@ -128,7 +146,7 @@ int cmdline_switch(struct cmd *c, const char *arg)
             return code;
     }
     char *value = unquoted(rest);
-    int code = cmdline_set(c, o, value);
+    int code = set_pov(c, o, value);
     free(value);
     return code;
 }
@@ -143,7 +161,7 @@ int cmdline_keyword(struct cmd *c, const char *keyword, const char *value)
         return ini_read(c, value, NULL, 1);
     if (strcmp(o->name, "type") == 0)
         return set_type(c, o, value);
-    return cmdline_set(c, o, value);
+    return set_pov(c, o, value);
 }
 
 static bool ends_with(const char *text, const char *end)

@@ -16,6 +16,17 @@ check "an unknown switch is named" bad_switch
 check "+A.3 is an error" exits 64 "$lambert" sphere.pov +A.3
 check "+A0 is an error" exits 64 "$lambert" sphere.pov +A0
 check "+A0.3 is not" exits 0 "$lambert" sphere.pov +W8 +H6 +A0.3 +AM2 +R2 -J -q
+same() { exits 0 "$lambert" sphere.pov +W24 +H18 +A0.1 -q +FP -o a.ppm $1 && exits 0 "$lambert" sphere.pov +W24 +H18 +A0.1 -q +FP -o b.ppm $2 && has err "$3" && cmp a.ppm b.ppm; }
+check "a number out of range is the nearest in it, as in POV-Ray" same +AM2 +AM3 "warning: Sampling_Method=3 is taken as 2: the range is 0 to 2"
+check "the same of depths" same +R9 Antialias_Depth=12 "Antialias_Depth=12 is taken as 9"
+check "the same of bits" same +FP16 +FP99 "Bits_Per_Color=99 is taken as 32"
+check "the same of quality" same +Q0 +Q-1 "Quality=-1 is taken as 0"
+check "the same of jitter" same +J1 +J2 "Jitter_Amount=2 is taken as 1"
+no_method() { exits 0 "$lambert" sphere.pov +W24 +H18 -A -q +FP -o a.ppm && exits 0 "$lambert" sphere.pov +W24 +H18 +A0.1 +AM0 -q +FP -o b.ppm && test ! -s err && cmp a.ppm b.ppm; }
+check "+AM0 is no antialiasing, as in POV-Ray" no_method
+werror() { exits 1 "$lambert" sphere.pov +W8 +H6 +Q12 --werror; }
+check "it is a warning" werror
+check "a long option out of range is an error" exits 64 "$lambert" sphere.pov --quality=12
 check "a bad number is an error" exits 64 "$lambert" sphere.pov --width banana
 check "out of range is an error" exits 64 "$lambert" sphere.pov +W0
 check "a missing value is an error" exits 64 "$lambert" sphere.pov --width
