@@ -363,7 +363,7 @@ static double size_for(const struct patches *p)
     return sqrt(area / fmax(p->settings.count, 1));
 }
 
-static struct patches *build(const struct job *job, const struct patch_settings *s)
+static struct patches *with_charts(const struct job *job, const struct patch_settings *s)
 {
     struct patches *p = calloc(1, sizeof *p);
     if (!p)
@@ -375,20 +375,33 @@ static struct patches *build(const struct job *job, const struct patch_settings 
     charts_build(p);
     for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
         chart_measure(p, &p->chart[i]);
-    p->size = s->size > 0 ? s->size : size_for(p);
+    return p;
+}
+
+// Cuts the charts into cells no longer than the size, and those into elements. NULL, and p
+// is freed: there is nothing to cut.
+static struct patches *cut(struct patches *p, double size)
+{
+    p->size = size;
     if (!(p->size > 0 && p->size < INFINITY)) {
         patches_free(p);
         return NULL;
     }
     find_rooms(p);
     find_around(p);
-    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(s->watch); i++)
+    for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(p->settings.watch); i++)
         chart_cells(p, i);
     elements_find(p);
     patches_enclosure(p);
     patches_neighbours(p);
     patches_prune(p);
     return p;
+}
+
+static struct patches *build(const struct job *job, const struct patch_settings *s)
+{
+    struct patches *p = with_charts(job, s);
+    return cut(p, s->size > 0 ? s->size : size_for(p));
 }
 
 void patches_connect(struct patches *p)
@@ -459,14 +472,43 @@ static double forecast_size(const struct forecast *f, double count)
     return many;
 }
 
+enum { TRIAL = 400 }; // elements
+
+// One cell a chart where that makes as many elements as are wanted, or more: then there is
+// nothing to try. NULL: it does not, or that would take long to find out.
+static struct patches *build_coarsest(const struct job *job,
+                                      const struct patch_settings *s)
+{
+    struct patches *p = with_charts(job, s);
+    double longest = 0;
+    for (uint32_t i = 0; i < p->chart_count; i++)
+        longest = fmax(longest, fmax(p->chart[i].side[0], p->chart[i].side[1]));
+    if (2.0 * p->chart_count < s->count) {
+        patches_free(p);
+        return NULL;
+    }
+    p = cut(p, longest);
+    if (p && p->element_count < s->count && !watch_cancelled(s->watch)) {
+        patches_free(p);
+        return NULL;
+    }
+    return p;
+}
+
 // As many elements as are wanted, about; cells that are quartered and small charts make
 // more than was counted on.
 static struct patches *build_counted(const struct job *job,
                                      const struct patch_settings *s)
 {
-    enum { TRIAL = 400, RETRIES = 3 };
+    enum { RETRIES = 3 };
     static const double most = 1.15; // elements, of those wanted
     struct patch_settings settings = *s;
+    struct patches *const coarsest = s->count <= TRIAL ? build_coarsest(job, s) : NULL;
+    if (coarsest)
+        return coarsest;
+    struct patches *const coarse = build_coarsest(job, s);
+    if (coarse)
+        return coarse;
     settings.count = fmin(s->count, TRIAL);
     settings.depth = 0;
     settings.trial = true;

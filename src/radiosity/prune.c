@@ -16,7 +16,8 @@ enum {
     GROUP_RAYS = 4096, // of a group before it is given up, and as many tries to see
     GROUP_RAYS_LEAST = 32,
     TRIES_LEAST = 1 << 16, // of all groups; and as many as elements have sent before
-    CHUNK = 1 << 16
+    CHUNK = 1 << 16,
+    ASKED_RAYS = 64 // of an element that are worth looking what it faces
 };
 
 // A forest of elements; the last node stands for what is reached.
@@ -30,6 +31,7 @@ struct groups {
     uint32_t *met;
     uint32_t *reached, reached_count; // what the tries look at
     uint8_t *seen;                    // of each in the list
+    uint32_t *sent;                   // rays of each element but the first ones
 };
 
 static uint32_t group_of(const struct groups *g, uint32_t i)
@@ -240,6 +242,64 @@ static void try_to_see(void *user, void *state, uint32_t begin, uint32_t end)
     }
 }
 
+// Whether a point lies above the plane of a flat element, by more than rounding.
+static bool above(const struct element *e, struct vec3 p)
+{
+    static const double flush = 1e-9; // of the coordinates
+    const double height = vec3_dot(vec3_sub(p, e->corner[0]), e->normal);
+    return height > flush * (vec3_max_abs(p) + vec3_max_abs(e->corner[0]));
+}
+
+static bool any_above(const struct element *e, const struct element *other)
+{
+    for (uint32_t k = 0; k < other->corner_count; k++)
+        if (above(e, other->corner[k]))
+            return true;
+    return false;
+}
+
+// Whether the corners of an element bound all of it.
+static bool is_flat(const struct patches *p, uint32_t i)
+{
+    const enum chart_kind kind = p->chart[p->element[i].surface / 2].kind;
+    return kind == CHART_FLAT || kind == CHART_TRIANGLE;
+}
+
+// Whether a way from an element to the camera, a lamp or what is reached can be: both
+// ends of it lie above the plane of the other.
+static bool faces_reached(const struct groups *g, uint32_t i)
+{
+    const struct job *job = g->p->job;
+    const struct element *e = &g->p->element[i];
+    if (!is_flat(g->p, i) || above(e, job->camera->location))
+        return true;
+    for (uint32_t k = 0; k < job->lamp_count; k++)
+        if (above(e, job->lamp[k].light->location))
+            return true;
+    for (uint32_t k = 0; k < g->reached_count; k++) {
+        const struct element *other = &g->p->element[g->reached[k]];
+        if (!is_flat(g->p, g->reached[k]) || (any_above(e, other) && any_above(other, e)))
+            return true;
+    }
+    return false;
+}
+
+// Sends as many rays of the elements in the list as they have not sent before.
+static void look_once(struct groups *g, const uint32_t *list, uint32_t count,
+                      uint32_t rays)
+{
+    uint32_t *fresh = malloc((count + 1) * sizeof *fresh), n = 0;
+    if (!fresh)
+        abort();
+    for (uint32_t k = 0; k < count; k++)
+        if (g->sent[list[k]] < rays) {
+            g->sent[list[k]] = rays;
+            fresh[n++] = list[k];
+        }
+    look_from(g, fresh, n, ELEMENT_RAYS, rays);
+    free(fresh);
+}
+
 // Groups not reached so far send more rays, and look for camera, lamps and what is
 // reached. True: one of them was found.
 static bool look_again(struct groups *g)
@@ -265,8 +325,11 @@ static bool look_again(struct groups *g)
                           : share < GROUP_RAYS     ? share
                                                    : GROUP_RAYS;
     // The smaller a group, the more each of its elements does; alike ones go together.
-    for (uint32_t i = 0; i < n; i++)
+    for (uint32_t i = 0; i < n; i++) {
         rays[i] = is_reached(g, i) ? 0 : each / g->size[group_of(g, i)] + 1;
+        if (rays[i] >= ASKED_RAYS && !faces_reached(g, i))
+            rays[i] = 0;
+    }
     const uint32_t before = g->size[group_of(g, g->root)];
     for (uint32_t step = 1; step <= each + 1; step *= 4) {
         count = 0;
@@ -275,7 +338,7 @@ static bool look_again(struct groups *g)
                 list[count++] = i;
         if (!count)
             continue;
-        look_from(g, list, count, ELEMENT_RAYS, step);
+        look_once(g, list, count, step);
         g->list = list;
         g->rays = step;
         run(g, count, try_to_see);
@@ -335,7 +398,8 @@ void patches_prune(struct patches *p)
     uint32_t *all = malloc((n + 1) * sizeof *all);
     g.parent = malloc((n + 1) * sizeof *g.parent);
     g.size = malloc((n + 1) * sizeof *g.size);
-    if (!all || !g.parent || !g.size)
+    g.sent = calloc(n + 1, sizeof *g.sent);
+    if (!all || !g.parent || !g.size || !g.sent)
         abort();
     for (uint32_t i = 0; i <= n; i++) {
         all[i] = g.parent[i] = i;
@@ -356,4 +420,5 @@ void patches_prune(struct patches *p)
     free(all);
     free(g.parent);
     free(g.size);
+    free(g.sent);
 }

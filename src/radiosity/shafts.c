@@ -94,6 +94,10 @@ void patches_shafts(struct patches *p)
     parallel_run(&run, p->element_count);
 }
 
+// Of numbers that are none but numbers: fmin and fmax are calls.
+static double smaller(double a, double b) { return a < b ? a : b; }
+static double greater(double a, double b) { return a > b ? a : b; }
+
 // Cuts [t0, t1] down to where a + t (b - a) < 0, to nothing or less where another cut
 // left none of it; false: that is nowhere in 0 to 1.
 static bool clip(double a, double b, double *t0, double *t1)
@@ -101,9 +105,9 @@ static bool clip(double a, double b, double *t0, double *t1)
     if (a >= 0 && b >= 0)
         return false;
     if (a >= 0)
-        *t0 = fmax(*t0, a / (a - b));
+        *t0 = greater(*t0, a / (a - b));
     else if (b >= 0)
-        *t1 = fmin(*t1, a / (a - b));
+        *t1 = smaller(*t1, a / (a - b));
     return true;
 }
 
@@ -124,8 +128,8 @@ static bool sweeps_into(const struct shaft *a, const struct shaft *b,
             !clip(low + pad - ca - ha, low + pad - cb - hb, &k0, &k1))
             return false;
         // Nothing flat goes through something flat but at one time.
-        t0 = fmax(t0, fmin(k0, k1));
-        t1 = fmin(t1, fmax(k0, k1));
+        t0 = greater(t0, smaller(k0, k1));
+        t1 = smaller(t1, greater(k0, k1));
         if (t0 > t1)
             return false;
     }
