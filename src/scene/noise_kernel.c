@@ -613,5 +613,6 @@ const struct noise_kernels OF_ISA(noise_kernels_) = {ISA_TEXT,
                                                      OF_ISA(noise_rings_),
                                                      OF_ISA(noise_ring_slopes_),
                                                      OF_ISA(noise_grid_),
+                                                     OF_ISA(noise_fractal_),
                                                      &OF_ISA(tape_kernels_),
                                                      &OF_ISA(surface_kernels_)};

@@ -72,6 +72,13 @@ typedef void noise_grid_kernel(const struct density_grid *g, const double p[3][8
                                double out[8]);
 noise_grid_kernel noise_grid_base, noise_grid_avx2, noise_grid_avx512;
 
+// Fractals (scene/patterns/fractal.h).
+struct pattern;
+enum fractal_kind { FRACTAL_MANDEL, FRACTAL_JULIA, FRACTAL_MAGNET };
+typedef void noise_fractal_kernel(const struct pattern *p, enum fractal_kind kind,
+                                  const double at[3][8], double out[8]);
+noise_fractal_kernel noise_fractal_base, noise_fractal_avx2, noise_fractal_avx512;
+
 struct noise_kernels {
     const char *name;
     // noise_value at scale * p.
@@ -93,6 +100,7 @@ struct noise_kernels {
     noise_rings_kernel *rings;
     noise_ring_slopes_kernel *ring_slopes;
     noise_grid_kernel *grid;
+    noise_fractal_kernel *fractal;
     const struct tape_kernels *tapes;      // functions of the same instruction set
     const struct surface_kernels *surface; // likewise
 };

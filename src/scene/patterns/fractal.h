@@ -1,7 +1,6 @@
 #ifndef SCENE_PATTERNS_FRACTAL_H
 #define SCENE_PATTERNS_FRACTAL_H
 
-#include "math/lanes.h"
 #include "scene/pattern_math.h"
 
 // mandel, julia and magnet (spec/textures 5.6). Parameters: integer[0] iterations,
@@ -95,79 +94,6 @@ static inline double fractal_value(const struct pattern *p, struct complex_numbe
             return fractal_exterior(p, step, z);
     }
     return fractal_interior(p, least, z);
-}
-
-// ---- eight points, to the bit -----------------------------------------------------------
-struct complex8 {
-    struct real8 a, b;
-};
-
-LANES_INLINE struct complex8 complex8_mul(struct complex8 z, struct complex8 w)
-{
-    return (struct complex8){r8_sub(r8_mul(z.a, w.a), r8_mul(z.b, w.b)),
-                             r8_add(r8_mul(z.a, w.b), r8_mul(z.b, w.a))};
-}
-
-LANES_INLINE struct complex8 complex8_power(struct complex8 z, int e)
-{
-    struct complex8 w = z;
-    if (e == 4) {
-        w = complex8_mul(z, z);
-        return complex8_mul(w, w);
-    }
-    for (int i = 1; i < e; i++)
-        w = complex8_mul(w, z);
-    return w;
-}
-
-LANES_INLINE struct real8 complex8_square(struct complex8 z)
-{
-    return r8_add(r8_mul(z.a, z.a), r8_mul(z.b, z.b));
-}
-
-// The lanes of `gone` escape at this step.
-static inline void fractal_exteriors(const struct pattern *p, int step, unsigned gone,
-                                     struct complex8 z, double out[8])
-{
-    double a[8], b[8];
-    r8_store(a, z.a);
-    r8_store(b, z.b);
-    for (; gone; gone &= gone - 1) {
-        const int i = __builtin_ctz(gone);
-        out[i] = fractal_exterior(p, step, (struct complex_number){a[i], b[i]});
-    }
-}
-
-// Those of `live` never do.
-static inline void fractal_interiors(const struct pattern *p, unsigned live,
-                                     struct real8 least, struct complex8 z, double out[8])
-{
-    double a[8], b[8], smallest[8];
-    r8_store(a, z.a);
-    r8_store(b, z.b);
-    r8_store(smallest, least);
-    for (; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        out[i] = fractal_interior(p, smallest[i], (struct complex_number){a[i], b[i]});
-    }
-}
-
-static inline void fractal_values(const struct pattern *p, struct complex8 z,
-                                  struct complex8 c, double out[8])
-{
-    struct real8 least = complex8_square(z);
-    unsigned live = 255;
-    for (int step = 0; live && step < p->integer[0]; step++) {
-        z = complex8_power(z, p->fractal_exponent);
-        z = (struct complex8){r8_add(z.a, c.a), r8_add(z.b, c.b)};
-        const struct real8 d = complex8_square(z);
-        least = r8_select(r8_lt(d, least), d, least);
-        const unsigned gone = live & m8_bits(r8_lt(r8_set(4), d));
-        if (gone)
-            fractal_exteriors(p, step, gone, z, out);
-        live &= ~gone;
-    }
-    fractal_interiors(p, live, least, z, out);
 }
 
 #endif

@@ -1,5 +1,6 @@
 // julia <a, b>, N: steps until z^e + c escapes, z the point
 
+#include "scene/noise_kernel.h"
 #include "scene/patterns/fractal.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -13,9 +14,7 @@ static double value(const struct pattern *p, struct vec3 at,
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    (void)k;
-    fractal_values(p, (struct complex8){r8_load(at[0]), r8_load(at[1])},
-                   (struct complex8){r8_set(p->vector.x), r8_set(p->vector.y)}, out);
+    k->fractal(p, FRACTAL_JULIA, at, out);
 }
 
 const struct pattern_ops julia_pattern_ops = {.keyword = "julia",

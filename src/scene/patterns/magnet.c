@@ -1,6 +1,7 @@
 // magnet 1|2 mandel|julia: the two maps of magnetic phase transitions (Peitgen and
 // Richter, The Beauty of Fractals, 1986)
 
+#include "scene/noise_kernel.h"
 #include "scene/patterns/fractal.h"
 
 static struct complex_number complex_div(struct complex_number z, struct complex_number w)
@@ -59,70 +60,10 @@ static double value(const struct pattern *p, struct vec3 at,
     return fractal_interior(p, least, z);
 }
 
-// ---- eight points, to the bit -----------------------------------------------------------
-LANES_INLINE struct complex8 complex8_div(struct complex8 z, struct complex8 w)
-{
-    const struct real8 d = complex8_square(w);
-    return (struct complex8){r8_div(r8_add(r8_mul(z.a, w.a), r8_mul(z.b, w.b)), d),
-                             r8_div(r8_sub(r8_mul(z.b, w.a), r8_mul(z.a, w.b)), d)};
-}
-
-static struct complex8 steps_1(struct complex8 z, struct complex8 c)
-{
-    const struct real8 two = r8_set(2);
-    struct complex8 n = complex8_mul(z, z);
-    n.a = r8_add(n.a, r8_sub(c.a, r8_set(1)));
-    n.b = r8_add(n.b, c.b);
-    const struct complex8 d = {r8_sub(r8_add(r8_mul(two, z.a), c.a), two),
-                               r8_add(r8_mul(two, z.b), c.b)};
-    const struct complex8 q = complex8_div(n, d);
-    return complex8_mul(q, q);
-}
-
-static struct complex8 steps_2(struct complex8 z, struct complex8 c)
-{
-    const struct real8 one = r8_set(1), three = r8_set(3);
-    const struct complex8 c1 = {r8_sub(c.a, one), c.b},
-                          c2 = {r8_sub(c.a, r8_set(2)), c.b};
-    const struct complex8 c12 = complex8_mul(c1, c2), zz = complex8_mul(z, z);
-    const struct complex8 zzz = complex8_mul(zz, z);
-    const struct complex8 u = complex8_mul(c1, z), v = complex8_mul(c2, z);
-    const struct complex8 n = {r8_add(r8_add(zzz.a, r8_mul(three, u.a)), c12.a),
-                               r8_add(r8_add(zzz.b, r8_mul(three, u.b)), c12.b)};
-    const struct complex8 d = {
-        r8_add(r8_add(r8_add(r8_mul(three, zz.a), r8_mul(three, v.a)), c12.a), one),
-        r8_add(r8_add(r8_mul(three, zz.b), r8_mul(three, v.b)), c12.b)};
-    const struct complex8 q = complex8_div(n, d);
-    return complex8_mul(q, q);
-}
-
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    (void)k;
-    const struct real8 one = r8_set(1);
-    struct complex8 z = {r8_set(0), r8_set(0)}, c = {r8_load(at[0]), r8_load(at[1])};
-    struct real8 least = r8_set(10000);
-    unsigned live = 255;
-    if (p->integer[2]) {
-        z = c;
-        c = (struct complex8){r8_set(p->vector.x), r8_set(p->vector.y)};
-        least = complex8_square(z);
-    }
-    for (int step = 0; live && step < p->integer[0]; step++) {
-        z = p->integer[1] == 2 ? steps_2(z, c) : steps_1(z, c);
-        const struct real8 d = complex8_square(z);
-        least = r8_select(r8_lt(d, least), d, least);
-        const struct real8 off = r8_sub(z.a, one);
-        const struct real8 near = r8_add(r8_mul(off, off), r8_mul(z.b, z.b));
-        const struct mask8 ends =
-            m8_or(r8_lt(r8_set(10000), d), r8_lt(near, r8_set(1 / 10000.0)));
-        const unsigned gone = live & m8_bits(ends);
-        if (gone)
-            fractal_exteriors(p, step, gone, z, out);
-        live &= ~gone;
-    }
-    fractal_interiors(p, live, least, z, out);
+    k->fractal(p, FRACTAL_MAGNET, at, out);
 }
 
 const struct pattern_ops magnet_pattern_ops = {.keyword = "magnet",

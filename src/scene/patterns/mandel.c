@@ -1,5 +1,6 @@
 // mandel N: steps until z^e + c escapes, c the point
 
+#include "scene/noise_kernel.h"
 #include "scene/patterns/fractal.h"
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -13,9 +14,7 @@ static double value(const struct pattern *p, struct vec3 at,
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    (void)k;
-    const struct complex8 z = {r8_load(at[0]), r8_load(at[1])};
-    fractal_values(p, z, z, out);
+    k->fractal(p, FRACTAL_MANDEL, at, out);
 }
 
 const struct pattern_ops mandel_pattern_ops = {.keyword = "mandel",

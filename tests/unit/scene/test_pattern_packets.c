@@ -217,6 +217,39 @@ static void patterns(void **state)
     with_all_kernels(check_patterns);
 }
 
+// Points near the rim of the Mandelbrot set's cardioid and of its largest disc: lanes know
+// them not to escape, one point iterates.
+static void check_mandel_rims(const struct noise_kernels *k)
+{
+    struct pattern p = {0};
+    pattern_set_kind(&p, &mandel_pattern_ops);
+    p.integer[0] = 5000;
+    p.interior_factor = 0.7;
+    for (unsigned turn = 0; turn < 60; turn++) {
+        double at[3][8] = {{0}}, v[8];
+        const double inside = turn % 6 ? pow(10, -(double)(turn % 6) - 1) : -1e-3;
+        for (int i = 0; i < 8; i++) {
+            const double angle = 6.3 * random_unit(), r = 1 - inside;
+            const double x = r * cos(angle), y = r * sin(angle);
+            const bool disc = turn % 2;
+            at[0][i] = disc ? x / 4 - 1 : x / 2 - (x * x - y * y) / 4;
+            at[1][i] = disc ? y / 4 : y / 2 - x * y / 2;
+        }
+        p.ops->values(&p, k, (const double(*)[8])at, v);
+        for (int i = 0; i < 8; i++) {
+            const struct pattern_context c = {.p_world = {0}};
+            SAME(v[i], p.ops->value(&p, lane((const double(*)[8])at, i), &c), "mandel");
+            assert_true(inside < 0 || v[i] == p.interior_factor);
+        }
+    }
+}
+
+static void mandel_rims(void **state)
+{
+    (void)state;
+    with_all_kernels(check_mandel_rims);
+}
+
 // The nearest points by all cells, without bounds.
 static void crackle_searches_enough(void **state)
 {
@@ -259,6 +292,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise),
         cmocka_unit_test(patterns),
+        cmocka_unit_test(mandel_rims),
         cmocka_unit_test(crackle_searches_enough),
     };
     return cmocka_run_group_tests_name("pattern_packets", tests, NULL, NULL);
