@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "scene/shapes/plane.h"
+#include "scene/shapes/quadric.h"
 
 static struct aabb drawn_bounds(const struct leaf *l)
 {
@@ -28,21 +29,35 @@ struct boxes {
 // which is far above all rounding.
 static const double box_slack = 0x1p-30;
 
-// Cuts a box in the space of `t` at the half space that a plane's leaf keeps there.
-static void cut_box(struct aabb *box, const struct leaf *l, const struct transform *t)
+// The half space that a plane's leaf keeps in the space of `t`: sum of m[a] y[a] <= d, where
+// `size` is that of the numbers that d comes from.
+struct half_space {
+    double m[3], d, size;
+};
+
+static struct half_space half_space(const struct leaf *l, const struct transform *t)
 {
     const struct plane *p = l->shape;
     const struct vec3 n = l->inverted ? vec3_neg(p->normal) : p->normal;
-    double m[3], least[3]; // sum of m[a] y[a] <= d; the least that each term can be
-    double d = vec3_dot(n, vec3_sub(p->point, t->offset));
-    double size = vec3_max_abs(p->point) + vec3_max_abs(t->offset);
+    struct half_space h = {.d = vec3_dot(n, vec3_sub(p->point, t->offset)),
+                           .size = vec3_max_abs(p->point) + vec3_max_abs(t->offset)};
+    for (int a = 0; a < 3; a++)
+        h.m[a] =
+            vec3_dot(n, vec3(t->linear.m[a][0], t->linear.m[a][1], t->linear.m[a][2]));
+    return h;
+}
+
+static void cut_box(struct aabb *box, const struct half_space *h)
+{
+    const double *m = h->m;
+    double least[3]; // that each term can be
+    double size = h->size;
     for (int a = 0; a < 3; a++) {
         const double lo = vec3_axis(box->min, a), hi = vec3_axis(box->max, a);
-        m[a] = vec3_dot(n, vec3(t->linear.m[a][0], t->linear.m[a][1], t->linear.m[a][2]));
         least[a] = fmin(m[a] * lo, m[a] * hi);
         size += fabs(m[a]) * fmax(fabs(lo), fabs(hi));
     }
-    d += box_slack * size;
+    const double d = h->d + box_slack * size;
     double *const min[3] = {&box->min.x, &box->min.y, &box->min.z};
     double *const max[3] = {&box->max.x, &box->max.y, &box->max.z};
     for (int a = 0; a < 3; a++) {
@@ -54,6 +69,27 @@ static void cut_box(struct aabb *box, const struct leaf *l, const struct transfo
     }
 }
 
+// Cuts a box that may have no end at a plane across one of the axes. A tilt of a few
+// roundings comes of turning the plane with the shape.
+static void cut_across(struct aabb *box, const struct half_space *h)
+{
+    static const double tilt = 0x1p-46;
+    const double most = fmax(fmax(fabs(h->m[0]), fabs(h->m[1])), fabs(h->m[2]));
+    double *const min[3] = {&box->min.x, &box->min.y, &box->min.z};
+    double *const max[3] = {&box->max.x, &box->max.y, &box->max.z};
+    for (int a = 0; a < 3; a++) {
+        const double m = h->m[a];
+        if (!(fabs(h->m[(a + 1) % 3]) <= tilt * most &&
+              fabs(h->m[(a + 2) % 3]) <= tilt * most))
+            continue;
+        const double end = h->d / m, slack = box_slack * (h->size / fabs(m) + fabs(end));
+        if (m > 0)
+            *max[a] = fmin(*max[a], end + slack);
+        else
+            *min[a] = fmax(*min[a], end - slack);
+    }
+}
+
 // What the planes among its siblings leave of a leaf's box. They are cut off in the leaf's
 // own space, since planes that were turned with a shape lie along its axes there only.
 static void cut_by_planes(const struct csg_node *sibling, uint32_t count,
@@ -61,18 +97,23 @@ static void cut_by_planes(const struct csg_node *sibling, uint32_t count,
                           struct boxes *out)
 {
     enum { MOST = 16 }; // planes, so that large nodes take linear time
+    struct half_space plane[MOST];
     uint32_t planes = 0;
+    for (uint32_t i = 0; i < count && planes < MOST; i++)
+        if (sibling[i].op == NODE_LEAF && leaf[sibling[i].leaf].ops == &plane_ops)
+            plane[planes++] = half_space(&leaf[sibling[i].leaf], l->transform);
     struct aabb box = l->ops->bounds(l->shape);
-    if (!aabb_is_finite(box) || aabb_is_empty(box))
+    if (!planes || aabb_is_empty(box))
         return;
-    for (uint32_t i = 0; i < count && planes < MOST; i++) {
-        if (sibling[i].op != NODE_LEAF || leaf[sibling[i].leaf].ops != &plane_ops)
-            continue;
-        cut_box(&box, &leaf[sibling[i].leaf], l->transform);
-        planes++;
+    if (!aabb_is_finite(box) && l->ops == &quadric_ops) {
+        for (uint32_t i = 0; i < planes; i++)
+            cut_across(&box, &plane[i]);
+        box = quadric_bounds_within(l->shape, box, box_slack);
     }
-    if (!planes)
+    if (!aabb_is_finite(box))
         return;
+    for (uint32_t i = 0; i < planes && !aabb_is_empty(box); i++)
+        cut_box(&box, &plane[i]);
     if (!aabb_is_empty(box))
         box = aabb_pad(l->transform->identity ? box : aabb_transform(box, l->transform));
     out->inside = aabb_meet(out->inside, box);

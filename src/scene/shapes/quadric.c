@@ -19,8 +19,8 @@ static struct vec3 times(const struct quadric *s, struct vec3 v)
 // Powers of two only, so that no digit is lost: T27.
 static void normalise(struct quadric *s)
 {
-    double *const c[] = {&s->xx,       &s->yy,       &s->zz,       &s->xy,      &s->xz,
-                         &s->yz,       &s->linear.x, &s->linear.y, &s->linear.z, &s->constant};
+    double *const c[] = {&s->xx, &s->yy,       &s->zz,       &s->xy,       &s->xz,
+                         &s->yz, &s->linear.x, &s->linear.y, &s->linear.z, &s->constant};
     double big = 0;
     for (int i = 0; i < 9; i++)
         big = fmax(big, fabs(*c[i]));
@@ -54,8 +54,9 @@ static void find_centre(struct quadric *s)
     if (fabs(det) < 0x1p-40 || vec3_dot(s->linear, s->linear) == 0)
         return;
     const struct vec3 l = vec3_scale(-0.5, s->linear);
-    s->centre = vec3(vec3_dot(l, vec3_cross(b, c)) / det, vec3_dot(a, vec3_cross(l, c)) / det,
-                     vec3_dot(a, vec3_cross(b, l)) / det);
+    s->centre =
+        vec3(vec3_dot(l, vec3_cross(b, c)) / det, vec3_dot(a, vec3_cross(l, c)) / det,
+             vec3_dot(a, vec3_cross(b, l)) / det);
     s->constant += 0.5 * vec3_dot(s->linear, s->centre);
     s->linear = vec3(0, 0, 0);
 }
@@ -113,6 +114,53 @@ static struct aabb bounds(const void *shape)
             *hi[i] = c + r;
         }
     return aabb_pad(b);
+}
+
+// The least of k x^2 + l x (one of them is 0) for x from lo to hi.
+static double least_term(double k, double l, double lo, double hi)
+{
+    if (k > 0)
+        return lo <= 0 && hi >= 0 ? 0 : k * fmin(lo * lo, hi * hi);
+    if (k < 0)
+        return k * fmax(lo * lo, hi * hi);
+    return l == 0 ? 0 : fmin(l * lo, l * hi);
+}
+
+// The term of each axis may be as large as the least of the others' leave it to be.
+struct aabb quadric_bounds_within(const struct quadric *s, struct aabb box, double slack)
+{
+    if (s->xy != 0 || s->xz != 0 || s->yz != 0)
+        return box;
+    const double k[] = {s->xx, s->yy, s->zz},
+                 l[] = {s->linear.x, s->linear.y, s->linear.z};
+    double *const min[] = {&box.min.x, &box.min.y, &box.min.z};
+    double *const max[] = {&box.max.x, &box.max.y, &box.max.z};
+    for (int i = 0; i < 6; i++) { // twice: the first axis may gain by the last
+        double room = -s->constant, size = fabs(s->constant);
+        for (int j = 1; j < 3; j++) {
+            const int a = (i + j) % 3;
+            const double c = vec3_axis(s->centre, a);
+            const double least = least_term(k[a], l[a], *min[a] - c, *max[a] - c);
+            room -= least;
+            size += fabs(least) + fabs(k[a]) * c * c + fabs(l[a] * c);
+        }
+        const int a = i % 3;
+        const double c = vec3_axis(s->centre, a);
+        room += slack * size;
+        if (!(room < INFINITY) || k[a] < 0 || (k[a] == 0 && l[a] == 0))
+            continue;
+        if (room < 0 && k[a] > 0)
+            return aabb_empty();
+        const double end = k[a] > 0 ? sqrt(room / k[a]) : room / l[a];
+        const double more = slack * (fabs(end) + fabs(c));
+        if (k[a] > 0 || l[a] > 0)
+            *max[a] = fmin(*max[a], c + end + more);
+        if (k[a] > 0)
+            *min[a] = fmax(*min[a], c - end - more);
+        else if (l[a] < 0)
+            *min[a] = fmax(*min[a], c + end - more);
+    }
+    return box;
 }
 
 // An ellipsoid is a ball scaled by its half axes.

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/plane.h"
+#include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
 #include "trace/accel.h"
 #include "trace/intersect.h"
@@ -480,6 +481,61 @@ static void turned_planes_cut_boxes(void **state)
     assert_true(f->w->object[1].bounds.max.y >= 4);
 }
 
+// Planes across the axis of a quadric that has no end leave a part that has one, however both
+// were turned, moved and scaled; what is the widest there touches the box.
+static void planes_end_quadrics(void **state)
+{
+    struct fixture *f = *state;
+    static const struct {
+        struct quadric q; // around y, whose planes are y > -2 and y < 3
+        double widest;
+    } of[] = {
+        {{.xx = 1, .yy = -1, .zz = 1, .constant = -1}, 3.16227766016838}, // sqrt(10)
+        {{.xx = 1, .yy = -.25, .zz = 1}, 1.5},
+        {{.xx = 1, .zz = 1, .constant = -4}, 2},
+        {{.xx = 1, .zz = 1, .linear = {0, -1, 0}}, 1.73205080756888}, // sqrt(3)
+        {{.centre = {5, 1, 0}, .xx = 1, .yy = -1, .zz = 1, .constant = -1},
+         3.16227766016838},
+    };
+    enum { SHAPES = sizeof of / sizeof *of, MOVES = 4 };
+    const struct vec3 degrees[MOVES] = {
+        {0, 0, 0}, {90, 0, 0}, {0, 180, 90}, {20, 30, 40}};
+    for (int i = 0; i < SHAPES * MOVES; i++) {
+        struct quadric *q = arena_new_struct(f->a, struct quadric);
+        *q = of[i / MOVES].q;
+        const struct object **child = arena_new_array(f->a, const struct object *, 3);
+        child[0] = half_space(f, vec3(0, 1, 0), 3);
+        child[1] = object_new_shape(f->a, &quadric_ops, q, (struct span){0});
+        child[2] = half_space(f, vec3(0, -1, 0), 2);
+        struct object *o =
+            object_new_csg(f->a, CSG_INTERSECTION, child, 3, (struct span){0});
+        o = moved(f, o, transform_scale(vec3(2, 2, 2)));
+        o = moved(f, o, transform_rotate(degrees[i % MOVES]));
+        add(f, moved(f, o, transform_translate(vec3(7, -8, 9))));
+    }
+    finish(f);
+    for (int i = 0; i < SHAPES * MOVES; i++) {
+        const double r = of[i / MOVES].widest, end = i / MOVES == 4 ? -2 : 3;
+        const struct vec3 c = of[i / MOVES].q.centre;
+        const struct transform turn = transform_rotate(degrees[i % MOVES]);
+        const struct aabb box = f->w->object[i].bounds;
+        assert_true(aabb_is_finite(box));
+        struct aabb rim = aabb_empty();
+        for (int k = 0; k < 64; k++) {
+            const double angle = k * .0981747704246810; // a 64th of the circle
+            const struct vec3 p =
+                vec3(2 * (c.x + r * cos(angle)), 2 * end, 2 * r * sin(angle));
+            rim = aabb_add(rim, vec3_add(transform_point(&turn, p), vec3(7, -8, 9)));
+        }
+        assert_true(box.min.x <= rim.min.x && box.max.x >= rim.max.x);
+        assert_true(box.min.y <= rim.min.y && box.max.y >= rim.max.y);
+        assert_true(box.min.z <= rim.min.z && box.max.z >= rim.max.z);
+        const struct vec3 size = vec3_sub(box.max, box.min);
+        if (i % MOVES < 3) // by right angles: no corner of the box is lost
+            assert_true(size.x + size.y + size.z <= 2 * (2 * r + 2 * r + 5) * (1 + 1e-6));
+    }
+}
+
 // Shadow rays that nothing opaque stops go on among the objects that let light through.
 static void the_clear_world_has_no_opaque_object(void **state)
 {
@@ -614,6 +670,7 @@ int main(void)
         TEST(the_sweep_agrees_with_points),
         TEST(many_holes),
         TEST(turned_planes_cut_boxes),
+        TEST(planes_end_quadrics),
         TEST(the_clear_world_has_no_opaque_object),
         TEST(a_ray_leaves_its_surface),
         TEST(small_gaps_are_seen),
