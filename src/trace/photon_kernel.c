@@ -90,22 +90,36 @@ static void keep(struct photon_search *s, double d, uint32_t equal)
     }
 }
 
+// A distance between two, where `wanted` of `count` photons may be expected on its near side.
+// Photons on a surface lie evenly in the square of the distance; every fourth step halves, in
+// case they do not. `low`: no number between is left.
+static double guess(double low, double high, uint32_t wanted, uint32_t count,
+                    uint32_t step)
+{
+    const double from = low > 0 ? low : 0;
+    const double even = from + (high - from) * ((wanted + 0.5) / (count + 1));
+    if (step % 4 != 3 && even > low && even < high)
+        return even;
+    const double middle = low + (high - low) / 2;
+    return middle < high ? middle : low;
+}
+
 // Leaves the nearest where there are more than wanted.
 static void nearest(struct photon_search *s)
 {
     pad(s);
     double high = farthest(s), low = -high; // not below what is wanted, and below it
     uint32_t below = 0, n = s->count;       // how many are within these
-    while (n > s->most) {
-        const double middle = low + (high - low) / 2;
-        if (!(middle > low && middle < high))
+    for (uint32_t step = 0; n > s->most; step++) {
+        const double d = guess(low, high, s->most - below, n - below, step);
+        if (!(d > low))
             break; // what lies between is at `high`
-        const uint32_t k = within(s, middle);
+        const uint32_t k = within(s, d);
         if (k < s->most) {
-            low = middle;
+            low = d;
             below = k;
         } else {
-            high = middle;
+            high = d;
             n = k;
         }
     }
@@ -190,14 +204,17 @@ static int children(const struct photon_search *s, struct entry e, struct entry 
     unsigned in = m8_bits(r8_le(d2, r8_set(s->limit2)));
     double d[8];
     r8_store(d, d2);
-    const int first = top;
+    const unsigned all = in;
     for (; in; in &= in - 1) {
+        // Below it are those that are farther, and of those as far the ones before it.
         const int i = __builtin_ctz(in);
-        int k = top++;
-        for (; k > first && stack[k - 1].d2 < d[i]; k--)
-            stack[k] = stack[k - 1];
-        stack[k] = (struct entry){d[i], e.level - 1, 8 * e.at + (uint32_t)i};
+        const struct real8 own = r8_set(d[i]);
+        const unsigned below = (m8_bits(r8_lt(own, d2)) & all) |
+                               (m8_bits(r8_eq(own, d2)) & all & ((1u << i) - 1));
+        stack[top + __builtin_popcount(below)] =
+            (struct entry){d[i], e.level - 1, 8 * e.at + (uint32_t)i};
     }
+    top += __builtin_popcount(all);
     return top;
 }
 

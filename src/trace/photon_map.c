@@ -242,28 +242,52 @@ uint32_t photons_near(const struct photon_map *m, struct vec3 p, struct vec3 nor
     return s.count;
 }
 
+// What lies within a radius of what was found in a larger one: the nearest come in the same
+// order whatever the radius, so that it is what a search within the smaller one finds.
+static uint32_t count_within(const struct photon_near *near, uint32_t count,
+                             double radius)
+{
+    const double limit2 = fmin(radius * radius, DBL_MAX);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < count; i++)
+        n += near->distance2[i] <= limit2;
+    return n;
+}
+
+static void keep_within(struct photon_near *near, uint32_t count, double radius)
+{
+    const double limit2 = fmin(radius * radius, DBL_MAX);
+    for (uint32_t i = 0, n = 0; i < count; i++)
+        if (near->distance2[i] <= limit2)
+            near->photon[n++] = near->photon[i];
+}
+
 uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *g,
                         struct vec3 p, struct vec3 normal, struct photon_near *near,
                         double *reach)
 {
-    enum { FEW = 64 };
-    uint32_t kept[FEW];
-    const uint32_t count = photons_near(m, p, normal, m->radius, near, reach);
-    if (count >= g->min)
-        return count;
-    const double before = *reach;
-    if (count <= FEW && count)
-        memcpy(kept, near->photon, count * sizeof *kept);
-    const uint32_t more = photons_near(m, p, normal, m->radius + m->step, near, reach);
-    const double density = count / (before * before);
-    const bool even = more / (*reach * *reach) <= (1 + g->expand_increase) * density;
-    if (more && (even || more < g->expand_min))
-        return more;
-    if (count > FEW)
-        return photons_near(m, p, normal, m->radius, near, reach);
-    if (count)
-        memcpy(near->photon, kept, count * sizeof *kept);
-    *reach = before;
+    uint32_t count = 0;
+    if (!near->sparse) {
+        count = photons_near(m, p, normal, m->radius, near, reach);
+        if (count >= g->min)
+            return count;
+    }
+    double wide;
+    const uint32_t more = photons_near(m, p, normal, m->radius + m->step, near, &wide);
+    if (near->sparse) {
+        count = count_within(near, more, m->radius);
+        *reach = count == near->most ? wide : m->radius;
+    }
+    near->sparse = count < g->min;
+    if (count < g->min) {
+        const double density = count / (*reach * *reach);
+        const bool even = more / (wide * wide) <= (1 + g->expand_increase) * density;
+        if (more && (even || more < g->expand_min)) {
+            *reach = wide;
+            return more;
+        }
+    }
+    keep_within(near, more, m->radius);
     return count;
 }
 

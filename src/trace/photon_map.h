@@ -34,6 +34,7 @@ struct photon_map {
 struct photon_near {
     uint32_t most, *photon;
     double *distance2;
+    bool sparse; // the radius held too few last time: the grown one is searched at once
 };
 
 struct photon_near *photon_near_new(uint32_t most);

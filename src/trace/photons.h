@@ -56,6 +56,9 @@ struct media_point;
 void photon_media_lit(struct media_march *m, struct media_sample *sample,
                       const struct media_point *point, uint32_t count);
 
+// How obliquely photons may come in before they count no more (spec/lighting.md 11.5).
+static const double photon_steepest = 0.1;
+
 // The light of photons on the layers of a hit (shade_photons.c).
 void shade_photons(struct shading *s);
 

@@ -9,6 +9,7 @@
 #include "trace/shade_area.h"
 #include "trace/shade_bounce.h"
 #include "trace/shade_camera.h"
+#include "trace/shade_caustic.h"
 #include "trace/shade_color.h"
 #include "trace/shade_lamp.h"
 #include "trace/shade_lit.h"
@@ -298,7 +299,7 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
                                     (const float(*)[8])g->color,
                                     g->att,
                                     NULL};
-        const struct rgb8 sum = lit8(&l, c->side_test, lamp, v.to, &live);
+        const struct rgb8 sum = lit8(&l, c->side_test, lamp->dull, v.to, &live);
         if (live)
             queued = lamp_add(t, &shaded, g, live, &v, sum, queued);
     }
@@ -486,4 +487,4 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     misses_cone,   points,
     texture_space, world_normals,
     sheet_pass,    own_sheets,
-    light_sheets};
+    light_sheets,  caustics};

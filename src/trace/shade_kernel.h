@@ -7,6 +7,8 @@ struct surface_kernels;
 struct paint_coat;
 struct paint_group;
 struct paint_sheet;
+struct photon;
+struct shading;
 
 // Places on surfaces that an area light may shine on: as in interaction; the grid's axes as
 // they see them; hash of the way there and the lamp.
@@ -86,6 +88,10 @@ struct shade_kernels {
     uint32_t (*light_sheets)(struct tracer *t, bool side_test, const struct lamp *lamp,
                              const struct paint_group *g, uint32_t groups,
                              uint32_t queued);
+    // The light of photons of a map that the layers of one hit send on, summed in their order;
+    // finishes with crand, irid or subsurface light are not for this.
+    struct rgb (*caustics)(const struct shading *s, const struct photon *photon,
+                           const uint32_t *id, uint32_t count, bool side_test);
 };
 
 extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,

@@ -71,9 +71,9 @@ LANES_INLINE struct rgb8 tinted(const struct lit_layer *l, struct float8 sum,
                        l->finish->metallic, facing);
 }
 
-// layer_lit. Takes lanes that get nothing out of *live.
-LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test,
-                              const struct lamp *lamp, struct vec8 to, unsigned *live)
+// layer_lit; dull: without highlights. Takes lanes that get nothing out of *live.
+LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test, bool dull,
+                              struct vec8 to, unsigned *live)
 {
     const struct finish *f = l->finish;
     const struct vec8 n = v8_load(l->n);
@@ -103,7 +103,7 @@ LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test,
         }
         c = rgb8_scale(i, rgb8_load(l->color));
     }
-    if (!lamp->dull) {
+    if (!dull) {
         const struct float8 sum = highlights8(f, v8_load(l->d), n, to, *live & ~back);
         if (f->metallic != 0)
             c = rgb8_add(c, tinted(l, sum, facing));

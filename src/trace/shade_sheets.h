@@ -117,7 +117,7 @@ LANES_INLINE unsigned sheet_lit(const struct tracer *t, const struct paint_sheet
                                 (const float(*)[8])s->color,
                                 s->att,
                                 crand};
-    struct rgb8 c = lit8(&l, side_test, lamp, to, &live);
+    struct rgb8 c = lit8(&l, side_test, lamp->dull, to, &live);
     if (live && l.finish->irid != 0)
         c = rgb8_mul(c, irid8(t->job, l.finish, h, v8_load(l.n), to));
     c = rgb8_mul(c, rgb8_load((const float(*)[8])s->filter));

@@ -114,6 +114,58 @@ static void nearest_photons(void **state_)
     }
 }
 
+// Gathering by its rule, from two searches; what it knows of the last place changes nothing.
+static void check_gather(const struct photon_map *m, const struct photon_gather *g)
+{
+    struct photon_near *a = photon_near_new(g->max), *b = photon_near_new(g->max);
+    uint32_t grown = 0, kept = 0;
+    for (int i = 0; i < 400; i++) {
+        const struct vec3 n =
+            i % 2 ? vec3_normalize(somewhere()) : vec3_scale(0, somewhere());
+        const struct vec3 p = vec3_scale(i % 3 ? .1 : 1.2, somewhere());
+        double reach, wide, got;
+        uint32_t count = photons_near(m, p, n, m->radius, a, &reach);
+        const uint32_t more = photons_near(m, p, n, m->radius + m->step, b, &wide);
+        if (count < g->min && more &&
+            (more < g->expand_min || more / (wide * wide) <= (1 + g->expand_increase) *
+                                                                 count /
+                                                                 (reach * reach))) {
+            memcpy(a->photon, b->photon, more * sizeof *a->photon);
+            count = more;
+            reach = wide;
+            grown++;
+        } else {
+            kept += count < g->min;
+        }
+        for (int sparse = 0; sparse < 2; sparse++) {
+            b->sparse = sparse;
+            assert_int_equal(photons_gather(m, g, p, n, b, &got), count);
+            assert_memory_equal(&got, &reach, sizeof got);
+            if (count)
+                assert_memory_equal(a->photon, b->photon, count * sizeof *a->photon);
+        }
+    }
+    assert_true(grown > 10 && kept > 10);
+    photon_near_free(a);
+    photon_near_free(b);
+}
+
+static void gathered_photons(void **state_)
+{
+    (void)state_;
+    struct photon_map m;
+    state = 11;
+    for (int grid = 0; grid < 2; grid++) {
+        fill(&m, 3000, grid);
+        m.radius = .02;
+        m.step = .04;
+        photon_map_build(&m, packet_kernels_choose()->photons);
+        check_gather(&m, &(struct photon_gather){20, 100, .2, 20});
+        check_gather(&m, &(struct photon_gather){90, 100, .5, 5});
+        photon_map_end(&m);
+    }
+}
+
 static void no_photons(void **state_)
 {
     (void)state_;
@@ -130,6 +182,7 @@ static void no_photons(void **state_)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nearest_photons),
+                                       cmocka_unit_test(gathered_photons),
                                        cmocka_unit_test(no_photons)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
