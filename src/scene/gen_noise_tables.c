@@ -116,8 +116,16 @@ static void print_rows(const struct tables *t)
 {
     printf("const double noise_row_table[NOISE_ROW_COUNT][4] = {\n");
     for (int i = 0; i < NOISE_ROW_COUNT; i++)
-        printf("{%a, %a, %a, %a},\n", 0.5 * t->value[i], t->value[i + 1],
-               t->value[i + 2], t->value[i + 3]);
+        printf("{%a, %a, %a, %a},\n", 0.5 * t->value[i], t->value[i + 1], t->value[i + 2],
+               t->value[i + 3]);
+    printf("};\n");
+}
+
+static void print_fans(const struct tables *t)
+{
+    printf("const double noise_fan_table[NOISE_FAN_COUNT][4] = {\n");
+    for (int i = 0; i < NOISE_FAN_COUNT; i++)
+        printf("{%a, %a, %a, 0},\n", t->value[i], t->value[i + 4], t->value[i + 8]);
     printf("};\n");
 }
 
@@ -160,6 +168,7 @@ int main(void)
         printf("%a,\n", t.value[i]);
     printf("};\n");
     print_rows(&t);
+    print_fans(&t);
     printf("const double noise_gradient[NOISE_GRADIENT_COUNT][3] = {\n");
     for (int i = 0; i < NOISE_GRADIENT_COUNT; i++)
         printf("{%a, %a, %a},\n", t.gradient[i][0], t.gradient[i][1], t.gradient[i][2]);

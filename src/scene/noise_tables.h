@@ -8,6 +8,7 @@ enum {
     NOISE_HASH_SIZE = 8192,
     NOISE_VALUE_COUNT = 267,
     NOISE_ROW_COUNT = NOISE_VALUE_COUNT - 3,
+    NOISE_FAN_COUNT = NOISE_VALUE_COUNT - 8,
     NOISE_GRADIENT_PERIOD = 2048,
     NOISE_GRADIENT_COUNT = 2 * NOISE_GRADIENT_PERIOD + 2,
     NOISE_RANDOM_COUNT = 32768,
@@ -20,6 +21,9 @@ extern const double noise_value_table[NOISE_VALUE_COUNT];
 extern const uint16_t noise_corner_table[NOISE_HASH_SIZE];
 // Four values from each place on, the first of them halved.
 extern const double noise_row_table[NOISE_ROW_COUNT][4];
+// The values at each place, four and eight further, and 0: what the three components of a
+// vector have of the same kind side by side; at the place of a row and the three after it.
+extern const double noise_fan_table[NOISE_FAN_COUNT][4];
 extern const uint16_t noise_permutation[NOISE_GRADIENT_COUNT];
 extern const double noise_gradient[NOISE_GRADIENT_COUNT][3];
 extern const uint32_t noise_random_table[NOISE_RANDOM_COUNT]; // times 2^-32
