@@ -41,7 +41,7 @@ struct lambert_context {
     struct scene scene;
     struct world *world;
     struct lambert_stats stats;
-    // Files it reads besides its text; with a state_path only.
+    // Files it reads besides its text; with a state_path or saved light only.
     struct read_file {
         const char *path;
         const struct read_file *next; // the one before

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "api/sample_file.h"
 #include "base/arena.h"
 #include "irradiance/cache.h"
 #include "radiosity/radiosity.h"
@@ -120,6 +121,17 @@ const char *gi_solution(const struct lambert_context *ctx, bool in)
     return in && access(file, F_OK) ? NULL : file; // POV-Ray goes on without, too
 }
 
+// An animation's first picture has no file to read; who only reads has misspelt it.
+static void warn_missing(struct lambert_context *ctx)
+{
+    const char *file = text_of(ctx, "radiosity-file");
+    if (option_flag(ctx, "radiosity-from-file") && !gi_solution(ctx, true) &&
+        !option_flag(ctx, "radiosity-to-file"))
+        diag_at(&ctx->diags, DIAG_BLOCK_WARNING, (struct span){0}, "Radiosity_From_File",
+                arena_printf(ctx->scene_arena,
+                             "there is no file '%s': all light is computed anew", file));
+}
+
 static enum lambert_status write_files(struct lambert_context *ctx, const struct gi *g)
 {
     const char *save = gi_solution(ctx, false), *ply = text_of(ctx, "gi-ply");
@@ -162,6 +174,18 @@ static enum lambert_status write_aov(struct lambert_context *ctx, const struct g
     return ok ? LAMBERT_OK : LAMBERT_ERROR_OUTPUT;
 }
 
+static void report_cache(struct lambert_context *ctx, const struct irradiance_report *r,
+                         const struct samples_read *read)
+{
+    char text[200], found[64] = "";
+    if (read->count)
+        snprintf(found, sizeof found, " beside %u from a file", read->count);
+    snprintf(text, sizeof text,
+             "irradiance cache: %u samples%s in %u passes, %.3g rays, %.2f s", r->samples,
+             found, r->passes, (double)r->rays, r->seconds);
+    tell(ctx, text);
+}
+
 static enum lambert_status cache_prepare(struct lambert_context *ctx,
                                          struct render_settings *settings,
                                          struct gi **out)
@@ -170,24 +194,28 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
     struct gi *g = calloc(1, sizeof *g);
     if (!g)
         return context_fail(ctx, LAMBERT_ERROR_MEMORY, "no memory");
-    struct irradiance_report r;
+    struct irradiance_report r = {0};
+    struct samples_read read;
     ctx->phase = LAMBERT_PHASE_RADIOSITY;
     // Surfaces that gathering rays see show their caustics too.
     if (!settings->photons)
         settings->photons = g->photons =
             render_photons(ctx->world, settings, NULL, &ctx->cancel);
-    g->cache = irradiance_cache_new(ctx->world, settings, &watch, &r);
-    ctx->phase = LAMBERT_PHASE_TILES;
-    if (!g->cache) {
-        gi_free(g);
+    g->cache = irradiance_cache_new(ctx->world, settings, &ctx->cancel);
+    enum lambert_status status = samples_load(ctx, g->cache, &read);
+    if (status == LAMBERT_OK && !read.complete &&
+        !irradiance_cache_fill(g->cache, settings, &watch, &r)) {
         ctx->cancel = false;
-        return context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
+        status = context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
     }
-    char text[160];
-    snprintf(text, sizeof text,
-             "irradiance cache: %u samples in %u passes, %.3g rays, %.2f s", r.samples,
-             r.passes, (double)r.rays, r.seconds);
-    tell(ctx, text);
+    if (status == LAMBERT_OK)
+        status = samples_save(ctx, g->cache);
+    ctx->phase = LAMBERT_PHASE_TILES;
+    if (status != LAMBERT_OK) {
+        gi_free(g);
+        return status;
+    }
+    report_cache(ctx, &r, &read);
     settings->indirect = irradiance_cache_indirect(g->cache);
     *out = g;
     return LAMBERT_OK;
@@ -244,13 +272,15 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
     enum { BEST_QUALITY = 9 }; // below, POV-Ray's radiosity { } is off
     const char *method = text_of(ctx, "gi");
     const bool asked = strcmp(method, "irradiance_cache") == 0;
+    const bool patches = strcmp(method, "radiosity") == 0;
     *out = NULL;
-    if (strcmp(method, "radiosity") == 0)
-        return patches_prepare(ctx, settings, out);
-    if (asked || (strcmp(method, "auto") == 0 && ctx->world->scene->settings.radiosity &&
-                  settings->quality >= BEST_QUALITY))
-        return cache_prepare(ctx, settings, out);
-    return LAMBERT_OK;
+    if (!patches && !asked &&
+        !(strcmp(method, "auto") == 0 && ctx->world->scene->settings.radiosity &&
+          settings->quality >= BEST_QUALITY))
+        return LAMBERT_OK;
+    warn_missing(ctx);
+    return patches ? patches_prepare(ctx, settings, out)
+                   : cache_prepare(ctx, settings, out);
 }
 
 void gi_free(struct gi *g)

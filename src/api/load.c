@@ -1,5 +1,6 @@
 // From a scene file to what the tracer takes.
 #include "api/context.h"
+#include "api/gi.h"
 #include "api/probe.h"
 #include "api/state.h"
 
@@ -230,7 +231,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .output_folder = output_folder(ctx),
     };
     ctx->files_read = NULL;
-    if (ctx->state_path) {
+    if (ctx->state_path || gi_solution(ctx, true) || gi_solution(ctx, false)) {
         o.file_found = file_found;
         o.file_user = ctx;
     }

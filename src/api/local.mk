@@ -1,7 +1,7 @@
 liblambert_a_SOURCES += \
 	include/lambert/lambert.h \
 	%D%/context.c %D%/context.h %D%/gi.c %D%/gi.h %D%/load.c %D%/mesh.c \
-	%D%/mesh_file.c %D%/mesh_file.h %D%/options.c %D%/options.def %D%/photon_file.c %D%/photon_file.h %D%/picture.c \
+	%D%/mesh_file.c %D%/mesh_file.h %D%/options.c %D%/options.def %D%/photon_file.c %D%/photon_file.h %D%/sample_file.c %D%/sample_file.h %D%/picture.c \
 	%D%/probe.c %D%/probe.h %D%/render.c %D%/state.c %D%/state.h
 lambertincludedir = $(includedir)/lambert
 lambertinclude_HEADERS = include/lambert/lambert.h

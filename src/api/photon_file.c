@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "api/context.h"
+#include "base/whole_file.h"
 #include "trace/photons.h"
 
 struct header {
@@ -39,25 +39,18 @@ static bool write_map(FILE *f, const struct photon_map *m)
     return true;
 }
 
-// An older file stays whole unless all of the new one was written.
 static void save(void *user, const struct photons *p)
 {
     struct use *u = user;
-    char name[4096];
+    struct whole_file w;
     struct header h = {.order = 1, .surface = p->surface.count, .media = p->media.count};
     memcpy(h.magic, magic, sizeof magic);
-    snprintf(name, sizeof name, "%s.%ld.tmp", u->save, (long)getpid());
-    FILE *f = fopen(name, "wb");
-    bool ok = f && fwrite(&h, sizeof h, 1, f) == 1 && write_map(f, &p->surface) &&
-              write_map(f, &p->media) && fflush(f) == 0;
-    if (f)
-        ok = fclose(f) == 0 && ok;
-    if (ok && rename(name, u->save) == 0)
+    if (whole_file_begin(&w, u->save) &&
+        whole_file_end(&w, fwrite(&h, sizeof h, 1, w.f) == 1 &&
+                               write_map(w.f, &p->surface) && write_map(w.f, &p->media)))
         return;
     u->status = context_fail(u->ctx, LAMBERT_ERROR_OUTPUT, "cannot write '%s': %s",
                              u->save, strerror(errno));
-    if (f)
-        remove(name);
 }
 
 // ---- reading -------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "api/context.h"
+#include "base/digest.h"
 
 // Numbers as this machine has them: `order` tells a state from another kind of machine.
 struct header {
@@ -27,16 +28,6 @@ struct record {
     uint32_t unused;
     uint64_t digest; // of the above and the pixels
 };
-
-const uint64_t digest_start = 0xcbf29ce484222325u;
-
-uint64_t digest_add(uint64_t digest, const void *data, size_t n)
-{
-    const unsigned char *p = data;
-    for (size_t i = 0; i < n; i++)
-        digest = (digest ^ p[i]) * 0x100000001b3u;
-    return digest;
-}
 
 uint64_t digest_add_file(uint64_t digest, const char *path)
 {
@@ -61,6 +52,9 @@ static bool decides_pixels(const struct lambert_option *o)
 {
     static const char *const groups[] = {"scene", "picture", "quality", "radiosity",
                                          "internal"};
+    if (strcmp(o->group, "radiosity") == 0 &&
+        (o->kind == LAMBERT_OPTION_FILE || strstr(o->name, "-file")))
+        return false; // what is in them counts, not where they are
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
         if (strcmp(o->group, groups[i]) == 0)
             return true;
@@ -68,7 +62,7 @@ static bool decides_pixels(const struct lambert_option *o)
            strcmp(o->name, "clockless") == 0;
 }
 
-static uint64_t key_of(const struct lambert_context *ctx)
+uint64_t picture_key(const struct lambert_context *ctx)
 {
     uint64_t key = add_text(digest_start, lambert_version());
     const struct lambert_option *o;
@@ -81,14 +75,22 @@ static uint64_t key_of(const struct lambert_context *ctx)
         for (size_t k = 0; k < n; k++)
             key = add_text(key, list[k]);
     }
-    const char *solution = gi_solution(ctx, true);
-    if (solution)
-        key = digest_add_file(key, solution);
-    for (uint32_t i = 0; i < ctx->sources.count; i++)
-        key = digest_add(key, ctx->sources.file[i]->text, ctx->sources.file[i]->len);
     for (const struct read_file *f = ctx->files_read; f; f = f->next)
         key = digest_add_file(key, f->path);
+    return text_key(ctx, key);
+}
+
+uint64_t text_key(const struct lambert_context *ctx, uint64_t key)
+{
+    for (uint32_t i = 0; i < ctx->sources.count; i++)
+        key = digest_add(key, ctx->sources.file[i]->text, ctx->sources.file[i]->len);
     return key;
+}
+
+static uint64_t key_of(const struct lambert_context *ctx)
+{
+    const char *solution = gi_solution(ctx, true);
+    return solution ? digest_add_file(picture_key(ctx), solution) : picture_key(ctx);
 }
 
 static size_t row_bytes(const struct image *im, int x0, int x1)

@@ -26,11 +26,13 @@ struct render_state {
     int file;          // -1: nothing is kept any more
 };
 
-// FNV-1a of 64 bits; begin with digest_start.
-extern const uint64_t digest_start;
-uint64_t digest_add(uint64_t digest, const void *data, size_t n);
 // Of a file's bytes; that it cannot be read counts as well.
 uint64_t digest_add_file(uint64_t digest, const char *path);
+// Of all that decides the pixels but saved light: version, settings, the scene and what it
+// reads besides.
+uint64_t picture_key(const struct lambert_context *ctx);
+// Continues a digest with the text of the scene.
+uint64_t text_key(const struct lambert_context *ctx, uint64_t key);
 
 enum state_mode {
     STATE_AT_END, // written when the picture ends before it is whole

@@ -41,6 +41,15 @@ static bool read_pair(struct args *a, int *first, int *second, double low, doubl
     return true;
 }
 
+static void check_nearest(struct args *a, const struct radiosity_settings *r)
+{
+    if (r->nearest_adaptive < 0 ||
+        (r->nearest_adaptive && r->nearest_adaptive >= r->nearest_count))
+        args_error(a, a->owner->where,
+                   "the second number of nearest_count must be at least 0 and below the "
+                   "first");
+}
+
 // Only one of the two given: the other follows (spec/language 4.14).
 static void check_reuse(struct args *a, struct radiosity_settings *r, bool low, bool high)
 {
@@ -92,6 +101,7 @@ bool build_radiosity_settings(struct args *a, const struct ast *block)
         }
     }
     check_reuse(&in, r, low, high);
+    check_nearest(&in, r);
     return !in.failed;
 }
 

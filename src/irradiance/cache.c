@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "base/clock.h"
 #include "irradiance/fill.h"
+#include "irradiance/gather.h"
 #include "math/elementary.h"
 #include "math/halton.h"
 #include "trace/accel.h"
@@ -64,28 +65,57 @@ static void jobs_init(struct irradiance_cache *c, const struct world *w,
 
 struct irradiance_cache *irradiance_cache_new(const struct world *w,
                                               const struct render_settings *settings,
-                                              struct watch *watch,
-                                              struct irradiance_report *report)
+                                              const volatile bool *cancel)
 {
     struct arena *a = arena_new(64 * 1024);
     struct irradiance_cache *c = arena_new_struct(a, struct irradiance_cache);
-    const double begin = clock_seconds(CLOCK_MONOTONIC);
-    *report = (struct irradiance_report){0};
     c->arena = a;
-    c->cancel = watch ? watch->cancel : NULL;
+    c->cancel = cancel;
     c->settings = &w->scene->settings.radiosity_settings;
     c->depths = (uint32_t)c->settings->recursion_limit;
     c->eye = w->scene->has_camera ? w->scene->camera.location : camera_default.location;
     store_init(&c->store, w->accel->kernels->name);
     directions_init(c);
     jobs_init(c, w, settings);
-    if (!irradiance_fill(c, settings, watch, report)) {
-        irradiance_cache_free(c);
-        return NULL;
-    }
-    report->samples = c->store.count;
-    report->seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
     return c;
+}
+
+bool irradiance_cache_fill(struct irradiance_cache *c,
+                           const struct render_settings *settings, struct watch *watch,
+                           struct irradiance_report *report)
+{
+    const double begin = clock_seconds(CLOCK_MONOTONIC);
+    const uint32_t before = c->store.count;
+    *report = (struct irradiance_report){0};
+    if (!irradiance_fill(c, settings, watch, report))
+        return false;
+    report->samples = c->store.count - before;
+    report->seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
+    return true;
+}
+
+const struct cache_sample *irradiance_cache_samples(const struct irradiance_cache *c,
+                                                    uint32_t *count)
+{
+    *count = c->store.count;
+    return c->store.sample;
+}
+
+bool irradiance_cache_add(struct irradiance_cache *c, const struct cache_sample *sample)
+{
+    static const double unit_within = 1e-3; // how far a normal may be from length 1
+    struct cache_sample s = *sample;
+    const double light = (double)s.light.r + (double)s.light.g + (double)s.light.b;
+    // `to` is nought where nothing was seen.
+    const double sum = s.p.x + s.p.y + s.p.z + s.to.x + s.to.y + s.to.z + light;
+    if (s.depth >= STORE_DEPTHS || !isfinite(sum) || !(s.nearest > 0) ||
+        !(s.quality >= 0 && s.quality <= 1) ||
+        !(fabs(vec3_length(s.n) - 1) < unit_within) ||
+        !(s.radius > 0 && s.radius < INFINITY))
+        return false;
+    s.reach = gather_reach(c, &s);
+    store_add(&c->store, &s);
+    return true;
 }
 
 void irradiance_cache_free(struct irradiance_cache *c)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "irradiance/fill.h"
 #include "irradiance/store_kernel.h"
@@ -17,6 +18,7 @@ struct pass {
     double from, to;     // what part of the whole it is
     struct store *fresh; // by square
     uint64_t *rays;      // by square
+    bool *settled;       // by square: it gets no more passes but the last
     uint32_t *order;     // of the squares
     uint32_t done;       // of that order
 };
@@ -116,8 +118,10 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
         s->gatherer->fresh = &p->fresh[i];
         gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
         const uint64_t before = gatherer_rays(s->gatherer);
-        square_scout(p, s->tracer, x0, y0, least(x0 + SQUARE, p->settings->col_end),
-                     least(y0 + SQUARE, p->settings->row_end));
+        if (!p->settled[i] || p->final)
+            square_scout(p, s->tracer, x0, y0, least(x0 + SQUARE, p->settings->col_end),
+                         least(y0 + SQUARE, p->settings->row_end));
+        p->settled[i] |= gather_is_settled(s->gatherer);
         p->rays[i] = gatherer_rays(s->gatherer) - before;
     }
 }
@@ -209,24 +213,37 @@ static uint32_t pass_count(const struct irradiance_cache *c,
     return n < 1 ? 1 : n > MOST ? MOST : (uint32_t)n;
 }
 
-bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *settings,
-                     struct watch *watch, struct irradiance_report *report)
+static bool fill(struct irradiance_cache *c, const struct render_settings *settings,
+                 bool *settled, struct watch *watch, struct irradiance_report *report)
 {
     double size, last;
     const uint32_t count = pass_count(c, settings, &size, &last);
     for (uint32_t i = 1; i <= count; i++, size /= 2) {
-        struct pass p = {
-            .cache = c, .settings = settings, .number = i, .size = fmax(last, size)};
+        struct pass p = {.cache = c,
+                         .settings = settings,
+                         .settled = settled,
+                         .number = i,
+                         .size = fmax(last, size)};
         watch_part(watch, (i - 1) / (count + 1.0), i / (count + 1.0));
         if (!run(&p, watch, report))
             return false;
     }
     struct pass p = {.cache = c,
                      .settings = settings,
+                     .settled = settled,
                      .number = count + 1,
                      .size = 1,
                      .final = true,
                      .from = count / (count + 1.0),
                      .to = 1};
     return run(&p, watch, report);
+}
+
+bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *settings,
+                     struct watch *watch, struct irradiance_report *report)
+{
+    bool *settled = must_calloc(squares_across(settings) * squares_down(settings), 1);
+    const bool whole = fill(c, settings, settled, watch, report);
+    free(settled);
+    return whole;
 }

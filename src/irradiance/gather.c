@@ -52,6 +52,7 @@ uint64_t gatherer_rays(const struct gatherer *g)
 
 void gatherer_start(struct gatherer *g, uint32_t direction)
 {
+    g->weight = g->points = 0;
     for (uint32_t k = 0; k < g->cache->depths; k++) {
         struct gather_level *l = &g->level[k];
         l->next = direction % g->cache->direction_count;
@@ -229,14 +230,13 @@ static double widest_bound(const struct irradiance_cache *c, uint32_t depth)
     return (c->settings->error_bound + 0.25) * (double)(1u << depth);
 }
 
-static void keep(struct gather_level *l, struct cache_sample *sample)
+double gather_reach(const struct irradiance_cache *c, const struct cache_sample *s)
 {
     enum {
         CLOSER = 5
     }; // deeper samples are found by points that are about so much nearer
-    const double reach = sample->radius * widest_bound(l->owner->cache, l->depth);
-    sample->reach = l->depth ? reach / CLOSER : reach;
-    store_add(l->owner->fresh, sample);
+    const double reach = s->radius * widest_bound(c, s->depth);
+    return s->depth ? reach / CLOSER : reach;
 }
 
 static void take_sample(struct gather_level *l, const struct indirect_query *q,
@@ -251,8 +251,9 @@ static void take_sample(struct gather_level *l, const struct indirect_query *q,
     *out = (struct cache_sample){.p = q->at->p, .n = q->n, .depth = l->depth};
     mean_light(l, count, out);
     const bool lasting = distances(l, out->p, count, out);
+    out->reach = gather_reach(l->owner->cache, out);
     if (lasting && l->owner->fresh)
-        keep(l, out);
+        store_add(l->owner->fresh, out);
 }
 
 // ---- queries ----------------------------------------------------------------------------
@@ -277,6 +278,13 @@ static double required(const struct gatherer *g, uint32_t depth)
 
 // Four samples in the right place count as one of weight 4.
 static const double sample_weight = 4;
+
+bool gather_is_settled(const struct gatherer *g)
+{
+    enum { FEWEST = 9 };
+    return g->points >= FEWEST &&
+           sample_weight * g->weight >= g->points * g->cache->settings->nearest_adaptive;
+}
 
 // The least sum of weights with which no sample is taken.
 static double enough(const struct gatherer *g, uint32_t depth)
@@ -328,22 +336,27 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
 {
     const struct irradiance_cache *c = cache;
     struct gather_level *l = state;
-    const struct gatherer *g = l->owner;
+    struct gatherer *g = l->owner;
     (void)t;
     // Before the picture nobody looks at what the camera sees: samples are all it asks for.
-    const bool scouts = g->fresh && l->depth == 0;
+    const bool scouts = g->fresh && l->depth == 0,
+               weighs = scouts && c->settings->nearest_adaptive > 0;
     const double least = enough(g, l->depth);
     const struct cache_point at = {q->at->p,
                                    q->n,
                                    error_bound(g, l->depth, q->weight),
                                    l->depth,
                                    g->final && l->depth == 0,
-                                   scouts ? least : INFINITY};
+                                   scouts && !weighs ? least : INFINITY};
     struct cache_mean mean = {0};
     if (c->store.count)
         store_mean(&c->store, &at, &l->asked, &mean);
     if (g->fresh && g->fresh->count && mean.weight < at.enough)
         store_mean(g->fresh, &at, &l->asked_fresh, &mean);
+    if (weighs) {
+        g->weight += mean.weight;
+        g->points++;
+    }
     // After a cancel nobody looks at the light; a sample may take many seconds.
     if (mean.weight < least && !(c->cancel && *c->cancel)) {
         struct cache_sample fresh;

@@ -40,15 +40,22 @@ struct gatherer {
         *fresh; // where new samples go; NULL: nowhere, and all is as in the picture
     bool final; // the picture's rules for what is enough
     struct gather_level *level;
+    // What the camera's points knew since the start, where nearest_count has a second number.
+    double weight;
+    uint32_t points;
 };
 
 // Of a thread that takes samples.
 struct gatherer *gatherer_new(const struct irradiance_cache *c);
 void gatherer_free(struct gatherer *g);
 uint64_t gatherer_rays(const struct gatherer *g);
+// Within which distance a sample may be of use.
+double gather_reach(const struct irradiance_cache *c, const struct cache_sample *s);
 // Whether a query before the picture would take a sample where this one lies.
 bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s);
 // A new store takes what is found, or what was known has grown; directions from here on.
+// Whether nearest_count's second number says that where it was since the start enough is known.
+bool gather_is_settled(const struct gatherer *g);
 void gatherer_start(struct gatherer *g, uint32_t direction);
 
 // Rays of one sample at a depth.

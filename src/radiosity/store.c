@@ -3,57 +3,33 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "base/digest.h"
+#include "base/whole_file.h"
 #include "radiosity/radiosity.h"
 
 // ---- key ---------------------------------------------------------------------------
-// FNV-1a over everything that light depends on.
-static uint64_t mix(uint64_t h, const void *data, size_t size)
-{
-    const unsigned char *p = data;
-    for (size_t i = 0; i < size; i++)
-        h = (h ^ p[i]) * 0x100000001b3u;
-    return h;
-}
-
+// Of everything that light depends on.
 uint64_t radiosity_key(const struct radiosity *r)
 {
     const struct patches *p = r->patches;
-    uint64_t h = 0xcbf29ce484222325u;
-    h = mix(h, &p->element_count, sizeof p->element_count);
+    uint64_t h = digest_start;
+    h = digest_add(h, &p->element_count, sizeof p->element_count);
     for (uint32_t i = 0; i < p->element_count; i++) {
         const struct element *e = &p->element[i];
-        h = mix(h, e->corner, sizeof e->corner);
-        h = mix(h, &e->area, sizeof e->area);
-        h = mix(h, &e->reflectance, sizeof e->reflectance);
-        h = mix(h, &e->emission, sizeof e->emission);
-        h = mix(h, r->lamps[i], sizeof r->lamps[i]);
+        h = digest_add(h, e->corner, sizeof e->corner);
+        h = digest_add(h, &e->area, sizeof e->area);
+        h = digest_add(h, &e->reflectance, sizeof e->reflectance);
+        h = digest_add(h, &e->emission, sizeof e->emission);
+        h = digest_add(h, r->lamps[i], sizeof r->lamps[i]);
     }
     return h;
 }
 
 // ---- writing -----------------------------------------------------------------------
-static FILE *open_beside(const char *path, char *name, size_t size, char *error,
-                         size_t error_size)
+static bool cannot_write(const char *path, char *error, size_t error_size)
 {
-    snprintf(name, size, "%s.%ld.tmp", path, (long)getpid());
-    FILE *f = fopen(name, "wb");
-    if (!f)
-        snprintf(error, error_size, "cannot write '%s': %s", path, strerror(errno));
-    return f;
-}
-
-// An older file stays whole unless all of the new one was written.
-static bool finish(FILE *f, bool ok, const char *name, const char *path, char *error,
-                   size_t error_size)
-{
-    ok = ok && fflush(f) == 0;
-    ok = fclose(f) == 0 && ok;
-    if (ok && rename(name, path) == 0)
-        return true;
     snprintf(error, error_size, "cannot write '%s': %s", path, strerror(errno));
-    remove(name);
     return false;
 }
 
@@ -68,18 +44,17 @@ struct header {
 bool radiosity_save(const struct radiosity *r, const char *path, char *error,
                     size_t error_size)
 {
-    char name[4096];
+    struct whole_file w;
     const struct radiosity_solution *s = &r->solution;
     struct header h = {.key = r->key, .count = s->count, .number = 1};
     memcpy(h.magic, magic, sizeof magic);
-    FILE *f = open_beside(path, name, sizeof name, error, error_size);
-    if (!f)
-        return false;
-    const bool ok = fwrite(&h, sizeof h, 1, f) == 1 &&
-                    fwrite(s->b, sizeof *s->b, s->count, f) == s->count &&
-                    fwrite(s->h, sizeof *s->h, s->count, f) == s->count &&
-                    fwrite(s->h_emitted, sizeof *s->h_emitted, s->count, f) == s->count;
-    return finish(f, ok, name, path, error, error_size);
+    if (!whole_file_begin(&w, path))
+        return cannot_write(path, error, error_size);
+    const bool ok = fwrite(&h, sizeof h, 1, w.f) == 1 &&
+                    fwrite(s->b, sizeof *s->b, s->count, w.f) == s->count &&
+                    fwrite(s->h, sizeof *s->h, s->count, w.f) == s->count &&
+                    fwrite(s->h_emitted, sizeof *s->h_emitted, s->count, w.f) == s->count;
+    return whole_file_end(&w, ok) || cannot_write(path, error, error_size);
 }
 
 bool radiosity_load(struct radiosity *r, const char *path, char *error, size_t error_size)
@@ -113,11 +88,11 @@ bool radiosity_load(struct radiosity *r, const char *path, char *error, size_t e
 bool radiosity_write_ply(const struct radiosity *r, const char *path, char *error,
                          size_t error_size)
 {
-    char name[4096];
+    struct whole_file w;
     const struct patches *p = r->patches;
-    FILE *f = open_beside(path, name, sizeof name, error, error_size);
-    if (!f)
-        return false;
+    if (!whole_file_begin(&w, path))
+        return cannot_write(path, error, error_size);
+    FILE *f = w.f;
     fprintf(f,
             "ply\nformat ascii 1.0\ncomment radiosity of patches\n"
             "element vertex %u\nproperty double x\nproperty double y\nproperty double z\n"
@@ -135,5 +110,5 @@ bool radiosity_write_ply(const struct radiosity *r, const char *path, char *erro
         fprintf(f, "4 %u %u %u %u %.7g %.7g %.7g %.9g\n", 4 * i, 4 * i + 1, 4 * i + 2,
                 4 * i + 3, b[0], b[1], b[2], p->element[i].area);
     }
-    return finish(f, !ferror(f), name, path, error, error_size);
+    return whole_file_end(&w, !ferror(f)) || cannot_write(path, error, error_size);
 }
