@@ -48,6 +48,24 @@ const struct inside *inside_at(struct arena *a, const struct world *w, struct ve
     return list;
 }
 
+struct objects_around objects_around(const struct world *w, struct aabb box)
+{
+    struct objects_around out;
+    enum { MOST = sizeof out.object / sizeof *out.object };
+    out.count = trace_boxes_meet(w, box, out.object, MOST);
+    out.many = out.count == MOST;
+    return out;
+}
+
+const struct inside *inside_among(struct arena *a, const struct world *w,
+                                  const struct objects_around *few, struct vec3 p)
+{
+    bool any = few->many;
+    for (uint32_t i = 0; i < few->count && !any; i++)
+        any = world_object_inside(w, few->object[i], p);
+    return any ? inside_at(a, w, p) : NULL;
+}
+
 static float fade_channel(const struct interior *i, double s, float color)
 {
     const double way = s / i->fade_distance;

@@ -21,6 +21,16 @@ const struct inside *inside_remove(struct arena *a, const struct inside *list,
 // The interiors of all objects around p.
 const struct inside *inside_at(struct arena *a, const struct world *w, struct vec3 p);
 
+// The objects that may be around points of a box: mostly a few without end.
+struct objects_around {
+    uint32_t object[16], count;
+    bool many; // more than that
+};
+struct objects_around objects_around(const struct world *w, struct aabb box);
+// inside_at for points of the box.
+const struct inside *inside_among(struct arena *a, const struct world *w,
+                                  const struct objects_around *few, struct vec3 p);
+
 static inline double interior_ior(const struct interior *i)
 {
     return i->ior > 0 ? i->ior : 1;

@@ -404,6 +404,26 @@ uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object
     return n;
 }
 
+uint32_t trace_boxes_meet(const struct world *w, struct aabb box, uint32_t *object,
+                          uint32_t max)
+{
+    const struct accel *a = w->accel;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < a->infinite_count && n < max; i++)
+        object[n++] = a->infinite[i];
+    const struct vec3 from = vec3_sub(box.min, a->top.origin),
+                      to = vec3_sub(box.max, a->top.origin);
+    const float lo[3] = {(float)from.x, (float)from.y, (float)from.z},
+                hi[3] = {(float)to.x, (float)to.y, (float)to.z};
+    struct bvh8_walk walk;
+    bvh8_walk_begin(&walk, &a->top);
+    for (uint32_t first, count;
+         n < max && bvh8_walk_box(&walk, &a->top, lo, hi, &first, &count);)
+        for (uint32_t i = first; i < first + count && n < max; i++)
+            object[n++] = a->top.item[i];
+    return n;
+}
+
 // The largest sum of a row's magnitudes: how far the map can stretch a rounding error.
 static double stretch(const struct mat3 *m)
 {

@@ -15,7 +15,7 @@ struct ray_query {
 };
 
 struct hit {
-    struct boundary b;  // b.leaf says which leaf; b.t == INFINITY: a miss
+    struct boundary b; // b.leaf says which leaf; b.t == INFINITY: a miss
 };
 
 // Scratch memory of one thread: boundary lists, stacks. Not shared.
@@ -67,6 +67,9 @@ bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
 
 // Every top-level object (world_object index) that contains p; returns the count.
 uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object,
+                          uint32_t max);
+// Those whose boxes meet the box, at most `max`.
+uint32_t trace_boxes_meet(const struct world *w, struct aabb box, uint32_t *object,
                           uint32_t max);
 // Whether p is inside the world object.
 bool world_object_inside(const struct world *w, uint32_t object, struct vec3 p);

@@ -153,7 +153,6 @@ double chi_square(double probability, int degrees)
 void lens_init(struct lens *l, struct arena *a, const struct camera *c)
 {
     const int n = c->blur_samples;
-    l->place = camera_lens_of(c);
     l->count = n;
     l->point = arena_new_array(a, struct vec2, (size_t)n);
     l->threshold = arena_new_array(a, double, (size_t)n + 1);

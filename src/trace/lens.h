@@ -10,7 +10,6 @@ struct arena;
 // Focal blur (spec/lighting.md 1.4): where samples lie on the lens, and when a pixel
 // has enough of them.
 struct lens {
-    struct camera_lens place;
     int count;
     struct vec2 *point; // in a unit square around 0
     double shake;       // how far jitter moves a point

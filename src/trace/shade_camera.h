@@ -211,25 +211,49 @@ static uint32_t store_rays8(const struct view8 *w, struct vec8 d, unsigned lanes
     return at;
 }
 
-static uint32_t camera(const struct job *job, const struct vec2 *position, uint32_t count,
-                       struct ray_batch *out, uint16_t *place)
+// Pairs i to i + n - 1 of an array; where n < 8, the first stands for those that are not there.
+LANES_INLINE void load_pairs(const struct vec2 *from, uint32_t n, struct real8 *u,
+                             struct real8 *v)
+{
+    struct vec2 last[8];
+    if (n < 8) {
+        for (uint32_t k = 0; k < 8; k++)
+            last[k] = from[k < n ? k : 0];
+        from = last;
+    }
+    r8_load_pairs(&from->u, u, v);
+}
+
+// camera_lens_ray of scene/camera.c, of what view8_ray gave.
+LANES_INLINE void through_lens(struct view8 *w, const struct camera_lens *lens,
+                               struct real8 u, struct real8 v)
+{
+    const struct vec8 shift =
+                          v8_sub(v8_scale(u, lens->across), v8_scale(v, lens->upright)),
+                      location = V8_SET(w->frame->camera->location);
+    const struct real8 reach = r8_set(lens->reach);
+    w->origin = v8_add(location, shift);
+    w->d = v8_sub((struct vec8){r8_mul(w->d.x, reach), r8_mul(w->d.y, reach),
+                                r8_mul(w->d.z, reach)},
+                  shift);
+}
+
+static uint32_t camera(const struct job *job, const struct vec2 *position,
+                       const struct vec2 *on_lens, uint32_t count, struct ray_batch *out,
+                       uint16_t *place)
 {
     const struct camera *c = job->camera;
     const struct camera_frame frame = camera_frame_of(c);
+    struct camera_lens lens;
+    if (on_lens)
+        lens = camera_lens_of(c);
     const struct real8 width = r8_set(job->settings.width),
                        height = r8_set(job->settings.height), half = r8_set(0.5);
     uint32_t made = 0;
     for (uint32_t i = 0; i < count; i += 8) {
-        const struct vec2 *from = position + i;
         const uint32_t n = count - i < 8 ? count - i : 8;
-        struct vec2 last[8];
         struct real8 px, py;
-        if (n < 8) {
-            for (uint32_t k = 0; k < 8; k++)
-                last[k] = position[k < n ? i + k : i];
-            from = last;
-        }
-        r8_load_pairs(&from->u, &px, &py);
+        load_pairs(position + i, n, &px, &py);
         struct view8 w = {.frame = &frame,
                           .u = r8_sub(r8_div(px, width), half),
                           .v = r8_sub(half, r8_div(py, height)),
@@ -238,6 +262,11 @@ static uint32_t camera(const struct job *job, const struct vec2 *position, uint3
         w.x0 = w.u;
         w.y0 = w.v;
         view8_ray(&w);
+        if (on_lens) {
+            struct real8 u, v;
+            load_pairs(on_lens + i, n, &u, &v);
+            through_lens(&w, &lens, u, v);
+        }
         struct vec8 d = v8_normalize(w.d);
         if (c->normal)
             d = bent8(job->kernels, &w, d);

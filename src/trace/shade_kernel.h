@@ -27,10 +27,11 @@ struct area_ray {
 struct shade_kernels {
     const char *name;
     const struct surface_kernels *surface; // of the same instruction set
-    // The rays of a camera with quick_camera, as camera_ray gives them; their number. place: of
-    // which position each is, as some have none.
-    uint32_t (*camera)(const struct job *job, const struct vec2 *position, uint32_t count,
-                       struct ray_batch *out, uint16_t *place);
+    // The rays of a camera with quick_camera, as camera_ray gives them, or camera_lens_ray if
+    // on_lens is not NULL; their number. place: of which position each is, as some have none.
+    uint32_t (*camera)(const struct job *job, const struct vec2 *position,
+                       const struct vec2 *on_lens, uint32_t count, struct ray_batch *out,
+                       uint16_t *place);
     // Fills a group from up to eight rays of the batch and their hits.
     void (*place)(struct tracer *t, const uint16_t *ray, uint32_t count,
                   struct simple_group *g);

@@ -79,7 +79,7 @@ static void plain_trace(struct tracer *t, const struct tile *tile,
     if (t->job->camera->mesh)
         tracer_samples(t, b->position, count, b->color);
     else
-        color = &tracer_batch(t, b->position, count)->light.r;
+        color = &tracer_batch(t, b->position, NULL, count)->light.r;
     for (uint32_t k = 0; k < count; k++, color += 4)
         store(out, image_at(out, tile->x0 + place[k].x, tile->y0 + place[k].y), color);
 }
@@ -158,19 +158,19 @@ static bool has_enough(const struct lens *lens, const struct camera *c,
 
 // Rays through the lens of several pixels, to be traced together.
 struct lens_rays {
-    struct tracer_ray ray[BATCH_SIZE];
-    float color[BATCH_SIZE][4];
+    struct vec2 position[BATCH_SIZE], on_lens[BATCH_SIZE];
     struct blurred *pixel[BATCH_SIZE];
     uint32_t count;
 };
 
 static void lens_trace(struct tracer *t, struct lens_rays *r)
 {
-    tracer_rays(t, r->ray, r->count, r->color);
+    const struct sample_sum *sum = tracer_batch(t, r->position, r->on_lens, r->count);
     for (uint32_t i = 0; i < r->count; i++) {
         struct blurred *b = r->pixel[i];
+        const float color[4] = {sum[i].light.r, sum[i].light.g, sum[i].light.b, sum[i].t};
         for (int k = 0; k < 4; k++) {
-            const double c = (double)r->color[i][k];
+            const double c = (double)color[k];
             b->sum[k] += c;
             b->square[k] += c * c;
         }
@@ -193,14 +193,9 @@ static int blur_round(struct tracer *t, const struct tile_tables *tables,
         if (r->count + (uint32_t)n > BATCH_SIZE)
             lens_trace(t, r);
         for (int s = 0; s < n; s++) {
-            struct tracer_ray *ray = &r->ray[r->count];
-            struct vec2 on_lens;
             lens_sample(lens, &tables->jitter, job->camera, tile->x0 + i % width,
-                        tile->y0 + i / width, b->done + s, &ray->position, &on_lens);
-            ray->flags = 0;
-            ray->exists = camera_lens_ray(job->camera, &lens->place, ray->position.u,
-                                          ray->position.v, job->settings.width,
-                                          job->settings.height, on_lens, &ray->ray);
+                        tile->y0 + i / width, b->done + s, &r->position[r->count],
+                        &r->on_lens[r->count]);
             r->pixel[r->count++] = b;
         }
     }

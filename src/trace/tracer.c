@@ -1,5 +1,5 @@
-#include "trace/area.h"
 #include "trace/tracer.h"
+#include "trace/area.h"
 
 #include <stdlib.h>
 
@@ -8,9 +8,9 @@
 #include "trace/inside.h"
 #include "trace/media.h"
 #include "trace/mesh_samples.h"
+#include "trace/paint.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
-#include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/wave.h"
 
@@ -100,8 +100,23 @@ static void results(const struct tracer *t, uint32_t count, float (*out)[4])
     }
 }
 
+// What may be around the origins of rays.
+static struct objects_around around_rays(const struct tracer *t,
+                                         const struct tracer_ray *ray, uint32_t count)
+{
+    struct aabb box = aabb_empty();
+    for (uint32_t i = 0; i < count; i++)
+        if (ray[i].exists)
+            box = aabb_add(box, ray[i].ray.o);
+    return objects_around(t->job->world, box);
+}
+
 static void rays_run(struct tracer *t, const struct tracer_ray *ray, uint32_t count)
 {
+    const bool one_eye = camera_has_one_eye(t->job->camera);
+    struct objects_around around;
+    if (!one_eye)
+        around = around_rays(t, ray, count);
     begin(t, count);
     t->camera_queue.count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -118,9 +133,8 @@ static void rays_run(struct tracer *t, const struct tracer_ray *ray, uint32_t co
                            .flags = ray[i].flags,
                            .sample = i,
                            .hash = tracer_position_hash(ray[i].position)};
-        p->inside = camera_has_one_eye(t->job->camera)
-                        ? t->camera_inside
-                        : inside_at(t->arena, t->job->world, p->o);
+        p->inside = one_eye ? t->camera_inside
+                            : inside_among(t->arena, t->job->world, &around, p->o);
     }
     wave_run(t, &t->camera_queue);
 }
@@ -150,17 +164,36 @@ void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
 }
 
 static void samples_one_by_one(struct tracer *t, const struct vec2 *position,
-                               uint32_t count)
+                               const struct vec2 *on_lens, uint32_t count)
 {
     struct tracer_ray ray[BATCH_SIZE];
     const struct render_settings *s = &t->job->settings;
+    const struct camera *c = t->job->camera;
+    struct camera_lens lens;
+    if (on_lens)
+        lens = camera_lens_of(c);
     for (uint32_t i = 0; i < count; i++) {
-        ray[i].position = position[i];
+        const struct vec2 at = ray[i].position = position[i];
         ray[i].flags = 0;
-        ray[i].exists = camera_ray(t->job->camera, position[i].u, position[i].v, s->width,
-                                   s->height, &ray[i].ray);
+        ray[i].exists = on_lens
+                            ? camera_lens_ray(c, &lens, at.u, at.v, s->width, s->height,
+                                              on_lens[i], &ray[i].ray)
+                            : camera_ray(c, at.u, at.v, s->width, s->height, &ray[i].ray);
     }
     rays_run(t, ray, count);
+}
+
+// The interiors around the eyes of the rays that the camera's kernel made.
+static void eyes_look(struct tracer *t, uint32_t count)
+{
+    const struct ray_batch *b = t->rays;
+    struct aabb box = aabb_empty();
+    for (uint32_t i = 0; i < count; i++)
+        box = aabb_add(box, vec3(b->o[0][i], b->o[1][i], b->o[2][i]));
+    const struct objects_around around = objects_around(t->job->world, box);
+    for (uint32_t i = 0; i < count; i++)
+        t->eye_inside[i] = inside_among(t->arena, t->job->world, &around,
+                                        vec3(b->o[0][i], b->o[1][i], b->o[2][i]));
 }
 
 // The camera's rays are made and traced as if they were all; what they see is put where
@@ -177,23 +210,22 @@ static void run_with_gaps(struct tracer *t, const struct vec2 *position, uint32_
 }
 
 const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
-                                      uint32_t count)
+                                      const struct vec2 *on_lens, uint32_t count)
 {
     const struct job *job = t->job;
     if (job->quick_camera) {
         begin(t, count);
         uint16_t place[BATCH_SIZE];
-        const uint32_t made = job->kernels->camera(job, position, count, t->rays, place);
-        for (uint32_t i = 0; i < made && t->eye_inside; i++)
-            t->eye_inside[i] =
-                inside_at(t->arena, job->world,
-                          vec3(t->rays->o[0][i], t->rays->o[1][i], t->rays->o[2][i]));
+        const uint32_t made =
+            job->kernels->camera(job, position, on_lens, count, t->rays, place);
+        if (t->eye_inside)
+            eyes_look(t, made);
         if (made < count)
             run_with_gaps(t, position, count, place, made);
         else
             wave_run_camera(t, position, count);
     } else {
-        samples_one_by_one(t, position, count);
+        samples_one_by_one(t, position, on_lens, count);
     }
     return t->sum;
 }
@@ -207,7 +239,7 @@ void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t coun
     }
     for (uint32_t first = 0; first < count; first += BATCH_SIZE) {
         const uint32_t n = count - first < BATCH_SIZE ? count - first : BATCH_SIZE;
-        tracer_batch(t, position + first, n);
+        tracer_batch(t, position + first, NULL, n);
         results(t, n, out + first);
     }
 }

@@ -132,7 +132,7 @@ struct shadow_batch {
     uint8_t occluded[BATCH_SIZE];
     uint8_t photons[BATCH_SIZE]; // photons_instead
     uint8_t air[BATCH_SIZE];     // air_counts, of rays of simple surfaces
-    struct rgb *pass; // what transparent things and fog let through; NULL: all
+    struct rgb *pass;            // what transparent things and fog let through; NULL: all
 };
 
 // What a ray from elsewhere than the camera met first.
@@ -154,13 +154,13 @@ struct tracer {
     struct shadow_request *shadow;    // what waits for `rest`
     uint32_t shadow_count;
     uint32_t *shadow_order, *lamp_begin;
-    struct shadow_batch near;     // of few rays, or those to area lights
-    struct area_queue *area;      // trace/area.h; NULL: no area lights
+    struct shadow_batch near; // of few rays, or those to area lights
+    struct area_queue *area;  // trace/area.h; NULL: no area lights
     struct shadow_walk *walk; // shadow rays among transparent things
     struct ray_batch *walk_rays;
     struct hit_batch *walk_hit;
-    struct shadow_list *list; // trace/shadow_list.h; NULL: not for this scene
-    struct simple_group *group;                                 // BATCH_SIZE / 8 of them
+    struct shadow_list *list;   // trace/shadow_list.h; NULL: not for this scene
+    struct simple_group *group; // BATCH_SIZE / 8 of them
     uint16_t *class_head, *class_tail, *class_ray; // trace/simple.c
     struct hit_run *run;
     uint32_t run_count;
@@ -171,11 +171,11 @@ struct tracer {
     struct power_request *power;
     uint32_t power_count, power_capacity;
     struct photon_near *near_photons; // trace/photons.h; NULL: there are none
-    struct media_scratch *media; // trace/media.h; NULL: the scene has none
+    struct media_scratch *media;      // trace/media.h; NULL: the scene has none
     struct wave_frame *frame;
     struct path_queue camera_queue;
     struct inside_pushed last_push;
-    void *indirect;        // what light by way of others keeps for this tracer
+    void *indirect;          // what light by way of others keeps for this tracer
     struct first_hit *first; // by sample, of rays of level first_level; NULL: not wanted
     uint16_t first_level;
     struct arena *camera_arena;
@@ -189,7 +189,7 @@ struct tracer {
 struct tracer_ray {
     struct ray ray;
     struct vec2 position;
-    bool exists; // false: the camera sees nothing there
+    bool exists;   // false: the camera sees nothing there
     uint8_t flags; // path_flags
 };
 
@@ -210,9 +210,10 @@ void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
                   struct first_hit *first, float (*out)[4]);
 
 // The same for at most BATCH_SIZE where a sample is one ray (a camera without meshes), where
-// they stand until the next call.
+// they stand until the next call. on_lens: where each goes through the camera's lens, in scene
+// units off its centre; NULL: it has none.
 const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
-                                      uint32_t count);
+                                      const struct vec2 *on_lens, uint32_t count);
 
 // ---- between the parts of the tracer ------------------------------------
 // Adds what a hit sends towards the camera; rays that go on are appended to the wave's
@@ -248,7 +249,8 @@ void shadow_flush_simple(struct tracer *t, uint32_t count);
 // What passes of light that runs along the request's ray.
 struct rgb shadow_factor(struct tracer *t, const struct shadow_request *r);
 // The same of the rays to one lamp that stand in `near`.
-void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct rgb *out);
+void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count,
+                         struct rgb *out);
 // The same for at most BATCH_SIZE requests.
 void shadow_factors(struct tracer *t, const struct shadow_request *r, uint32_t count,
                     struct rgb *out);
