@@ -9,7 +9,7 @@
 #include "trace/tracer.h"
 
 static const double pi = 3.14159265358979323846;
-enum { EMITTER_RAYS = 16, MERGED_MOST = 2048 };
+enum { MERGED_MOST = 2048, EDGES_MOST = 4 * EMITTERS_MOST };
 
 // Whether Lambert's formula of the corners is exact for an element.
 static bool is_polygon(const struct element *e)
@@ -86,7 +86,7 @@ static bool merge_along(struct radiosity *r, bool along_v)
 // no ray is sent. With many emitters or objects something mostly can.
 static void find_shafts(struct radiosity *r)
 {
-    enum { TESTS_MOST = 128 };
+    enum { TESTS_MOST = 512 };
     const struct patches *p = r->patches;
     r->shafts = p->shaft && r->emitter_count * p->job->world->object_count <= TESTS_MOST;
     for (uint32_t i = 0; i < r->emitter_count && r->shafts; i++) {
@@ -98,7 +98,54 @@ static void find_shafts(struct radiosity *r)
     r->between = solver_alloc(p->element_count, sizeof *r->between);
     for (uint32_t k = 0; k < p->element_count; k++)
         for (uint32_t i = 0; i < r->emitter_count; i++)
-            r->between[k] |= shafts_hide(p, &p->shaft[k], &r->emitter[i].shaft);
+            r->between[k] |=
+                shafts_hide(p, &p->shaft[k], &r->emitter[i].shaft, ~r->between[k]);
+}
+
+// Edges of those that are polygons, for lanes.
+static void find_edges(struct radiosity *r)
+{
+    struct polygon_edges *edges = &r->edges;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->emitter_count; i++)
+        count += is_polygon(&r->emitter[i].e) ? r->emitter[i].e.corner_count : 0;
+    edges->count = (count + 7) & ~7u;
+    edges->a[0] = solver_alloc(6 * (size_t)edges->count, sizeof(double));
+    for (int k = 1; k < 6; k++)
+        *(k < 3 ? &edges->a[k] : &edges->b[k - 3]) = edges->a[0] + k * edges->count;
+    for (uint32_t i = 0, at = 0; i < r->emitter_count; i++) {
+        struct emitter *x = &r->emitter[i];
+        const uint32_t n = x->e.corner_count;
+        x->first_edge = at;
+        for (uint32_t c = 0; c < n && is_polygon(&x->e); c++, at++)
+            for (int k = 0; k < 3; k++) {
+                edges->a[k][at] = vec3_axis(x->e.corner[c], k);
+                edges->b[k][at] = vec3_axis(x->e.corner[c + 1 == n ? 0 : c + 1], k);
+            }
+    }
+}
+
+// Charts of those whose points are easily found; r->flat: all are such.
+static void find_flat(struct radiosity *r)
+{
+    const struct patches *p = r->patches;
+    r->flat = true;
+    for (uint32_t i = 0; i < r->emitter_count; i++) {
+        struct emitter *x = &r->emitter[i];
+        const struct chart *c = &p->chart[x->at.chart];
+        const struct transform *t = p->job->world->leaf[c->leaf].transform;
+        x->colour = rgb_scale(1 / rgb_max(x->e.emission), x->e.emission);
+        x->flat = (struct flat_emitter){.o = transform_point(t, c->o),
+                                        .a = transform_vector(t, c->a),
+                                        .b = transform_vector(t, c->b),
+                                        .n = x->e.normal,
+                                        .u = x->at.u,
+                                        .du = x->at.du,
+                                        .v = x->at.v,
+                                        .dv = x->at.dv,
+                                        .triangle = c->kind == CHART_TRIANGLE};
+        r->flat &= !x->e.partial && (c->kind == CHART_FLAT || c->kind == CHART_TRIANGLE);
+    }
 }
 
 void emitters_find(struct radiosity *r)
@@ -122,14 +169,18 @@ void emitters_find(struct radiosity *r)
     if (r->emitter_count > EMITTERS_MOST)
         r->emitter_count = 0;
     find_shafts(r);
+    find_edges(r);
+    find_flat(r);
 }
 
 // ---- their light -------------------------------------------------------------------
 // What a tracer keeps: looks at emitters, all at once.
 struct looks {
     struct ray_batch *rays;
-    const struct emitter *of[EMITTER_RAYS];
-    double weight[EMITTER_RAYS];
+    struct emitter_aims aims;
+    const struct emitter *drawn[EMITTER_RAYS]; // what is aimed at
+    const struct emitter *of[EMITTER_RAYS];    // what the rays go to
+    double weight[EMITTER_RAYS];               // of the rays
 };
 
 void *emitters_begin(const void *data)
@@ -147,17 +198,6 @@ void emitters_end(void *state)
     struct looks *l = state;
     ray_batch_free(l->rays);
     free(l);
-}
-
-static void look_at(struct looks *l, struct vec3 o, struct vec3 to,
-                    const struct emitter *of, double weight)
-{
-    const uint32_t i = l->rays->count;
-    l->of[i] = of;
-    l->weight[i] = weight;
-    // Ends short of the emitter, which is no obstacle to itself.
-    ray_put_from(l->rays, o, vec3_sub(to, o), 1 - 1e-4);
-    l->rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
 }
 
 // Point k of Sobol's first EMITTER_RAYS in two dimensions, moved by a digital shift: as
@@ -210,13 +250,16 @@ static double drawn_by(const struct emitter *x, struct vec3 o, struct vec3 n)
 static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3 n,
                            double *up_to)
 {
-    double sum = 0, polygons = 0;
+    double sum = 0, polygons = 0, term[EDGES_MOST], height[EDGES_MOST];
+    r->patches->sight->edges(&r->edges, o, n, term, height);
     for (uint32_t i = 0; i < r->emitter_count; i++) {
-        const struct element *x = &r->emitter[i].e;
-        const bool polygon = is_polygon(x);
-        const double given = polygon ? lambert_polygon(o, n, x->corner, x->corner_count)
-                                     : drawn_by(&r->emitter[i], o, n);
-        const double c = given * (double)rgb_max(x->emission);
+        const struct emitter *x = &r->emitter[i];
+        const bool polygon = is_polygon(&x->e);
+        const double given =
+            polygon ? lambert_of_edges(o, n, x->e.corner, x->e.corner_count,
+                                       term + x->first_edge, height + x->first_edge)
+                    : drawn_by(x, o, n);
+        const double c = given * (double)rgb_max(x->e.emission);
         sum += c;
         polygons += polygon ? c : 0;
         up_to[i] = sum;
@@ -224,31 +267,95 @@ static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3
     return polygons;
 }
 
-// The same with its colour, of polygons, where nothing can hide any of it. False: it may.
-static bool all_open(const struct radiosity *r, uint32_t element, struct vec3 o,
-                     const double *up_to, struct rgb *light)
+// The objects (bits) that may hide any of it.
+static uint64_t in_between(const struct radiosity *r, uint32_t element, struct vec3 o,
+                           const double *up_to)
 {
     const struct patches *p = r->patches;
     struct shaft at = {.centre = o};
     double before = 0;
-    *light = rgb(0, 0, 0);
-    if (!r->shafts)
-        return false;
-    uint64_t some = shafts_all(p);
+    uint64_t some = UINT64_MAX, found = 0;
     if (element != ELEMENT_NONE && shaft_holds(&p->shaft[element], o)) {
         at.hollow = p->shaft[element].hollow;
         some = r->between[element];
     }
-    for (uint32_t i = 0; i < r->emitter_count; before = up_to[i++]) {
-        const struct rgb e = r->emitter[i].e.emission;
-        if (up_to[i] <= before)
+    for (uint32_t i = 0; i < r->emitter_count && some & ~found; before = up_to[i++])
+        if (up_to[i] > before)
+            found |= shafts_hide(p, &at, &r->emitter[i].shaft, some & ~found);
+    return found;
+}
+
+// All of it with its colour, where nothing hides any.
+static struct rgb all_open(const struct radiosity *r, const double *up_to)
+{
+    struct rgb light = {0, 0, 0};
+    double before = 0;
+    for (uint32_t i = 0; i < r->emitter_count; before = up_to[i++])
+        light =
+            rgb_add(light, rgb_scale((float)(up_to[i] - before), r->emitter[i].colour));
+    return light;
+}
+
+// Draws emitters by what they give, and points of them.
+static void draw(const struct radiosity *r, struct tracer *t, struct looks *l,
+                 const double *up_to, uint32_t hash)
+{
+    const double sum = up_to[r->emitter_count - 1];
+    struct emitter_aims *x = &l->aims;
+    const struct element_point here = {x->o, x->n, 0};
+    double s[4];
+    random_point(0, hash, s);
+    const uint32_t shift[2] = {sequence_seed(hash, 1), sequence_seed(hash, 2)};
+    for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
+        const double at = (k + s[0]) / EMITTER_RAYS * sum;
+        while (i + 1 < r->emitter_count && up_to[i] <= at)
+            i++;
+        l->drawn[k] = &r->emitter[i];
+        if (r->flat) {
+            double uv[2];
+            net_point(k, shift, uv);
+            x->u[k] = uv[0];
+            x->v[k] = uv[1];
+            x->of[k] = &l->drawn[k]->flat;
             continue;
-        if (shafts_may_hide(p, &at, &r->emitter[i].shaft, some))
-            return false;
-        const double given = (up_to[i] - before) / (double)rgb_max(e);
-        *light = rgb_add(*light, rgb_scale((float)given, e));
+        }
+        struct element_point to;
+        x->kernel[k] = 0;
+        if (!emitter_point(r, t, l->drawn[k], k, shift, &to))
+            continue;
+        x->kernel[k] = point_kernel(&here, &to);
+        x->d[0][k] = to.p.x - x->o.x;
+        x->d[1][k] = to.p.y - x->o.y;
+        x->d[2][k] = to.p.z - x->o.z;
     }
-    return true;
+    if (r->flat)
+        r->patches->sight->aim(x);
+}
+
+// Rays to the points drawn that give anything. Returns the weight of those on polygons.
+static double put_looks(const struct radiosity *r, struct looks *l, const double *up_to)
+{
+    // Of a point relative to the mean: nearer than an element's size it has no bound.
+    static const double weight_most = 8;
+    const struct emitter_aims *x = &l->aims;
+    double all = 0;
+    l->rays->count = 0;
+    for (uint32_t k = 0; k < EMITTER_RAYS; k++) {
+        const struct emitter *e = l->drawn[k];
+        const ptrdiff_t i = e - r->emitter;
+        const double share = up_to[i] - (i ? up_to[i - 1] : 0);
+        const double given = x->kernel[k] * e->e.area * (double)rgb_max(e->e.emission);
+        if (!(given > 0))
+            continue;
+        const double weight = given < weight_most * share ? given / share : weight_most;
+        all += is_polygon(&e->e) ? weight : 0;
+        l->of[l->rays->count] = e;
+        l->weight[l->rays->count] = weight;
+        // Ends short of the emitter, which is no obstacle to itself.
+        ray_put_from(l->rays, x->o, vec3(x->d[0][k], x->d[1][k], x->d[2][k]), 1 - 1e-4);
+        l->rays->hidden_by[l->rays->count - 1] = OBJECT_NO_RADIOSITY;
+    }
+    return all;
 }
 
 // Irradiance of the emitting elements at a point: shadow rays to points of their true
@@ -257,45 +364,30 @@ static bool all_open(const struct radiosity *r, uint32_t element, struct vec3 o,
 struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer *t,
                           struct vec3 o, struct vec3 n, uint32_t element, uint32_t hash)
 {
-    // Of a point relative to the mean: nearer than an element's size it has no bound.
-    static const double weight_most = 8;
-    double up_to[EMITTERS_MOST], s[4], all = 0;
+    double up_to[EMITTERS_MOST];
     const double polygons = emitters_sum(r, o, n, up_to);
     const double sum = r->emitter_count ? up_to[r->emitter_count - 1] : 0;
-    const struct element_point here = {o, n, 0};
     struct rgb open = {0, 0, 0}, other = {0, 0, 0};
     uint8_t hidden[EMITTER_RAYS];
-    if (sum <= 0 || all_open(r, element, o, up_to, &open))
-        return open;
-    open = rgb(0, 0, 0);
     struct looks *const l = state;
-    random_point(0, hash, s);
-    const uint32_t shift[2] = {sequence_seed(hash, 1), sequence_seed(hash, 2)};
-    l->rays->count = 0;
-    for (uint32_t k = 0, i = 0; k < EMITTER_RAYS; k++) {
-        const double at = (k + s[0]) / EMITTER_RAYS * sum;
-        while (i + 1 < r->emitter_count && up_to[i] <= at)
-            i++;
-        const struct element *e = &r->emitter[i].e;
-        struct element_point to;
-        if (!emitter_point(r, t, &r->emitter[i], k, shift, &to))
-            continue;
-        const double share = up_to[i] - (i ? up_to[i - 1] : 0);
-        const double most = rgb_max(e->emission);
-        const double weight =
-            fmin(point_kernel(&here, &to) * e->area * most / share, weight_most);
-        all += is_polygon(e) ? weight : 0;
-        if (weight > 0)
-            look_at(l, o, to.p, &r->emitter[i], weight);
-    }
-    trace_occluded(t->job->world, t->scratch, l->rays, hidden);
+    if (sum <= 0)
+        return open;
+    const uint64_t some = r->shafts ? in_between(r, element, o, up_to) : 0;
+    if (r->shafts && !some)
+        return all_open(r, up_to);
+    l->aims.o = o;
+    l->aims.n = n;
+    draw(r, t, l, up_to, hash);
+    const double all = put_looks(r, l, up_to);
+    if (r->shafts)
+        trace_occluded_by(t->job->world, t->scratch, l->rays, some, hidden);
+    else
+        trace_occluded(t->job->world, t->scratch, l->rays, hidden);
     for (uint32_t k = 0; k < l->rays->count; k++) {
-        const struct element *e = &l->of[k]->e;
         if (hidden[k])
             continue;
-        struct rgb *into = is_polygon(e) ? &open : &other;
-        const double most = rgb_max(e->emission);
-        *into = rgb_add(*into, rgb_scale((float)(l->weight[k] / most), e->emission));
+        struct rgb *into = is_polygon(&l->of[k]->e) ? &open : &other;
+        *into = rgb_add(*into, rgb_scale((float)l->weight[k], l->of[k]->colour));
     }
     open = rgb_scale(all > 0 ? (float)(polygons / all) : 0, open);
     return rgb_add(open, rgb_scale((float)(sum / EMITTER_RAYS), other));

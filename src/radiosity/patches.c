@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "math/isa.h"
 #include "radiosity/polygon.h"
+#include "trace/accel.h"
+#include "trace/packet.h"
 #include "trace/tracer.h"
 
 const struct patch_settings patch_defaults = {.count = 8000, .samples = 3, .depth = 2};
@@ -370,6 +373,7 @@ static struct patches *with_charts(const struct job *job, const struct patch_set
         abort();
     p->job = job;
     p->settings = *s;
+    p->sight = ISA_NAMED(job->world->accel->kernels->name, sight_kernels);
     if (p->settings.samples < 1)
         p->settings.samples = 1;
     charts_build(p);

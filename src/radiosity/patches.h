@@ -4,6 +4,7 @@
 #include "base/watch.h"
 #include "radiosity/chart.h"
 #include "radiosity/enclosure.h"
+#include "radiosity/sight_kernel.h"
 #include "trace/job.h"
 
 struct interaction;
@@ -42,14 +43,6 @@ struct anchor {
     struct vec3 o[2], n[2];
 };
 
-// The box of an element, and the objects (bits) that cannot hide anything from it
-// within their hollow.
-enum { SHAFT_OBJECTS = 64 };
-struct shaft {
-    struct vec3 centre, half;
-    uint64_t hollow;
-};
-
 struct patches {
     const struct job *job;
     struct patch_settings settings;
@@ -66,8 +59,10 @@ struct patches {
     uint32_t element_count, element_capacity;
     uint32_t *room; // objects in which light can be
     uint32_t room_count;
-    struct shaft *shaft;    // NULL: too many objects
-    double size;            // of cells
+    const struct sight_kernels *sight;
+    struct shaft *shaft;      // NULL: too many objects
+    struct shaft_boxes boxes; // of the objects, where there are shafts
+    double size;              // of cells
     struct vec3 around[12]; // corners of all objects, and where rays of the camera start
     uint32_t around_count;  // 0: not known
     struct enclosure enclosure;
@@ -143,13 +138,9 @@ bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b);
 // The same for what is no element of the list; not beyond SHAFT_OBJECTS objects.
 struct shaft patches_shaft(const struct patches *p, const struct element *e,
                            const struct cell *c);
-// Whether one of `some` objects (bits) may hide part of one from the other.
-bool shafts_may_hide(const struct patches *p, const struct shaft *a,
-                     const struct shaft *b, uint64_t some);
-// The objects that may.
+// Which of `some` objects (bits) may hide part of one from the other.
 uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
-                     const struct shaft *b);
-uint64_t shafts_all(const struct patches *p);
+                     const struct shaft *b, uint64_t some);
 // Whether a point lies in the box, up to rounding.
 bool shaft_holds(const struct shaft *s, struct vec3 at);
 // Drops elements that no light can reach on its way to the camera.

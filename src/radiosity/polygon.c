@@ -33,6 +33,14 @@ static uint32_t clip_horizon(struct vec3 p, struct vec3 n, const struct vec3 *co
     return used;
 }
 
+// Seen from the front, corners that are counter-clockwise about the polygon's normal, which
+// faces us, go clockwise about ours.
+static double factor_of_sum(double sum)
+{
+    sum /= -2 * pi;
+    return sum > 0 ? (sum < 1 ? sum : 1) : 0;
+}
+
 double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
                        uint32_t count)
 {
@@ -46,10 +54,21 @@ double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
         if (sine > 0)
             sum += quick_atan2(sine, vec3_dot(a, b)) * (vec3_dot(c, n) / sine);
     }
-    // Seen from the front, corners that are counter-clockwise about the polygon's
-    // normal, which faces us, go clockwise about ours.
-    sum /= -2 * pi;
-    return sum > 0 ? (sum < 1 ? sum : 1) : 0;
+    return factor_of_sum(sum);
+}
+
+double lambert_of_edges(struct vec3 p, struct vec3 n, const struct vec3 *corner,
+                        uint32_t count, const double *term, const double *height)
+{
+    double sum = 0;
+    uint32_t risen = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += term[i];
+        risen += height[i] >= 0;
+    }
+    return risen == count ? factor_of_sum(sum)
+           : risen        ? lambert_polygon(p, n, corner, count)
+                          : 0;
 }
 
 // Zeros of the Legendre polynomials and their weights, moved to [0, 1].

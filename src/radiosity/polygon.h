@@ -9,6 +9,10 @@
 // counter-clockwise about the polygon's normal; it need not be planar.
 double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
                        uint32_t count);
+// The same where sight_kernels.edges has found the terms of the sum and the heights of
+// the corners.
+double lambert_of_edges(struct vec3 p, struct vec3 n, const struct vec3 *corner,
+                        uint32_t count, const double *term, const double *height);
 
 enum { GAUSS_MAX = 8 };
 // Nodes and weights of Gauss-Legendre quadrature on [0, 1], 1 <= k <= GAUSS_MAX.

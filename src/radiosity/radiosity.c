@@ -246,6 +246,7 @@ void radiosity_free(struct radiosity *r)
     radiosity_level_free(r);
     free(r->emitter);
     free(r->between);
+    free(r->edges.a[0]);
     free(r->shown);
     free(r);
 }

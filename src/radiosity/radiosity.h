@@ -41,8 +41,11 @@ struct emitter {
     struct element e;
     struct cell at;
     int side;
-    double radius;      // of an element by itself
-    struct shaft shaft; // where radiosity.shafts
+    double radius;            // of an element by itself
+    struct rgb colour;        // of its light: the greatest is 1
+    struct shaft shaft;       // where radiosity.shafts
+    struct flat_emitter flat; // where radiosity.flat
+    uint32_t first_edge;      // of radiosity.edges, of a polygon
 };
 
 struct radiosity {
@@ -53,7 +56,9 @@ struct radiosity {
     struct radiosity_report report;
     struct emitter *emitter; // whose light is found per pixel
     uint32_t emitter_count;
-    bool shafts;        // theirs are known
+    struct polygon_edges edges; // theirs
+    bool flat;                  // all of them are, and whole
+    bool shafts;                // theirs are known
     uint64_t *between;  // then: the objects (bits) that may hide one from an element
     double (*shown)[3]; // irradiance for the picture, without what emitters give it
     uint64_t key;       // of the scene as elements and lamps see it

@@ -79,10 +79,25 @@ static void shafts(void *user, void *state, uint32_t begin, uint32_t end)
         p->shaft[i] = patches_shaft(p, &p->element[i], &p->cell[p->element_cell[i] / 2]);
 }
 
+static void find_boxes(struct patches *p)
+{
+    const struct world *w = p->job->world;
+    p->boxes = (struct shaft_boxes){.solid = 0};
+    for (uint32_t i = 0; i < w->object_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            p->boxes.low[k][i] = vec3_axis(w->object[i].bounds.min, k);
+            p->boxes.high[k][i] = vec3_axis(w->object[i].bounds.max, k);
+        }
+        if (!(w->object[i].flags & OBJECT_NO_RADIOSITY))
+            p->boxes.solid |= (uint64_t)1 << i;
+    }
+}
+
 void patches_shafts(struct patches *p)
 {
     if (p->job->world->object_count > SHAFT_OBJECTS)
         return;
+    find_boxes(p);
     p->shaft = calloc(p->element_count + 1, sizeof *p->shaft);
     if (!p->shaft)
         abort();
@@ -94,82 +109,15 @@ void patches_shafts(struct patches *p)
     parallel_run(&run, p->element_count);
 }
 
-// Of numbers that are none but numbers: fmin and fmax are calls.
-static double smaller(double a, double b) { return a < b ? a : b; }
-static double greater(double a, double b) { return a > b ? a : b; }
-
-// Cuts [t0, t1] down to where a + t (b - a) < 0, to nothing or less where another cut
-// left none of it; false: that is nowhere in 0 to 1.
-static bool clip(double a, double b, double *t0, double *t1)
-{
-    if (a >= 0 && b >= 0)
-        return false;
-    if (a >= 0)
-        *t0 = greater(*t0, a / (a - b));
-    else if (b >= 0)
-        *t1 = smaller(*t1, a / (a - b));
-    return true;
-}
-
-// Whether the box between the boxes of both elements, moved from one to the other, runs
-// into the object's: it holds every way from one to the other.
-static bool sweeps_into(const struct shaft *a, const struct shaft *b,
-                        const struct aabb *o)
-{
-    double t0 = 0, t1 = 1;
-    for (int k = 0; k < 3; k++) {
-        const double ca = vec3_axis(a->centre, k), cb = vec3_axis(b->centre, k);
-        const double ha = vec3_axis(a->half, k), hb = vec3_axis(b->half, k);
-        const double low = vec3_axis(o->min, k), high = vec3_axis(o->max, k);
-        // Bounds are padded; what only touches, all the way, does not hide.
-        const double pad = 1e-9 * (fabs(low) + fabs(high) + fabs(ca) + fabs(cb));
-        double k0 = 0, k1 = 1;
-        if (!clip(ca - ha - high + pad, cb - hb - high + pad, &k0, &k1) ||
-            !clip(low + pad - ca - ha, low + pad - cb - hb, &k0, &k1))
-            return false;
-        // Nothing flat goes through something flat but at one time.
-        t0 = greater(t0, smaller(k0, k1));
-        t1 = smaller(t1, greater(k0, k1));
-        if (t0 > t1)
-            return false;
-    }
-    return true;
-}
-
-static bool may_hide(const struct world *w, uint32_t object, const struct shaft *a,
-                     const struct shaft *b)
-{
-    const struct world_object *o = &w->object[object];
-    return !((a->hollow & b->hollow) >> object & 1) &&
-           !(o->flags & OBJECT_NO_RADIOSITY) && sweeps_into(a, b, &o->bounds);
-}
-
-bool shafts_may_hide(const struct patches *p, const struct shaft *a,
+uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
                      const struct shaft *b, uint64_t some)
 {
-    for (; some; some &= some - 1)
-        if (may_hide(p->job->world, (uint32_t)__builtin_ctzll(some), a, b))
-            return true;
-    return false;
-}
-
-uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
-                     const struct shaft *b)
-{
-    uint64_t found = 0;
-    for (uint32_t o = 0; o < p->job->world->object_count; o++)
-        found |= (uint64_t)may_hide(p->job->world, o, a, b) << o;
-    return found;
-}
-
-uint64_t shafts_all(const struct patches *p)
-{
-    return UINT64_MAX >> (SHAFT_OBJECTS - p->job->world->object_count);
+    return p->sight->between(&p->boxes, a, b, some & ~(a->hollow & b->hollow));
 }
 
 bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
 {
-    return !p->shaft || shafts_may_hide(p, &p->shaft[a], &p->shaft[b], shafts_all(p));
+    return !p->shaft || shafts_hide(p, &p->shaft[a], &p->shaft[b], UINT64_MAX);
 }
 
 bool shaft_holds(const struct shaft *s, struct vec3 at)

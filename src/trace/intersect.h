@@ -64,6 +64,10 @@ void trace_occluded(const struct world *w, struct trace_scratch *s,
                     const struct ray_batch *rays, uint8_t *out);
 bool trace_occluded_1(const struct world *w, struct trace_scratch *s,
                       const struct ray_query *q);
+// As trace_occluded, by those of the first 64 objects alone that are `some` (bits): where
+// it is known that no other one can lie on the rays.
+void trace_occluded_by(const struct world *w, struct trace_scratch *s,
+                       const struct ray_batch *rays, uint64_t some, uint8_t *out);
 
 // Every top-level object (world_object index) that contains p; returns the count.
 uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object,

@@ -132,5 +132,11 @@ void trace_closest(const struct world *w, struct trace_scratch *s,
 void trace_occluded(const struct world *w, struct trace_scratch *s,
                     const struct ray_batch *rays, uint8_t *out)
 {
-    w->accel->kernels->occluded(w->dark, s, rays, out);
+    w->accel->kernels->occluded(w->dark, s, rays, NULL, out);
+}
+
+void trace_occluded_by(const struct world *w, struct trace_scratch *s,
+                       const struct ray_batch *rays, uint64_t some, uint8_t *out)
+{
+    w->accel->kernels->occluded(w->dark, s, rays, &some, out);
 }

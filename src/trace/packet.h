@@ -98,11 +98,11 @@ bool packet_lists_crossings(const struct world *w);
 // What is compiled once per instruction set.
 struct packet_kernels {
     const char *name;
-    // trace_closest and trace_occluded.
+    // trace_closest, trace_occluded and, where `some` is given, trace_occluded_by.
     void (*hits)(const struct world *w, struct trace_scratch *s,
                  const struct ray_batch *rays, const struct hit_batch *out);
     void (*occluded)(const struct world *w, struct trace_scratch *s,
-                     const struct ray_batch *rays, uint8_t *out);
+                     const struct ray_batch *rays, const uint64_t *some, uint8_t *out);
     // What the lanes of eight rays from `first` on cross, in a world of packet_lists_crossings.
     // Each surface is the nearest (trace_closest) of a ray that goes on from the last.
     void (*crossings)(const struct world *w, struct trace_scratch *s,

@@ -236,6 +236,13 @@ static void find(struct eight *e, struct packet *p)
         traverse(e, lanes);
 }
 
+// The same for whether there is any hit, of some objects alone.
+static void find_some(struct eight *e, struct packet *p, uint64_t some)
+{
+    for (; some && p->alive; some &= some - 1)
+        p->alive &= ~try_eight(e, p->alive, (uint32_t)__builtin_ctzll(some));
+}
+
 // Eight rays of the batch, from `first` on.
 static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
                   uint32_t first, unsigned lanes)
@@ -322,7 +329,8 @@ static void trace_closest8(const struct world *w, struct trace_scratch *s,
 }
 
 static void trace_occluded8(const struct world *w, struct trace_scratch *s,
-                            const struct ray_batch *rays, uint8_t *out)
+                            const struct ray_batch *rays, const uint64_t *some,
+                            uint8_t *out)
 {
     struct packet p;
     struct rest x;
@@ -340,7 +348,9 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
             begin(&e, &p, rest_of(&x, rays, i), 0, (1u << n) - 1);
         if (blocker != UINT32_MAX)
             p.alive &= ~try_eight(&e, p.alive, blocker);
-        if (p.alive)
+        if (some)
+            find_some(&e, &p, *some);
+        else if (p.alive)
             find(&e, &p);
         bool all = true;
         for (uint32_t k = 0; k < n; k++) {
@@ -370,7 +380,8 @@ static void crossings(const struct world *w, struct trace_scratch *s,
 static bool carve(struct search *f, uint32_t object, struct boundary *out, bool *unsure)
 {
     const struct ray *q = &f->q->ray;
-    double number[8] = {q->o.x, q->o.y, q->o.z, q->d.x, q->d.y, q->d.z, q->t_min, q->t_max};
+    double number[8] = {q->o.x, q->o.y, q->o.z,   q->d.x,
+                        q->d.y, q->d.z, q->t_min, q->t_max};
     unsigned hidden_by = 0;
     const struct ray_batch one = {.count = 1,
                                   .capacity = 1,
