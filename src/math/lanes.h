@@ -487,6 +487,19 @@ LANES_INLINE void u8_put(uint32_t p[8], unsigned bits, uint32_t v)
 #endif
 }
 
+// x in the lanes of `bits`; all eight are written, so that they can be read at once.
+LANES_INLINE void f8_put(float p[8], unsigned bits, struct float8 x)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    _mm256_storeu_ps(p, _mm256_mask_blend_ps((__mmask8)bits, _mm256_loadu_ps(p), x.a));
+#else
+    float v[8];
+    f8_store(v, x);
+    for (; bits; bits &= bits - 1)
+        p[__builtin_ctz(bits)] = v[__builtin_ctz(bits)];
+#endif
+}
+
 // b in the lanes of `bits` that are `second`, a in the others of `bits`.
 LANES_INLINE void b8_put(uint8_t p[8], unsigned bits, unsigned second, uint8_t a,
                          uint8_t b)

@@ -58,11 +58,11 @@ static unsigned try_item(struct eight *e, unsigned bits, uint32_t i)
 {
     struct packet *p = e->p;
     const struct accel *a = p->w->accel;
+    if (!(a->ball[3][i] > 0))
+        return try_eight(e, bits, a->top.item[i]);
     const struct sphere ball = {.centre =
                                     vec3(a->ball[0][i], a->ball[1][i], a->ball[2][i]),
                                 .radius = a->ball[3][i]};
-    if (!(ball.radius > 0))
-        return try_eight(e, bits, a->top.item[i]);
     p->s->stats.leaf_tests++;
     const struct span8 x = span8_sphere(&ball, &e->ray);
     bits &= m8_bits(x.met);

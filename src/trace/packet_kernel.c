@@ -6,7 +6,7 @@
 #include "trace/packet_list.h"
 
 enum {
-    FEW = 2,         // lanes that go on one by one
+    FEW = 1,         // lanes that go on one by one
     SMALL_TREE = 16, // nodes up to which packets always pay
     TOGETHER = 4     // of the lanes at the root, how many a child must hold on average
 };
@@ -77,11 +77,15 @@ LANES_INLINE bool takes_some(const struct accel *a, int32_t child)
            (a->ball[3][first] > 0 || takes_one(a->object_shape[a->top.item[first]]));
 }
 
-static bool walk_packet(struct eight *e, int lane, uint32_t object)
+// boxed: the lane has just met the object's own box.
+static bool walk_packet(struct eight *e, int lane, uint32_t object, bool boxed)
 {
     struct packet *p = e->p;
     packet_lane_end(p, lane);
-    if (!try_eight(e, 1u << lane, object))
+    e->boxed = boxed;
+    const bool won = try_eight(e, 1u << lane, object);
+    e->boxed = false;
+    if (!won)
         return false;
     packet_lane_begin(p, lane);
     return true;
@@ -104,7 +108,7 @@ static bool walk_leaf(struct search *f, const struct ray8 *ray, uint32_t first,
         if (a->ball[3][i] > 0)
             continue;
         if (e && takes_one(a->object_shape[object]))
-            found |= walk_packet(e, lane, object);
+            found |= walk_packet(e, lane, object, count == 1);
         else
             found |= search_try_object(f, object);
     }

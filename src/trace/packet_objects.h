@@ -327,8 +327,8 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
 {
     const uint32_t first_leaf = e->p->w->object[object].first_leaf;
     const unsigned won = found ? take(e, found, t, object, first_leaf) : 0;
-    if (!won)
-        return 0;
+    if (!won || e->p->mode != SWEEP_CLOSEST)
+        return won;
     double which[8];
     r8_store(which, at);
     for (unsigned m = won; m; m &= m - 1) {

@@ -159,7 +159,7 @@ LANES_INLINE unsigned node_children(const struct bvh8_node *n)
 }
 
 LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct tree8 *v,
-                                  float near_t[8])
+                                  bool mixed, float near_t[8])
 {
     struct float8 near = f8_set(0), far = v->far;
 #pragma GCC unroll 3
@@ -168,8 +168,8 @@ LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct
             f8_mul(f8_sub(f8_set(n->box[a + v->negative[a]][k]), v->o[a]), v->inverse[a]);
         const struct float8 q = f8_mul(
             f8_sub(f8_set(n->box[a + 3 - v->negative[a]][k]), v->o[a]), v->inverse[a]);
-        near = f8_max(v->mixed ? f8_min(p, q) : p, near);
-        far = f8_min(v->mixed ? f8_max(p, q) : q, far);
+        near = f8_max(mixed ? f8_min(p, q) : p, near);
+        far = f8_min(mixed ? f8_max(p, q) : q, far);
     }
     far = f8_mul(far, f8_set(BVH8_SLACK));
     const unsigned bits = f8_le(near, far);
@@ -178,17 +178,15 @@ LANES_INLINE unsigned child_meets(const struct bvh8_node *n, int k, const struct
     return bits;
 }
 
-// As push_children; *met_lanes grows by the lanes of the children met. any: in any order.
-LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tree8 *v,
-                                     struct packet_entry *stack, uint32_t depth, bool any,
-                                     uint32_t *met_lanes)
+LANES_INLINE uint32_t push_some8(const struct bvh8_node *n, unsigned some, bool mixed,
+                                 const struct tree8 *v, struct packet_entry *stack,
+                                 uint32_t depth, bool any, uint32_t *met_lanes)
 {
     const uint32_t base = depth;
-    unsigned some = v->mixed ? node_children(n) : node_candidates(n, v);
     for (; some; some &= some - 1) {
         const int k = __builtin_ctz(some);
         struct packet_entry *top = &stack[depth];
-        const unsigned met = child_meets(n, k, v, top->near);
+        const unsigned met = child_meets(n, k, v, mixed, top->near);
         if (!met)
             continue;
         *met_lanes += (uint32_t)__builtin_popcount(met);
@@ -205,6 +203,16 @@ LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tre
         stack[at] = moved;
     }
     return depth;
+}
+
+// As push_children; *met_lanes grows by the lanes of the children met. any: in any order.
+LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tree8 *v,
+                                     struct packet_entry *stack, uint32_t depth, bool any,
+                                     uint32_t *met_lanes)
+{
+    if (v->mixed)
+        return push_some8(n, node_children(n), true, v, stack, depth, any, met_lanes);
+    return push_some8(n, node_candidates(n, v), false, v, stack, depth, any, met_lanes);
 }
 
 // As bvh8_ray_begin, for each of `lanes`; returns those that may meet the tree. inverse:
@@ -255,14 +263,21 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
 }
 
 // The lanes of `won` want nothing beyond t; if `any`, nothing at all.
-static inline void tree_limit(struct tree_lanes *l, unsigned won, const double t[8],
-                              bool any)
+LANES_INLINE void tree_limit(struct tree_lanes *l, unsigned won, const double t[8],
+                             bool any)
 {
-    for (; won; won &= won - 1) {
-        const int i = __builtin_ctz(won);
-        const double far = (t[i] - l->t_begin[i]) * l->scale[i];
-        l->t_far[i] = any ? -1 : far < 1e30 ? (float)far * BVH8_SLACK : 1e30f;
+    if (!won)
+        return;
+    if (any) {
+        f8_put(l->t_far, won, f8_set(-1));
+        return;
     }
+    float far[8];
+    r8_store_floats(
+        far, r8_min(r8_mul(r8_sub(r8_load(t), r8_load(l->t_begin)), r8_load(l->scale)),
+                    r8_set(1e30)));
+    f8_put(l->t_far, won,
+           f8_min(f8_mul(f8_load(far), f8_set(BVH8_SLACK)), f8_set(1e30f)));
 }
 
 #endif
