@@ -84,27 +84,36 @@ static float from_bits(uint32_t bits)
     return v;
 }
 
+static bool reaches(const struct image_write_options *o, double max, uint32_t bits, int i)
+{
+    return quantize(encode(o, (double)from_bits(bits)), max) >= i;
+}
+
 // The bits of the least float whose code is at least i > 0: bisection over bit patterns,
-// which are ordered like the positive numbers. It begins around the inverse of the
-// encoding, where that is as near as it should be.
+// which are ordered like the positive numbers. The inverse of the encoding mostly rounds to
+// that float or to one beside it.
 static uint32_t border_of(const struct image_write_options *o, double max, int i)
 {
-    enum { NEARLY = 8 };
     const double plain = (i - 0.5) / max;
     const bool same = o->unmanaged || transfer_equal(o->working, o->transfer);
     const uint32_t about = to_bits(
         (float)(same ? plain
                      : transfer_encode(o->working, transfer_decode(o->transfer, plain))));
     uint32_t lo = 0, hi = to_bits(1);
-    if (about > NEARLY && about < hi - NEARLY) {
-        if (quantize(encode(o, (double)from_bits(about - NEARLY)), max) < i)
-            lo = about - NEARLY;
-        if (quantize(encode(o, (double)from_bits(about + NEARLY)), max) >= i)
-            hi = about + NEARLY;
+    if (about > 1 && about < hi - 1) {
+        if (!reaches(o, max, about, i)) {
+            lo = about + 1;
+            if (reaches(o, max, lo, i))
+                return lo;
+        } else {
+            hi = about;
+            if (!reaches(o, max, about - 1, i))
+                return about;
+        }
     }
     while (lo < hi) {
         const uint32_t mid = lo + (hi - lo) / 2;
-        if (quantize(encode(o, (double)from_bits(mid)), max) >= i)
+        if (reaches(o, max, mid, i))
             hi = mid;
         else
             lo = mid + 1;
