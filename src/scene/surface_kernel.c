@@ -232,20 +232,32 @@ LANES_INLINE void store_small8(int32_t out[8], struct real8 x)
 #endif
 }
 
+// map_search at eight values: halving without branches, which would be hard to predict.
+LANES_INLINE struct real8 search8(const float *key, uint32_t count, struct real8 v)
+{
+    double value[8], found[8];
+    uint32_t first[8] = {0};
+    r8_store(value, v);
+    for (uint32_t left = count; left > 1; left -= left / 2)
+        for (int i = 0; i < 8; i++) {
+            const bool below = (double)key[first[i] + left / 2 - 1] < value[i];
+            first[i] += below ? left / 2 : 0;
+        }
+    for (int i = 0; i < 8; i++)
+        found[i] = first[i];
+    return r8_load(found);
+}
+
 // The numbers of the first keys that are not below the values, the last for all above.
 LANES_INLINE struct real8 ramp_find(const struct pigment_ramp *r, struct real8 v)
 {
     const struct real8 one = r8_set(1), last = r8_set(r->count - 1);
     struct real8 n = r8_set(0);
-    if (r->count > 32) {
-        double value[8], found[8];
-        r8_store(value, v);
-        for (int i = 0; i < 8; i++)
-            found[i] = map_search(r->key, r->count, value[i]);
-        return r8_load(found);
-    }
-    for (uint32_t i = 0; i + 1 < r->count; i++)
-        n = r8_add(n, r8_select(r8_lt(r8_set(r->key[i]), v), one, r8_set(0)));
+    if (r->count > 32)
+        n = search8(r->key, r->count, v);
+    else
+        for (uint32_t i = 0; i + 1 < r->count; i++)
+            n = r8_add(n, r8_select(r8_lt(r8_set(r->key[i]), v), one, r8_set(0)));
     return r8_select(r8_le(r8_set(r->key[r->count - 1]), v), last, n);
 }
 
