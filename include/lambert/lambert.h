@@ -29,6 +29,12 @@ enum lambert_status {
 
 LAMBERT_API const char *lambert_version(void);
 
+// Reading, building and rendering need a deep stack, and make a thread that has one each time
+// they are called. Within `fn`, which runs on such a thread while the caller's runs
+// `meanwhile` (NULL: it waits; not called when the system refuses the thread), they do not.
+LAMBERT_API void lambert_run_deep(void (*fn)(void *user), void (*meanwhile)(void *user),
+                                  void *user);
+
 // --- Contexts -------------------------------------------------------------
 
 struct lambert_context;

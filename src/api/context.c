@@ -2,6 +2,7 @@
 #include "api/context.h"
 
 #include "base/clock.h"
+#include "base/stack.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -57,10 +58,7 @@ enum lambert_status context_fail(struct lambert_context *ctx, enum lambert_statu
     return status;
 }
 
-double context_seconds(void)
-{
-    return clock_seconds(CLOCK_MONOTONIC);
-}
+double context_seconds(void) { return clock_seconds(CLOCK_MONOTONIC); }
 
 void lambert_set_message_function(struct lambert_context *ctx, lambert_message_fn fn,
                                   void *user)
@@ -79,6 +77,11 @@ void lambert_set_progress_function(struct lambert_context *ctx, lambert_progress
 enum lambert_phase lambert_progress_phase(const struct lambert_context *ctx)
 {
     return ctx->phase;
+}
+
+void lambert_run_deep(void (*fn)(void *user), void (*meanwhile)(void *user), void *user)
+{
+    stack_run_beside(fn, meanwhile, user);
 }
 
 void lambert_cancel(struct lambert_context *ctx) { ctx->cancel = true; }

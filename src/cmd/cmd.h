@@ -74,7 +74,6 @@ struct cmd {
     struct progress progress;
     struct command_place place; // what commands are told
     pthread_t watch;            // the thread that waits for signals
-    bool watched;
 };
 
 // Prints "lambert: ..." and returns the code, so that it can stand after `return`.

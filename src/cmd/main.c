@@ -44,16 +44,29 @@ static void on_message(void *user, const struct lambert_message *m)
     c->progress.mid_line = n && m->rendered[n - 1] != '\n';
 }
 
-// Waits for signals in a thread of its own, so that nothing global is needed. The
-// first stops after the tiles in hand, the second at once.
-static void *watch_signals(void *user)
+static sigset_t watched_signals(void)
 {
-    struct cmd *c = user;
     sigset_t set;
-    int signal;
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    return set;
+}
+
+// A command and what it returned.
+struct errand {
+    struct cmd *c;
+    int (*run)(struct cmd *c);
+    int code;
+};
+
+// Waits for signals while a thread of its own runs the command, so that nothing global is
+// needed. The first stops after the tiles in hand, the second at once.
+static void watch_signals(void *user)
+{
+    struct cmd *c = ((struct errand *)user)->c;
+    const sigset_t set = watched_signals();
+    int signal;
     while (sigwait(&set, &signal) == 0 && !c->finished) {
         if (c->stage == STAGE_READ) {
             progress_end(c);
@@ -65,28 +78,30 @@ static void *watch_signals(void *user)
         c->interrupted = true;
         lambert_cancel(c->ctx);
     }
-    return NULL;
 }
 
-static void start_watch(struct cmd *c)
+static void run_errand(void *user)
 {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &set, NULL);
-    c->watched = pthread_create(&c->watch, NULL, watch_signals, c) == 0;
-    if (!c->watched)
+    struct errand *e = user;
+    const bool watched = !pthread_equal(e->c->watch, pthread_self());
+    if (!watched) { // the system refused a thread
+        const sigset_t set = watched_signals();
         pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+    }
+    e->code = e->run(e->c);
+    e->c->finished = true;
+    if (watched) // the signal ends the watch
+        pthread_kill(e->c->watch, SIGTERM);
 }
 
-// Only when nobody looks at the context any more can it be freed. A signal ends the watch:
-// cancelling a thread would load the library that unwinds stacks.
-static void stop_watch(struct cmd *c)
+static int run_watched(struct cmd *c, int (*run)(struct cmd *c))
 {
-    c->finished = true;
-    if (c->watched && pthread_kill(c->watch, SIGTERM) == 0)
-        pthread_join(c->watch, NULL);
+    struct errand errand = {c, run, CMD_FAILED};
+    const sigset_t set = watched_signals();
+    c->watch = pthread_self();
+    pthread_sigmask(SIG_BLOCK, &set, NULL);
+    lambert_run_deep(run_errand, watch_signals, &errand);
+    return errand.code;
 }
 
 // What is already in the environment counts less than anything said on the line.
@@ -131,10 +146,8 @@ static const struct command {
     int (*run)(struct cmd *c);
     bool renders; // as POV-Ray would: its INI file counts
 } commands[] = {
-    {"render", cmd_render, true},
-    {"compare", cmd_compare, false},
-    {"check", cmd_check, true},
-    {"fmt", cmd_format, false},
+    {"render", cmd_render, true}, {"compare", cmd_compare, false},
+    {"check", cmd_check, true},   {"fmt", cmd_format, false},
     {"mesh", cmd_mesh, false},
 };
 
@@ -174,8 +187,7 @@ static int run(struct cmd *c, int argc, char **argv)
         code = streams_open(c);
     if (code)
         return code;
-    start_watch(c);
-    code = command->run(c);
+    code = run_watched(c, command->run);
     int closed = streams_close(c);
     return code ? code : closed;
 }
@@ -202,7 +214,6 @@ int main(int argc, char **argv)
         code = code ? code : cmd_fail(CMD_IO, "cannot write to standard output");
     if (!code && c.warnings && lambert_option_number(c.ctx, "werror"))
         code = CMD_FAILED;
-    stop_watch(&c);
     lambert_context_free(c.ctx);
     cmdline_free(&c);
     return code;

@@ -6,3 +6,7 @@ check_PROGRAMS += test_diag
 test_diag_SOURCES = %D%/test_diag.c
 test_diag_CPPFLAGS = $(test_cppflags)
 test_diag_LDADD = $(test_ldadd)
+check_PROGRAMS += test_stack
+test_stack_SOURCES = %D%/test_stack.c
+test_stack_CPPFLAGS = $(test_cppflags)
+test_stack_LDADD = $(test_ldadd)
