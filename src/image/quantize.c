@@ -67,8 +67,12 @@ struct quantizer {
     uint32_t *border;
     uint16_t *guess; // the code just below each bucket, the first and all before it
     uint32_t first;  // the bucket of border[1]
-    bool single;     // no bucket has two borders
+    // NULL where a bucket has two borders. Of the bucket before the first and of each from
+    // there: with the lower bits of a float added, its code above STEP_SHIFT bits.
+    uint32_t *step;
 };
+
+enum { STEP_SHIFT = 16 }; // above BUCKET_SHIFT
 
 static uint32_t to_bits(float v)
 {
@@ -121,6 +125,21 @@ static uint32_t border_of(const struct image_write_options *o, double max, int i
     return lo;
 }
 
+static bool fill_steps(struct quantizer *q, uint32_t buckets)
+{
+    q->step = malloc((buckets + 1) * sizeof *q->step);
+    if (!q->step)
+        return false;
+    q->step[0] = 0;
+    for (uint32_t b = 0; b < buckets; b++) {
+        const uint32_t begin = (q->first + b) << BUCKET_SHIFT, code = q->guess[b];
+        const uint32_t border = q->border[code + 1] - begin; // the last is far above
+        const uint32_t up = (uint32_t)1 << STEP_SHIFT;
+        q->step[b + 1] = (code << STEP_SHIFT) + (border < up ? up - border : 0);
+    }
+    return true;
+}
+
 static bool fill_table(struct quantizer *q, const struct image_write_options *o)
 {
     const int codes = 1 << o->bits;
@@ -136,7 +155,7 @@ static bool fill_table(struct quantizer *q, const struct image_write_options *o)
     q->guess = malloc(buckets * sizeof *q->guess);
     if (!q->guess)
         return false;
-    q->single = true;
+    bool single = true;
     int code = 0;
     for (uint32_t b = 0; b < buckets; b++) {
         q->guess[b] = (uint16_t)code;
@@ -144,9 +163,9 @@ static bool fill_table(struct quantizer *q, const struct image_write_options *o)
         const int before = code;
         while (q->border[code + 1] < end)
             code++;
-        q->single = q->single && code <= before + 1;
+        single = single && code <= before + 1;
     }
-    return true;
+    return !single || fill_steps(q, buckets);
 }
 
 struct quantizer *quantizer_new(const struct image_write_options *o, int width)
@@ -173,6 +192,7 @@ void quantizer_free(struct quantizer *q)
     dither_free(q->dither);
     free(q->border);
     free(q->guess);
+    free(q->step);
     free(q);
 }
 
@@ -190,12 +210,9 @@ static inline uint32_t bucket_of(const struct quantizer *q, uint32_t bits)
     return (bucket > q->first ? bucket : q->first) - q->first;
 }
 
-static inline unsigned code_in(const struct quantizer *q, uint32_t bits, uint32_t bucket,
-                               bool single)
+static inline unsigned code_in(const struct quantizer *q, uint32_t bits)
 {
-    unsigned code = q->guess[bucket];
-    if (single) // no branch: noise is hard to predict
-        return code + (bits >= q->border[code + 1]);
+    unsigned code = q->guess[bucket_of(q, bits)];
     while (bits >= q->border[code + 1])
         code++;
     return code;
@@ -212,7 +229,7 @@ static uint16_t code_of(const struct quantizer *q, const struct image_write_opti
         return quantize(encode(o, v), q->max);
     const float f = (float)v;
     const uint32_t bits = color_bits(f);
-    const unsigned code = code_in(q, bits, bucket_of(q, bits), false);
+    const unsigned code = code_in(q, bits);
     if ((double)f != v && (bits == q->border[code] || bits + 1 == q->border[code + 1]))
         return quantize(encode(o, v), q->max);
     return (uint16_t)code;
@@ -229,18 +246,33 @@ static uint16_t sample_code(const struct quantizer *q,
 }
 
 // The first three of each pixel's floats as they are. The part that the compiler can do in
-// lanes comes first.
-static inline uint16_t *plain_codes(const struct quantizer *q, const float *p, int count,
-                                    int channels, bool single, uint16_t *out)
+// lanes comes first, and there is no branch: noise is hard to predict.
+static inline uint16_t *stepped_codes(const struct quantizer *q, const float *p,
+                                      int count, int channels, uint16_t *out)
 {
-    uint32_t bits[PLAIN_FLOATS], bucket[PLAIN_FLOATS];
-    for (int i = 0; i < count; i++)
-        bits[i] = color_bits(p[i]);
-    for (int i = 0; i < count; i++)
-        bucket[i] = bucket_of(q, bits[i]);
+    const uint32_t before = (q->first << BUCKET_SHIFT) - 1;
+    const float least = from_bits(before);
+    const uint32_t *step = q->step;
+    const uint32_t first = before >> BUCKET_SHIFT, low = (1 << BUCKET_SHIFT) - 1;
+    uint32_t bucket[PLAIN_FLOATS], rest[PLAIN_FLOATS];
+    for (int i = 0; i < count; i++) {
+        float v = p[i] > least ? p[i] : least; // NaN too has the code 0
+        v = v < 1 ? v : 1;
+        bucket[i] = (to_bits(v) >> BUCKET_SHIFT) - first;
+        rest[i] = to_bits(v) & low;
+    }
     for (int i = 0; i < count; i += channels)
         for (int k = 0; k < 3; k++)
-            *out++ = (uint16_t)code_in(q, bits[i + k], bucket[i + k], single);
+            *out++ = (uint16_t)((step[bucket[i + k]] + rest[i + k]) >> STEP_SHIFT);
+    return out;
+}
+
+static uint16_t *plain_codes(const struct quantizer *q, const float *p, int count,
+                             int channels, uint16_t *out)
+{
+    for (int i = 0; i < count; i += channels)
+        for (int k = 0; k < 3; k++)
+            *out++ = (uint16_t)code_in(q, color_bits(p[i + k]));
     return out;
 }
 
@@ -251,8 +283,13 @@ static void plain_row(const struct quantizer *q, const struct image *im, int y,
     for (int x = 0; x < im->width; x += step) {
         const int n = im->width - x < step ? im->width - x : step;
         const float *p = image_at(im, x, y);
-        out = q->single ? plain_codes(q, p, n * im->channels, im->channels, true, out)
-                        : plain_codes(q, p, n * im->channels, im->channels, false, out);
+        const int channels = im->channels;
+        if (!q->step)
+            out = plain_codes(q, p, n * channels, channels, out);
+        else if (channels == 3)
+            out = stepped_codes(q, p, n * 3, 3, out);
+        else
+            out = stepped_codes(q, p, n * channels, channels, out);
     }
 }
 

@@ -17,13 +17,33 @@ static uint32_t morton_part(uint32_t code)
 
 static int least(int a, int b) { return a < b ? a : b; }
 
+// Rows are a counting sort: places of a row are in order already.
+static void sort_rows(const struct tile_place *place, uint32_t count, uint32_t *begin,
+                      int height, uint16_t *by_row)
+{
+    memset(begin, 0, ((size_t)height + 1) * sizeof *begin);
+    for (uint32_t k = 0; k < count; k++)
+        begin[place[k].y + 1]++;
+    for (int y = 1; y <= height; y++)
+        begin[y] += begin[y - 1];
+    for (uint32_t k = 0; k < count; k++)
+        by_row[begin[place[k].y]++] = (uint16_t)k;
+}
+
+static uint32_t batch_of(const struct tile_tables *t, uint32_t first)
+{
+    const uint32_t left = t->place_count - first;
+    return left < BATCH_SIZE ? left : BATCH_SIZE;
+}
+
 void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *job)
 {
     enum { BLOCK = 32 }; // of pixels in Morton order
     const struct render_settings *s = &job->settings;
     const int width = least(s->tile_size, s->col_end - s->col_begin);
     const int height = least(s->tile_size, s->row_end - s->row_begin);
-    jitter_tables_init(&t->jitter);
+    if (s->antialias || camera_has_lens(job->camera))
+        jitter_tables_init(&t->jitter);
     if (camera_has_lens(job->camera))
         lens_init(&t->lens, a, job->camera);
     t->place_count = 0;
@@ -41,6 +61,10 @@ void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *
             }
         }
     }
+    t->by_row = arena_new_array(a, uint16_t, t->place_count);
+    uint32_t *begin = arena_new_array(a, uint32_t, (size_t)height + 1);
+    for (uint32_t i = 0; i < t->place_count; i += BATCH_SIZE)
+        sort_rows(t->place + i, batch_of(t, i), begin, height, t->by_row + i);
 }
 
 // The color is red, green, blue and transparency.
@@ -64,15 +88,25 @@ struct plain_batch {
     float color[BATCH_SIZE][4]; // of cameras with several rays a sample
 };
 
+// by_row: the places in the order of their pixels; NULL: as they come.
+static inline void store_places(const struct tile *tile, const struct tile_place *place,
+                                const uint16_t *by_row, uint32_t count,
+                                const float *color, struct image *out)
+{
+    float *const corner = image_at(out, tile->x0, tile->y0);
+    const int width = out->width, channels = out->channels;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t k = by_row ? by_row[i] : i;
+        const struct tile_place p = place[k];
+        store(out, corner + ((ptrdiff_t)p.y * width + p.x) * channels, color + 4 * k);
+    }
+}
+
 static void plain_trace(struct tracer *t, const struct tile *tile,
-                        const struct tile_place *place, uint32_t count,
-                        struct plain_batch *b, struct image *out)
+                        const struct tile_place *place, const uint16_t *by_row,
+                        uint32_t count, struct plain_batch *b, struct image *out)
 {
     const float *color = b->color[0]; // red, green, blue, transparency
-    // Wanted when all are traced, in an order that no processor foresees.
-    for (uint32_t k = 0; k < count; k += 2)
-        __builtin_prefetch(image_at(out, tile->x0 + place[k].x, tile->y0 + place[k].y),
-                           1);
     for (uint32_t k = 0; k < count; k++)
         b->position[k] =
             (struct vec2){tile->x0 + place[k].x + 0.5, tile->y0 + place[k].y + 0.5};
@@ -80,8 +114,7 @@ static void plain_trace(struct tracer *t, const struct tile *tile,
         tracer_samples(t, b->position, count, b->color);
     else
         color = &tracer_batch(t, b->position, NULL, count)->light.r;
-    for (uint32_t k = 0; k < count; k++, color += 4)
-        store(out, image_at(out, tile->x0 + place[k].x, tile->y0 + place[k].y), color);
+    store_places(tile, place, by_row, count, color, out);
 }
 
 // One ray a pixel, in Morton order, so that rays of a packet stay close together.
@@ -93,8 +126,8 @@ static void plain(struct tracer *t, const struct tile_tables *tables,
     const uint32_t places = tables->place_count;
     if ((uint32_t)(width * height) == places) { // all of them
         for (uint32_t i = 0; i < places; i += BATCH_SIZE)
-            plain_trace(t, tile, tables->place + i,
-                        places - i < BATCH_SIZE ? places - i : BATCH_SIZE, &b, out);
+            plain_trace(t, tile, tables->place + i, tables->by_row + i,
+                        batch_of(tables, i), &b, out);
         return;
     }
     uint32_t count = 0;
@@ -104,12 +137,12 @@ static void plain(struct tracer *t, const struct tile_tables *tables,
             continue;
         b.place[count++] = p;
         if (count == BATCH_SIZE) {
-            plain_trace(t, tile, b.place, count, &b, out);
+            plain_trace(t, tile, b.place, NULL, count, &b, out);
             count = 0;
         }
     }
     if (count)
-        plain_trace(t, tile, b.place, count, &b, out);
+        plain_trace(t, tile, b.place, NULL, count, &b, out);
 }
 
 static double working_gamma(const struct settings *s)

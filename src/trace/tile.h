@@ -19,6 +19,7 @@ struct tile_tables {
     struct jitter_tables jitter;
     struct lens lens;         // of a camera that has one
     struct tile_place *place; // the pixels of a whole tile in Morton order
+    uint16_t *by_row;         // of each BATCH_SIZE of them, the order of their rows
     uint32_t place_count;
 };
 
