@@ -190,7 +190,7 @@ static bool function_image(struct args *a, struct source *s)
         args_fail(a);
         return false;
     }
-    const struct tape *f = v->data;
+    const struct tape *f = function_tape(a->b->e, v);
     const int width = tape_width(f);
     if (tape_arguments(f) != 3 || (width != 1 && width != 5)) {
         args_error(a, where,

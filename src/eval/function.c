@@ -343,7 +343,7 @@ static bool apply(struct compiler *c, const struct ast *n, enum word member, uin
     uint32_t in[TAPE_ARGUMENTS_MAX], out[TAPE_WIDTH_MAX];
     if (n->value->kind != VALUE_FUNCTION)
         return refuse(c, n, "a spline");
-    const struct tape *f = n->value->data;
+    const struct tape *f = function_tape(c->e, n->value);
     const int part = part_of(member), count = count_list(n->list);
     if (part >= tape_width(f) || (member == WORD_NONE && tape_width(f) > 1))
         return refuse(c, n, member ? word_text(member) : "a vector");
@@ -507,10 +507,8 @@ static struct tape *of_block(struct eval *e, const struct ast *body)
 }
 
 // internal() has its own parameters whatever list is written.
-static struct tape *of_internal(struct eval *e, const struct ast *n)
+static const struct internal_function *of_internal(struct eval *e, const struct ast *n)
 {
-    struct tape_builder *b = tape_builder_new(e->parse);
-    uint32_t in[3 + INTERNAL_PARAMETERS_MAX], out;
     double number;
     if (count_list(n->list) != 1) {
         diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where, "internal", count_list(n->list));
@@ -519,21 +517,50 @@ static struct tape *of_internal(struct eval *e, const struct ast *n)
     if (!eval_float(e, n->list, &number))
         return NULL;
     const struct internal_function *f = internal_function(number);
-    if (!f) {
+    if (!f)
         diag_at(e->diags, DIAG_DOMAIN, n->where, "internal", "there is no such function");
-        return NULL;
-    }
+    return f;
+}
+
+// NULL: too large, which no row of internal.def is.
+static const struct tape *internal_tape(struct eval *e, const struct internal_function *f)
+{
+    struct tape_builder *b = tape_builder_new(e->parse);
+    uint32_t in[3 + INTERNAL_PARAMETERS_MAX];
     for (int i = 0; i < 3 + f->parameters; i++)
         in[i] = tape_argument(b, i);
-    out = internal_build(b, f, in, builder_pattern_defaults(e->builder));
-    return finish(e, n, b, 3 + f->parameters, &out, 1);
+    const uint32_t out = internal_build(b, f, in, builder_pattern_defaults(e->builder));
+    return tape_finish(b, e->arena, 3 + f->parameters, &out, 1);
+}
+
+const struct tape *function_tape(struct eval *e, const struct value *v)
+{
+    // Made below, not const: values are.
+    struct function *f = (struct function *)(uintptr_t)v->data;
+    if (!f->tape)
+        f->tape = internal_tape(e, f->internal);
+    return f->tape;
+}
+
+static const struct value *new_function(struct eval *e, const struct tape *t,
+                                        const struct internal_function *internal)
+{
+    struct function *f = arena_new_struct(e->arena, struct function);
+    f->tape = t;
+    f->internal = internal;
+    return value_new_data(e->arena, VALUE_FUNCTION, f);
+}
+
+// Noise looks at what is set where it is declared; all others can wait until they are used.
+static const struct value *internal_value(struct eval *e, const struct ast *n)
+{
+    const struct internal_function *f = of_internal(e, n);
+    return f ? new_function(e, f->noise ? internal_tape(e, f) : NULL, f) : NULL;
 }
 
 static struct tape *of_body(struct eval *e, const struct ast *parameters,
                             const struct ast *body)
 {
-    if (body->kind == AST_CALL && body->word == WORD_internal)
-        return of_internal(e, body);
     return body->kind == AST_BLOCK ? of_block(e, body) : expression(e, parameters, body);
 }
 
@@ -552,8 +579,10 @@ const struct value *function_value(struct eval *e, const struct ast *block)
         diag_at(e->diags, DIAG_FUNCTION_ITEM, parameters->where, "a parameter list");
         return NULL;
     }
+    if (body->kind == AST_CALL && body->word == WORD_internal)
+        return internal_value(e, body);
     const struct tape *t = of_body(e, parameters, body);
-    return t ? value_new_data(e->arena, VALUE_FUNCTION, t) : NULL;
+    return t ? new_function(e, t, NULL) : NULL;
 }
 
 const struct tape *function_expression(struct eval *e, const struct ast *block)
@@ -561,7 +590,7 @@ const struct tape *function_expression(struct eval *e, const struct ast *block)
     const struct value *v = function_value(e, block);
     if (!v)
         return NULL;
-    const struct tape *t = v->data;
+    const struct tape *t = function_tape(e, v);
     if (tape_arguments(t) == 3 && tape_width(t) == 1)
         return t;
     diag_at(e->diags, DIAG_FUNCTION_ITEM, block->where, "a parameter list or a vector");
@@ -591,7 +620,7 @@ bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width)
     if (n->value->kind == VALUE_SPLINE)
         return apply_spline(e, n, out, width);
     double argument[TAPE_ARGUMENTS_MAX];
-    const struct tape *f = n->value->data;
+    const struct tape *f = function_tape(e, n->value);
     int count = count_list(n->list), i = 0;
     if (count != tape_arguments(f)) {
         diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where,
