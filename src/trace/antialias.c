@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/elementary.h"
 
 void jitter_tables_init(struct jitter_tables *t)
 {
@@ -42,30 +41,15 @@ struct vec2 jitter_at(const struct jitter_tables *t, double x, double y)
                          jitter_axis(t, 1019 * x, 1021 * y)};
 }
 
-// A colour as differences are judged, by the curve of spec/lighting.md 2.2.
+// A colour as differences are judged.
 struct judged {
     float c[4];
 };
 
-static double linear(double working, double v)
+static void judge(const struct antialias *a, const float (*color)[4], uint32_t count,
+                  struct judged *out)
 {
-    if (v <= 0)
-        return 0;
-    if (working < 0)
-        return v < 0.04045 ? v / 12.92 : det_pow_single((v + 0.055) / 1.055, 2.4);
-    return working == 0 || working == 1 ? v : det_pow_single(v, working);
-}
-
-static struct judged judge(const struct antialias *a, const float c[4])
-{
-    struct judged j;
-    const double exponent = 1 / a->settings->aa_gamma;
-    for (int k = 0; k < 3; k++) {
-        const double v = linear(a->working, c[k]);
-        j.c[k] = (float)(exponent == 1 || v <= 0 ? v : det_pow_single(v, exponent));
-    }
-    j.c[3] = c[3];
-    return j;
+    a->judge(a->working, a->settings->aa_gamma, color, count, (float(*)[4])out);
 }
 
 static bool differ(const struct antialias *a, const struct judged *p,
@@ -118,16 +102,24 @@ static void scan_centres(struct scan *s)
     const int cells = s->stride * (s->height + 1);
     struct vec2 *position = need((size_t)cells, sizeof *position);
     float(*value)[4] = need((size_t)cells, sizeof *value);
+    int *cell = need((size_t)cells, sizeof *cell);
     uint32_t n = 0;
-    for (int i = 1; i < cells; i++)
-        position[n++] =
-            (struct vec2){s->x0 + i % s->stride - 0.5, s->y0 + i / s->stride - 0.5};
-    sample_batch(s->a, position, n, value);
-    for (int i = 1; i < cells; i++) {
-        memcpy(s->centre[i], value[i - 1], sizeof value[0]);
-        s->centre_judged[i] = judge(s->a, s->centre[i]);
+    for (int y = 0; y <= s->height;
+         y += 2) { // two rows at once: packets are near squares
+        for (int x = 0; x < s->stride; x++) {
+            for (int k = y; k <= y + 1 && k <= s->height; k++) {
+                cell[n] = k * s->stride + x;
+                position[n] = (struct vec2){s->x0 + x - 0.5, s->y0 + k - 0.5};
+                n += cell[n] > 0; // the corner is no neighbour
+            }
+        }
     }
+    sample_batch(s->a, position, n, value);
+    for (uint32_t i = 0; i < n; i++)
+        memcpy(s->centre[cell[i]], value[i], sizeof value[i]);
+    judge(s->a, (const float(*)[4])s->centre, (uint32_t)cells, s->centre_judged);
     free(position);
+    free(cell);
     free(value);
 }
 
@@ -189,15 +181,21 @@ static void fine_positions(const struct scan *s, int i, struct vec2 *out)
     }
 }
 
-static void fine_store(struct scan *s, int i, float (*value)[4], int count)
+// The mean of the centre and the samples of a pixel.
+static void fine_mean(const float centre[4], float (*value)[4], int count, float mean[4])
 {
     for (int k = 0; k < 4; k++) {
-        float sum = s->centre[i][k];
+        float sum = centre[k];
         for (int v = 0; v < count; v++)
             sum += value[v][k];
-        s->fine[i][k] = sum / (float)(count + 1);
+        mean[k] = sum / (float)(count + 1);
     }
-    s->fine_judged[i] = judge(s->a, s->fine[i]);
+}
+
+static void fine_store(struct scan *s, int i, const float mean[4], struct judged judged)
+{
+    memcpy(s->fine[i], mean, sizeof s->fine[i]);
+    s->fine_judged[i] = judged;
     s->known[i] = true;
     s->wanted[i] = false;
 }
@@ -215,10 +213,24 @@ static void scan_refine(struct scan *s)
         if (s->wanted[i])
             fine_positions(s, i, position + (size_t)per * at++);
     sample_batch(s->a, position, (uint32_t)(count * (size_t)per), value);
+    struct judged *judged = need(count, sizeof *judged);
     at = 0;
-    for (int i = 0; i < cells; i++)
-        if (s->wanted[i])
-            fine_store(s, i, value + (size_t)per * at++, per);
+    for (int i = 0; i < cells; i++) {
+        if (s->wanted[i]) {
+            float mean[4];
+            fine_mean(s->centre[i], value + (size_t)per * at, per, mean);
+            memcpy(value[at++], mean, sizeof mean);
+        }
+    }
+    judge(s->a, (const float(*)[4])value, (uint32_t)count, judged);
+    at = 0;
+    for (int i = 0; i < cells; i++) {
+        if (s->wanted[i]) {
+            fine_store(s, i, value[at], judged[at]);
+            at++;
+        }
+    }
+    free(judged);
     free(position);
     free(value);
 }
@@ -376,14 +388,17 @@ static void points_trace(const struct antialias *a, const struct vec2 *position,
                          const uint32_t *at, uint32_t count, struct point *point)
 {
     float(*color)[4] = need(count, sizeof *color);
+    struct judged *judged = need(count, sizeof *judged);
     sample_batch(a, position, count, color);
+    judge(a, (const float(*)[4])color, count, judged);
     for (uint32_t k = 0; k < count; k++) {
         struct point *p = &point[at ? at[k] : k];
         memcpy(p->color, color[k], sizeof color[k]);
-        p->judged = judge(a, p->color);
+        p->judged = judged[k];
         p->state = POINT_KNOWN;
     }
     free(color);
+    free(judged);
 }
 
 // Pixels first to first + n - 1 of the block, with room for their grids.

@@ -19,13 +19,18 @@ struct vec2 jitter_at(const struct jitter_tables *t, double x, double y);
 typedef void sample_function(void *user, const struct vec2 *position, uint32_t count,
                              float (*out)[4]);
 
+// Colours as their differences are judged, by the curve of spec/lighting.md 2.2. `working`: the
+// gamma of scene numbers, which is undone first; 0: none, < 0: sRGB. gamma: the curve's.
+typedef void judge_function(double working, double gamma, const float (*color)[4],
+                            uint32_t count, float (*out)[4]);
+
 // The pixels [x0, x1) x [y0, y1) of a block by anti-aliasing method 1 or 2
-// (spec/lighting.md 2.2) as four floats each, rows first. `working`: the gamma of
-// scene numbers, which the curve of differences undoes first; 0: none, < 0: sRGB.
+// (spec/lighting.md 2.2) as four floats each, rows first.
 struct antialias {
     const struct render_settings *settings;
     const struct jitter_tables *jitter;
     double working;
+    judge_function *judge;
     sample_function *sample;
     void *user;
 };

@@ -11,6 +11,7 @@
 #include "trace/shade_camera.h"
 #include "trace/shade_caustic.h"
 #include "trace/shade_color.h"
+#include "trace/shade_judge.h"
 #include "trace/shade_lamp.h"
 #include "trace/shade_lit.h"
 #include "trace/shade_place.h"
@@ -482,9 +483,10 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     own,           light,
     bounce,        lit,
     sums,          exps,
-    meets,         fogs,
-    toward,        views,
-    misses_cone,   points,
-    texture_space, world_normals,
-    sheet_pass,    own_sheets,
-    light_sheets,  caustics};
+    judge,         meets,
+    fogs,          toward,
+    views,         misses_cone,
+    points,        texture_space,
+    world_normals, sheet_pass,
+    own_sheets,    light_sheets,
+    caustics};

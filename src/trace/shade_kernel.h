@@ -1,6 +1,7 @@
 #ifndef TRACE_SHADE_KERNEL_H
 #define TRACE_SHADE_KERNEL_H
 
+#include "trace/antialias.h"
 #include "trace/simple.h"
 
 struct surface_kernels;
@@ -52,6 +53,8 @@ struct shade_kernels {
     void (*sums)(const struct wavefront *w, struct sample_sum *out);
     // det_exp_single of `count` numbers; both arrays have room for eight more.
     void (*exps)(const double *x, uint32_t count, float *out);
+    // struct antialias's.
+    judge_function *judge;
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);

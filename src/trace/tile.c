@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "trace/shade_kernel.h"
 
 // Every other bit of a Morton code, from bit 0: one coordinate.
 static uint32_t morton_part(uint32_t code)
@@ -160,8 +161,9 @@ static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
     float(*color)[4] = malloc((size_t)(width * height) * sizeof *color);
     if (!color)
         abort();
-    const struct antialias a = {&job->settings, jitter,
-                                working_gamma(&job->scene->settings), sample, t};
+    const struct antialias a = {
+        &job->settings,      jitter, working_gamma(&job->scene->settings),
+        job->kernels->judge, sample, t};
     antialias_block(&a, tile->x0, tile->y0, tile->x1, tile->y1, color);
     for (int i = 0; i < width * height; i++)
         store(out, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);

@@ -1,8 +1,13 @@
 #include "test.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "math/elementary.h"
+#include "math/isa.h"
 #include "trace/antialias.h"
+#include "trace/packet.h"
+#include "trace/shade_kernel.h"
 
 // A hard edge across an 8 x 8 picture of a 4 x 4 wall, as POV-Ray 3.7 renders it with
 // each method (linear values, five digits).
@@ -139,7 +144,7 @@ static void check(int method, int depth, double jitter, const float (*want)[8])
                                 .aa_gamma = 2.5,
                                 .aa_jitter = jitter > 0,
                                 .aa_jitter_amount = jitter};
-    const struct antialias a = {&s, &tables, 1, edge, NULL};
+    const struct antialias a = {&s, &tables, 1, shade_kernels_base.judge, edge, NULL};
     float out[64][4];
     antialias_block(&a, 0, 0, 8, 8, out);
     for (int y = 0; y < 8; y++)
@@ -190,6 +195,44 @@ static void shuffle_is_the_noise_permutation(void **state)
     }
 }
 
+// The curve by powers one by one.
+static float judged(double working, double gamma, double v)
+{
+    if (v <= 0)
+        return 0;
+    if (working < 0)
+        v = v < 0.04045 ? v / 12.92 : det_pow_single((v + 0.055) / 1.055, 2.4);
+    else if (working != 0 && working != 1)
+        v = det_pow_single(v, working);
+    return (float)(gamma == 1 ? v : det_pow_single(v, 1 / gamma));
+}
+
+static void colors_are_judged_by_the_curve(void **state)
+{
+    (void)state;
+    enum { COUNT = 33 }; // an odd one: the last stands alone
+    static const double working[] = {-1, 0, 1, 2.2}, gamma[] = {1, 2.5};
+    const struct shade_kernels *const kernels[] = {
+        &shade_kernels_base, ISA_NAMED(packet_kernels_choose()->name, shade_kernels)};
+    float color[COUNT][4], out[COUNT + 1][4];
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 4; k++)
+            color[i][k] = i % 5 == k ? 0 : (float)((k * 37 + i * 11) % 64 - 4) / 40;
+    for (int c = 0; c < 16; c++) {
+        const double w = working[c & 3], g = gamma[c >> 2 & 1];
+        memset(out, 0xa5, sizeof out);
+        float after;
+        memcpy(&after, out[COUNT], sizeof after);
+        kernels[c >> 3]->judge(w, g, (const float(*)[4])color, COUNT, out);
+        for (int i = 0; i < COUNT; i++) {
+            for (int k = 0; k < 3; k++)
+                assert_true(out[i][k] == judged(w, g, (double)color[i][k]));
+            assert_true(out[i][3] == color[i][3]);
+        }
+        assert_memory_equal(&after, out[COUNT], sizeof after); // nothing behind them
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +242,7 @@ int main(void)
         cmocka_unit_test(method_2_plain),
         cmocka_unit_test(method_2_jitter),
         cmocka_unit_test(method_2_depth),
+        cmocka_unit_test(colors_are_judged_by_the_curve),
         cmocka_unit_test(shuffle_is_the_noise_permutation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
