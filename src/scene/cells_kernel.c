@@ -5,6 +5,8 @@
 
 #include "math/isa.h"
 #include "math/lanes_vec.h"
+#include "math/power_lanes.h"
+#include "math/single_lanes.h"
 #include "scene/noise_kernel.h"
 #include "scene/noise_tables.h"
 
@@ -187,4 +189,13 @@ void OF_ISA(noise_nearest_)(const double p[3][8], const double cell[3], unsigned
     }
     for (int k = 0; k < 3; k++)
         r8_store(sum[k], f.sum[k]);
+}
+
+void OF_ISA(noise_powers_)(const double *x, size_t count, double y, bool single,
+                           double *out)
+{
+    for (size_t i = 0; i < count; i += 8) {
+        const struct real8 v = r8_load(x + i);
+        r8_store(out + i, single ? r8_pow_single(v, y) : det_pow8(v, r8_set(y)));
+    }
 }

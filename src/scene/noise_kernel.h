@@ -2,6 +2,7 @@
 #define SCENE_NOISE_KERNEL_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 // Noise at eight points, compiled once per instruction set (math/lanes.h). The bits are
 // those of scene/noise.h.
@@ -50,6 +51,11 @@ typedef void noise_nearest_kernel(const double p[3][8], const double cell[3],
                                   double place[3][8]);
 noise_nearest_kernel noise_nearest_base, noise_nearest_avx2, noise_nearest_avx512;
 
+// det_pow or, `single`, det_pow_single of `count` numbers, a multiple of eight; out may be x.
+typedef void noise_powers_kernel(const double *x, size_t count, double y, bool single,
+                                 double *out);
+noise_powers_kernel noise_powers_base, noise_powers_avx2, noise_powers_avx512;
+
 // Rings around the first `count` wave sources (scene/patterns/rings.h).
 struct noise_rings {
     int count;
@@ -90,6 +96,7 @@ struct noise_kernels {
     void (*vectors)(const double p[3][8], const struct noise_octaves *o,
                     double out[3][8]);
     noise_nearest_kernel *nearest;
+    noise_powers_kernel *powers;
     noise_bounds_kernel *bounds;
     noise_cells_bounds_kernel *cells_bounds;
     // cycloidal of scene/pattern_math.h, and quick_pow.

@@ -11,7 +11,7 @@
 #include "math/color.h"
 #include "math/elementary.h"
 #include "math/lanes_vec.h"
-#include "math/single.h"
+#include "math/single_lanes.h"
 #include "math/transform.h"
 #include "trace/near_zero.h"
 
@@ -33,63 +33,6 @@ LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct floa
         w[i] = bits >> i & 1 ? v[i] : w[i];
     return f8_load(w);
 #endif
-}
-
-// det_exp_single in lanes.
-LANES_INLINE struct real8 r8_exp_single(struct real8 x)
-{
-    double k[8], power[8], all[8];
-    const struct real8 kd =
-        r8_floor(r8_add(r8_mul(x, r8_set(SINGLE_INV_LN2)), r8_set(0.5)));
-    if (m8_bits(r8_lt(r8_abs(x), r8_set(SINGLE_EXP_MOST))) != 255) {
-        r8_store(all, x);
-        for (int i = 0; i < 8; i++)
-            all[i] = det_exp_single(all[i]);
-        return r8_load(all);
-    }
-    const struct real8 r = r8_sub(r8_sub(x, r8_mul(kd, r8_set(SINGLE_LN2_HIGH))),
-                                  r8_mul(kd, r8_set(SINGLE_LN2_LOW)));
-    const struct real8 s = r8_mul(r, r);
-    struct real8 even = r8_set(single_exp_even[5]), odd = r8_set(single_exp_odd[5]);
-#pragma GCC unroll 5
-    for (int i = 4; i >= 0; i--) {
-        even = r8_add(r8_set(single_exp_even[i]), r8_mul(s, even));
-        odd = r8_add(r8_set(single_exp_odd[i]), r8_mul(s, odd));
-    }
-    r8_store(k, kd);
-    for (int i = 0; i < 8; i++) {
-        const uint64_t bits = (uint64_t)((int64_t)k[i] + 1023) << 52;
-        memcpy(&power[i], &bits, sizeof bits);
-    }
-    return r8_mul(r8_add(even, r8_mul(r, odd)), r8_load(power));
-}
-
-// det_pow_single in lanes.
-LANES_INLINE struct real8 r8_pow_single(struct real8 x, double y)
-{
-    double all[8], mantissa[8];
-    r8_store(all, x);
-    if (m8_bits(m8_and(r8_le(r8_set(DBL_MIN), x), r8_le(x, r8_set(DBL_MAX)))) != 255) {
-        for (int i = 0; i < 8; i++)
-            all[i] = det_pow_single(all[i], y);
-        return r8_load(all);
-    }
-    for (int i = 0; i < 8; i++)
-        all[i] = single_split(all[i], &mantissa[i]);
-    const struct real8 m = r8_load(mantissa), k = r8_load(all), one = r8_set(1);
-    const struct real8 s = r8_div(r8_sub(m, one), r8_add(m, one));
-    const struct real8 q = r8_mul(s, s), w = r8_mul(q, q);
-    struct real8 even = r8_set(single_log_even[4]), odd = r8_set(single_log_odd[3]);
-#pragma GCC unroll 4
-    for (int i = 3; i >= 0; i--)
-        even = r8_add(r8_set(single_log_even[i]), r8_mul(w, even));
-#pragma GCC unroll 3
-    for (int i = 2; i >= 0; i--)
-        odd = r8_add(r8_set(single_log_odd[i]), r8_mul(w, odd));
-    const struct real8 log_m = r8_mul(r8_mul(r8_set(2), s), r8_add(even, r8_mul(q, odd)));
-    const struct real8 log_x = r8_add(r8_mul(k, r8_set(SINGLE_LN2_HIGH)),
-                                      r8_add(r8_mul(k, r8_set(SINGLE_LN2_LOW)), log_m));
-    return r8_exp_single(r8_mul(r8_set(y), log_x));
 }
 
 struct rgb8 {

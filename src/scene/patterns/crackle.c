@@ -23,12 +23,6 @@ static double distance_sum(struct vec3 e, struct crackle_power p)
            crackle_raised(p, fabs(e.z));
 }
 
-static double distance_sum_single(struct vec3 e, double metric)
-{
-    return det_pow_single(fabs(e.x), metric) + det_pow_single(fabs(e.y), metric) +
-           det_pow_single(fabs(e.z), metric);
-}
-
 // ---- the nearest points --------------------------------------------------------------
 
 enum { CELLS_NEAR = 27 }; // NEAR: without those two cells off
@@ -146,8 +140,44 @@ static double stretch_of(double metric)
     return fmax(1 + 1.46411 * t, 0.46396 + 2.53607 * t) * (1 + 0x1p-30);
 }
 
+// The sums of candidates, exact or of single precision; k may be NULL.
+static void raise_all(const struct noise_kernels *k, struct crackle_power p, bool single,
+                      struct candidate *c, int count)
+{
+    if (p.twice) {
+        for (int i = 0; i < count; i++)
+            c[i].sum = distance_sum(c[i].e, p);
+        return;
+    }
+    double x[3 * CRACKLE_CELLS + 7];
+    size_t n = 0;
+    for (int i = 0; i < count; i++) {
+        x[n++] = fabs(c[i].e.x);
+        x[n++] = fabs(c[i].e.y);
+        x[n++] = fabs(c[i].e.z);
+    }
+    if (k) {
+        while (n % 8)
+            x[n++] = 1;
+        k->powers(x, n, p.metric, single, x);
+    } else {
+        for (size_t i = 0; i < n; i++)
+            x[i] = single ? det_pow_single(x[i], p.metric) : det_pow(x[i], p.metric);
+    }
+    for (int i = 0; i < count; i++)
+        c[i].sum = x[3 * i] + x[3 * i + 1] + x[3 * i + 2];
+}
+
+static void keep_all(struct nearest *n, const struct candidate *c, int count)
+{
+    *n = nothing(n->p);
+    for (int i = 0; i < count; i++)
+        keep(n, c[i].sum, c[i].p, c[i].rank);
+}
+
 // By any other metric.
-static void search_general(struct vec3 at, double metric, int wanted, struct nearest *n)
+static void search_general(struct vec3 at, double metric, int wanted,
+                           const struct noise_kernels *k, struct nearest *n)
 {
     struct candidate c[CRACKLE_CELLS];
     const struct crackle_power p = crackle_power(metric);
@@ -155,16 +185,12 @@ static void search_general(struct vec3 at, double metric, int wanted, struct nea
     int count = search(at, true, wanted, stretch, c, n);
     count = thinned(c, count, n->d[wanted - 1], stretch - 1);
     if (!p.twice && metric > 0) {
-        *n = nothing(n->p);
-        for (int i = 0; i < count; i++) {
-            c[i].sum = distance_sum_single(c[i].e, metric);
-            keep(n, c[i].sum, c[i].p, c[i].rank);
-        }
+        raise_all(k, p, true, c, count);
+        keep_all(n, c, count);
         count = thinned(c, count, n->d[wanted - 1], 0x1p-30);
     }
-    *n = nothing(n->p);
-    for (int i = 0; i < count; i++)
-        keep(n, distance_sum(c[i].e, p), c[i].p, c[i].rank);
+    raise_all(k, p, false, c, count);
+    keep_all(n, c, count);
 }
 
 static double form_value(const struct pattern *p, const double d[CRACKLE_NEAREST])
@@ -177,8 +203,9 @@ static double form_value(const struct pattern *p, const double d[CRACKLE_NEAREST
     return clamp01(sum);
 }
 
-// The nearest points to a place, by the pattern's metric.
-static void search_one(const struct pattern *p, struct vec3 at, struct nearest *n)
+// The nearest points to a place, by the pattern's metric; k may be NULL.
+static void search_one(const struct pattern *p, struct vec3 at,
+                       const struct noise_kernels *k, struct nearest *n)
 {
     const int wanted = crackle_wanted(p);
     if (p->metric == 2)
@@ -186,7 +213,7 @@ static void search_one(const struct pattern *p, struct vec3 at, struct nearest *
     else if (p->metric == 1)
         search(at, false, wanted, 1, NULL, n);
     else
-        search_general(at, p->metric, wanted, n);
+        search_general(at, p->metric, wanted, k, n);
 }
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -194,7 +221,7 @@ static double value(const struct pattern *p, struct vec3 at,
 {
     (void)c;
     struct nearest n;
-    search_one(p, at, &n);
+    search_one(p, at, NULL, &n);
     return p->solid ? clamp01(pattern_noise(p, n.p)) : form_value(p, n.d);
 }
 
@@ -251,21 +278,44 @@ static void search_all(const struct pattern *p, const struct noise_kernels *k,
         for (; lanes; lanes &= lanes - 1) {
             const int i = __builtin_ctz(lanes);
             struct nearest n;
-            search_one(p, vec3(at[0][i], at[1][i], at[2][i]), &n);
+            search_one(p, vec3(at[0][i], at[1][i], at[2][i]), k, &n);
             keep_lane(all, i, &n);
         }
     }
 }
 
-static void form_values(const struct pattern *p, const struct nearest8 *all,
-                        double out[8])
+// crackle_distance of eight sums.
+static void distances(const struct pattern *p, const struct noise_kernels *k,
+                      const double sum[8], double out[8])
+{
+    if (p->metric == 2 || p->metric == 1) {
+        for (int i = 0; i < 8; i++)
+            out[i] = crackle_distance(sum[i], p->metric, p->offset);
+        return;
+    }
+    const struct crackle_power power = crackle_power(p->metric);
+    const double more = p->offset != 0 ? crackle_raised(power, p->offset) : 0;
+    double s[8];
+    for (int i = 0; i < 8; i++)
+        s[i] = p->offset != 0 ? sum[i] + more : sum[i];
+    k->powers(s, 8, 1 / power.metric, power.twice, out);
+    for (int i = 0; i < 8 && power.twice; i++)
+        out[i] = crackle_steps(power, s[i]) ? crackle_step(power, s[i], out[i])
+                                            : crackle_lowered(power, s[i]);
+}
+
+static void form_values(const struct pattern *p, const struct noise_kernels *k,
+                        const struct nearest8 *all, double out[8])
 {
     const double form[CRACKLE_NEAREST] = {p->vector.x, p->vector.y, p->vector.z};
-    double sum[8] = {0};
-    for (int k = 0; k < CRACKLE_NEAREST; k++)
-        if (form[k] != 0)
-            for (int i = 0; i < 8; i++)
-                sum[i] += form[k] * crackle_distance(all->d[k][i], p->metric, p->offset);
+    double sum[8] = {0}, distance[8];
+    for (int n = 0; n < CRACKLE_NEAREST; n++) {
+        if (form[n] == 0)
+            continue;
+        distances(p, k, all->d[n], distance);
+        for (int i = 0; i < 8; i++)
+            sum[i] += form[n] * distance[i];
+    }
     for (int i = 0; i < 8; i++)
         out[i] = clamp01(sum[i]);
 }
@@ -276,7 +326,7 @@ static void values(const struct pattern *p, const struct noise_kernels *k,
     struct nearest8 all;
     search_all(p, k, at, &all);
     if (!p->solid) {
-        form_values(p, &all, out);
+        form_values(p, k, &all, out);
         return;
     }
     k->value((const double(*)[8])all.p, 1, pattern_noise_generator(p), out);

@@ -39,14 +39,22 @@ static inline double crackle_raised(struct crackle_power p, double x)
     return r;
 }
 
-// The root: in single precision and one step of Newton's method, which leaves the rounding
-// of the power.
+// The root r of s, known in single precision: one step of Newton's method leaves the
+// rounding of the power. Else the power itself.
+static inline bool crackle_steps(struct crackle_power p, double s)
+{
+    return p.twice && s >= DBL_MIN && s <= DBL_MAX;
+}
+
+static inline double crackle_step(struct crackle_power p, double s, double r)
+{
+    return r + r * (s / crackle_raised(p, r) - 1) / p.metric;
+}
+
 static inline double crackle_lowered(struct crackle_power p, double s)
 {
-    if (!p.twice || !(s >= DBL_MIN && s <= DBL_MAX))
-        return det_pow(s, 1 / p.metric);
-    const double r = det_pow_single(s, 1 / p.metric);
-    return r + r * (s / crackle_raised(p, r) - 1) / p.metric;
+    return crackle_steps(p, s) ? crackle_step(p, s, det_pow_single(s, 1 / p.metric))
+                               : det_pow(s, 1 / p.metric);
 }
 
 static inline double crackle_distance(double sum, double metric, double offset)

@@ -127,7 +127,7 @@ static struct pattern variant(const struct pattern_ops *ops, unsigned turn)
     p.function = halved;
     if (ops == &crackle_pattern_ops) {
         p.vector = form[turn / 2 % 3];
-        p.metric = turn % 5 == 0 ? 1 : turn % 23 == 0 ? 3 : 2;
+        p.metric = turn % 5 == 0 ? 1 : turn % 23 == 0 ? 3 : turn % 7 == 3 ? 2.2f : 2;
         p.offset = turn % 4 ? 0 : 0.2f;
         p.solid = turn % 7 == 0;
     }
