@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "irradiance/fill.h"
 #include "irradiance/store_kernel.h"
+#include "scene/noise_tables.h"
 
 enum { SQUARE = 32 }; // side of the squares that know nothing of each other in a pass
 
@@ -79,20 +80,26 @@ static void points_trace(struct tracer *t, struct points *p)
     p->count = 0;
 }
 
-static void square_scout(const struct pass *p, struct tracer *t, int x0, int y0, int x1,
-                         int y1)
+// POV-Ray's random numbers, -1 to 1, so that samples lie where its samples do.
+static double offset_next(uint32_t *place)
+{
+    enum { OFFSETS = 2047 };
+    *place = (*place + 1) % OFFSETS;
+    return ldexp(noise_random_table[*place], -31) - 1;
+}
+
+static void square_scout(const struct pass *p, uint32_t square, struct tracer *t, int x0,
+                         int y0, int x1, int y1)
 {
     const double spread = fmin(1, p->size / 2), middle = (p->size - 1) / 2;
     struct points points = {.count = 0};
-    uint32_t h = hash_mix(p->number, (uint32_t)x0 + 65536u * (uint32_t)y0);
+    uint32_t place = 17 * p->number + 13 * square;
     for (double y = first_point(y0, p->size); y < y1 - 0.5; y += p->size) {
         for (double x = first_point(x0, p->size); x < x1 - 0.5; x += p->size) {
             double dx = 0, dy = 0;
             if (!p->final) {
-                h = hash_mix(h, 1);
-                dy = middle + spread * (2 * hash_unit(h) - 1);
-                h = hash_mix(h, 2);
-                dx = middle + spread * (2 * hash_unit(h) - 1);
+                dy = middle + spread * offset_next(&place);
+                dx = middle + spread * offset_next(&place);
             }
             if (points.count == BATCH_SIZE)
                 points_trace(t, &points);
@@ -119,7 +126,8 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
         gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
         const uint64_t before = gatherer_rays(s->gatherer);
         if (!p->settled[i] || p->final)
-            square_scout(p, s->tracer, x0, y0, least(x0 + SQUARE, p->settings->col_end),
+            square_scout(p, i, s->tracer, x0, y0,
+                         least(x0 + SQUARE, p->settings->col_end),
                          least(y0 + SQUARE, p->settings->row_end));
         p->settled[i] |= gather_is_settled(s->gatherer);
         p->rays[i] = gatherer_rays(s->gatherer) - before;
