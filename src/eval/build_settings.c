@@ -120,12 +120,15 @@ static bool word_item(struct args *a, struct settings *s)
         charset(a);
         break;
     case WORD_max_intersections:
-        args_warning(a, args_span(a), "max_intersections has no effect");
+        args_warning(a, args_span(a),
+                     "max_intersections has no effect, as in POV-Ray 3.7");
         args_next(a);
         args_float(a, "max_intersections", &v);
         break;
     case WORD_hf_gray_16:
-        args_warning(a, args_span(a), "hf_gray_16 has no effect");
+        args_warning(a, args_span(a),
+                     "hf_gray_16 has no effect, as in POV-Ray 3.7; for a picture in grey "
+                     "use Grayscale_Output=on, or +FNg");
         args_next(a);
         args_switch(a);
         break;
