@@ -2,6 +2,8 @@
 
 #include <float.h>
 
+#include "math/gamma.h"
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -19,8 +21,8 @@ bool bvh8_ray_begin(const struct bvh8 *b, const struct ray *ray, double t_min,
         double lo = vec3_axis(b->bounds.min, a), hi = vec3_axis(b->bounds.max, a);
         d[a] = vec3_axis(ray->d, a) / largest;
         out->negative[a] = d[a] < 0 ? 3 : 0;
-        // Less than this moves the ray by nothing while it crosses the tree.
-        if (fabs(d[a]) < 0x1p-60) {
+        // Less than the tree's padding while the ray crosses it.
+        if (RUNS_ALONG(d[a], 1)) {
             if (!(o >= lo && o <= hi))
                 return false;
             d[a] = d[a] < 0 ? -0x1p-60 : 0x1p-60;

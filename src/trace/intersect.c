@@ -120,10 +120,18 @@ void ray_batch_free(struct ray_batch *b)
 
 // ---- boxes ------------------------------------------------------------------------------
 
+static double inverse_of(double d, double longest)
+{
+    return RUNS_ALONG(d, longest) ? HUGE_VAL : 1 / d;
+}
+
 struct box_ray box_ray_of(const struct ray *r)
 {
-    return (struct box_ray){r->o, vec3(1 / r->d.x, 1 / r->d.y, 1 / r->d.z), r->t_min,
-                            r->t_max};
+    const double longest = vec3_max_abs(r->d);
+    return (struct box_ray){r->o,
+                            vec3(inverse_of(r->d.x, longest), inverse_of(r->d.y, longest),
+                                 inverse_of(r->d.z, longest)),
+                            r->t_min, r->t_max};
 }
 
 // A slab's t is off by at most 3 roundings. Along a zero direction the faces lie at

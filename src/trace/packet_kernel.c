@@ -247,6 +247,12 @@ static void find_some(struct eight *e, struct packet *p, uint64_t some)
         p->alive &= ~try_eight(e, p->alive, (uint32_t)__builtin_ctzll(some));
 }
 
+// As box_ray_of has it.
+LANES_INLINE struct real8 inverse8(struct real8 d, struct real8 longest)
+{
+    return r8_select(runs_along8(d, longest), r8_set(INFINITY), r8_div(r8_set(1), d));
+}
+
 // Eight rays of the batch, from `first` on.
 static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
                   uint32_t first, unsigned lanes)
@@ -269,9 +275,9 @@ static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
     e->t_min = r8_load(r->t_min + first);
     e->t_max = r8_load(r->t_max + first);
     e->sheared = e->boxed = false;
-    e->inverse =
-        (struct vec8){r8_div(r8_set(1), e->ray.d.x), r8_div(r8_set(1), e->ray.d.y),
-                      r8_div(r8_set(1), e->ray.d.z)};
+    const struct real8 longest = v8_max_abs(e->ray.d);
+    e->inverse = (struct vec8){inverse8(e->ray.d.x, longest), inverse8(e->ray.d.y, longest),
+                               inverse8(e->ray.d.z, longest)};
 }
 
 // The rays from `first` to the end of the batch, fewer than eight, with copies of the first

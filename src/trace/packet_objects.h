@@ -12,7 +12,7 @@
 struct eight {
     struct packet *p;
     struct ray8 ray;
-    struct vec8 inverse; // 1 / d
+    struct vec8 inverse; // 1 / d; infinite along a plane
     struct real8 t_min, t_max;
     struct shear8 shear; // for triangles, if `sheared`
     bool sheared;

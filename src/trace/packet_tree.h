@@ -216,12 +216,12 @@ LANES_INLINE uint32_t push_children8(const struct bvh8_node *n, const struct tre
 }
 
 // As bvh8_ray_begin, for each of `lanes`; returns those that may meet the tree. inverse:
-// 1 / d.
+// 1 / d; anything along a plane.
 LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec8 d,
                                  struct vec8 inverse, struct real8 t_min,
                                  struct real8 t_max, unsigned lanes, struct tree_lanes *l)
 {
-    const struct real8 largest = v8_max_abs(d), tiny = r8_set(0x1p-60);
+    const struct real8 largest = v8_max_abs(d);
     struct mask8 out = m8_of(0), real = m8_of(0xff);
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
@@ -229,7 +229,7 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
         const struct real8 by = a == 0 ? d.x : a == 1 ? d.y : d.z;
         const struct real8 lo = r8_set(vec3_axis(b->bounds.min, a));
         const struct real8 hi = r8_set(vec3_axis(b->bounds.max, a));
-        const struct mask8 flat = r8_lt(r8_abs(by), r8_mul(tiny, largest));
+        const struct mask8 flat = runs_along8(by, largest);
         const struct real8 inv = a == 0 ? inverse.x : a == 1 ? inverse.y : inverse.z;
         const struct real8 t0 = r8_mul(r8_sub(lo, at), inv);
         const struct real8 t1 = r8_mul(r8_sub(hi, at), inv);

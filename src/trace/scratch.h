@@ -18,7 +18,8 @@ struct trace_scratch {
     struct trace_stats stats;
 };
 
-// A ray prepared for box tests.
+// A ray prepared for box tests. inv: 1 / d; infinite where shapes take it to run along a plane
+// (RUNS_ALONG), so that no box leaves out what a shape takes for a crossing.
 struct box_ray {
     struct vec3 o, inv;
     double t_min, t_max;

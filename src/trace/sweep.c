@@ -349,7 +349,12 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
                   struct boundary *out)
 {
     struct sweep v = {w, s, w->node + w->object[object].root, w->object[object].root};
+    const struct box_ray box = box_ray_of(ray);
+    double begins;
     s->stats.csg_tests++;
+    // A crossing that could be anywhere on the line, but for its error, is not outside the box.
+    if (!box_meets(&w->object[object].bounds, &box, &begins))
+        return false;
     if (!start(&v, object, ray, limit))
         return false;
     const struct boundary_list *l = &s->crossings;

@@ -201,8 +201,20 @@ static void put(struct ray_batch *b, struct vec3 o, struct vec3 d, double t_min,
     b->hidden_by[i] = hidden_by;
 }
 
-// From one eye through a raster, or from anywhere to anywhere; along an axis, from inside,
-// ending early.
+// Along an axis, but for no more than a few roundings.
+static struct vec3 almost_along(struct maker *m, int axis)
+{
+    static const double size[] = {0, 1e-17, 1e-16, 1e-15, 3e-15, 1e-14, 1e-13, 1e-12};
+    double off[2];
+    for (int i = 0; i < 2; i++)
+        off[i] = size[(int)(8 * chance(m))] * (2 * chance(m) - 1);
+    return axis == 0   ? vec3(1, off[0], off[1])
+           : axis == 1 ? vec3(off[1], -2, off[0])
+                       : vec3(off[1], off[0], 1);
+}
+
+// From one eye through a raster, or from anywhere to anywhere; along an axis or almost so,
+// from inside, ending early.
 static void fill(struct maker *m, struct ray_batch *b, int kind)
 {
     const double far = m->middle ? (kind == 3 ? 1e-9 : 0) : kind == 3 ? 1e5 : 3;
@@ -216,9 +228,13 @@ static void fill(struct maker *m, struct ray_batch *b, int kind)
         struct vec3 d = vec3_sub(to, o);
         if (kind == 2)
             d = i % 3 == 0 ? vec3(1, 0, 0) : i % 3 == 1 ? vec3(0, -2, 0) : vec3(0, 0, 1);
+        if (kind == 4)
+            d = almost_along(m, i % 3);
         if (vec3_dot(d, d) == 0)
             d = vec3(0, 0, 1);
-        put(b, o, d, i % 7 == 0 ? .125 : 0, i % 5 == 0 ? .75 : INFINITY,
+        // Where such a ray has left a plane that it runs along is of no interest.
+        const double t_max = kind == 4 ? 1e9 : INFINITY;
+        put(b, o, d, i % 7 == 0 ? .125 : 0, i % 5 == 0 ? .75 : t_max,
             i % 4 == 0 ? OBJECT_NO_SHADOW : 0);
     }
 }
@@ -315,7 +331,7 @@ static int check_world(struct world *w, struct maker *m)
     struct hit_batch *hit = hit_batch_new(RAYS);
     uint8_t dark[RAYS];
     int hits = 0;
-    for (int kind = 0; kind < 8; kind++) {
+    for (int kind = 0; kind < 10; kind++) {
         if (kind % 2 == 0)
             fill(m, b, kind / 2);
         else
