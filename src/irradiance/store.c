@@ -82,13 +82,24 @@ static bool same_cell(const struct cache_cell *a, const struct cache_cell *b)
            a->place[2] == b->place[2] && a->size == b->size && a->depth == b->depth;
 }
 
-// The slot that holds the cell, or the free one where it belongs.
-static struct cache_cell *cell_slot(const struct store *s, const struct cache_cell *c)
+// Where the cell is looked for first.
+static uint32_t cell_home(const struct store *s, const struct cache_cell *c)
 {
-    const uint32_t mask = s->cell_capacity - 1;
-    for (uint32_t i = cell_hash(c) >> 7 & mask;; i = (i + 1) & mask)
+    return cell_hash(c) >> 7 & (s->cell_capacity - 1);
+}
+
+// The slot that holds the cell whose home that is, or the free one where it belongs.
+static struct cache_cell *cell_from(const struct store *s, const struct cache_cell *c,
+                                    uint32_t home)
+{
+    for (uint32_t i = home;; i = (i + 1) & (s->cell_capacity - 1))
         if (!s->cell[i].count || same_cell(&s->cell[i], c))
             return &s->cell[i];
+}
+
+static struct cache_cell *cell_slot(const struct store *s, const struct cache_cell *c)
+{
+    return cell_from(s, c, cell_home(s, c));
 }
 
 static void *grown(void *at, uint32_t *capacity, size_t size)
@@ -135,10 +146,15 @@ static bool is_used_up(uint32_t count)
 
 static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
 {
-    if (2 * (s->cell_count + 1) > s->cell_capacity)
+    if (!s->cell_capacity)
         cells_grow(s);
     struct cache_cell *c = cell_slot(s, &at);
     if (!c->count) {
+        // Never without a new cell: a memo would not see that cells have moved.
+        if (2 * (s->cell_count + 1) > s->cell_capacity) {
+            cells_grow(s);
+            c = cell_slot(s, &at);
+        }
         *c = at;
         s->cell_count++;
     }
@@ -157,6 +173,15 @@ static int32_t place_of(double x, double cells_per_unit)
         return p < 0 ? (int32_t)-most : (int32_t)most;
     const int32_t towards_nought = (int32_t)p;
     return towards_nought - (p < towards_nought);
+}
+
+// The place of the same point in cells of twice the size.
+static int32_t place_doubled(int32_t place, double x, double cells_per_unit)
+{
+    static const int32_t most = 2000000000; // as place_of
+    if (place == most || place == -most)
+        return place_of(x, cells_per_unit);
+    return place < 0 ? -1 - (-1 - place) / 2 : place / 2;
 }
 
 void store_add(struct store *s, const struct cache_sample *sample)
@@ -189,42 +214,89 @@ void store_add(struct store *s, const struct cache_sample *sample)
     s->count++;
 }
 
-static const struct cache_cell *cell_remembered(const struct store *s,
-                                                const struct cache_cell *key,
-                                                struct store_memo *memo)
+enum { SIZES = sizeof((struct store_memo *)0)->cell / sizeof(struct cache_cell *) };
+
+// The cell, if it is the last one asked for of its size; NULL: another one was.
+static const struct cache_cell *cell_remembered(const struct cache_cell *key,
+                                                const struct store_memo *memo)
 {
-    enum { SIZES = sizeof memo->cell / sizeof *memo->cell };
+    const unsigned i = (unsigned)key->size % SIZES;
+    const struct cache_place *p = &memo->place[i];
+    return memo->cell[i] && p->size == key->size && p->depth == key->depth &&
+                   memcmp(p->at, key->place, sizeof p->at) == 0
+               ? memo->cell[i]
+               : NULL;
+}
+
+static void cell_remember(struct store_memo *memo, const struct cache_cell *key,
+                          const struct cache_cell *c)
+{
     const unsigned i = (unsigned)key->size % SIZES;
     struct cache_place *p = &memo->place[i];
-    if (memo->cell_count != s->cell_count) {
-        memset(memo->cell, 0, sizeof memo->cell);
-        memo->cell_count = s->cell_count;
-    }
-    if (memo->cell[i] && p->size == key->size && p->depth == key->depth &&
-        memcmp(p->at, key->place, sizeof p->at) == 0)
-        return memo->cell[i];
     memcpy(p->at, key->place, sizeof p->at);
     p->size = key->size;
     p->depth = key->depth;
-    return memo->cell[i] = cell_slot(s, key);
+    memo->cell[i] = c;
+}
+
+static void memo_update(const struct store *s, struct store_memo *memo)
+{
+    if (memo->cell_count == s->cell_count)
+        return;
+    memset(memo->cell, 0, sizeof memo->cell);
+    memo->cell_count = s->cell_count;
+}
+
+// Finds the cells of a point that are `count` sizes from that of the key on. The memory of all
+// is asked for before any is looked at.
+static void cells_find(const struct store *s, struct cache_cell key, struct vec3 p,
+                       uint32_t count, struct store_memo *memo,
+                       const struct cache_cell **cell)
+{
+    struct cache_cell own[SIZES];
+    uint32_t home[SIZES];
+    double scale = ldexp(1, -key.size);
+    for (int k = 0; k < 3; k++)
+        key.place[k] = place_of(vec3_axis(p, k), scale);
+    for (uint32_t i = 0; i < count; i++) {
+        own[i] = key;
+        cell[i] = memo ? cell_remembered(&key, memo) : NULL;
+        if (!cell[i]) {
+            home[i] = cell_home(s, &key);
+            __builtin_prefetch(&s->cell[home[i]]);
+        }
+        scale /= 2;
+        for (int k = 0; k < 3; k++)
+            key.place[k] = place_doubled(key.place[k], vec3_axis(p, k), scale);
+        key.size++;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (cell[i])
+            continue;
+        cell[i] = cell_from(s, &own[i], home[i]);
+        if (cell[i]->count)
+            __builtin_prefetch(&s->filed[cell[i]->first + cell[i]->count - 1]);
+        if (memo)
+            cell_remember(memo, &own[i], cell[i]);
+    }
 }
 
 void store_mean(const struct store *s, const struct cache_point *at,
                 struct store_memo *memo, struct cache_mean *mean)
 {
-    double scale = ldexp(1, -s->size_low[at->depth]);
-    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth];
-         size++, scale /= 2) {
-        const struct cache_cell key = {.place = {place_of(at->p.x, scale),
-                                                 place_of(at->p.y, scale),
-                                                 place_of(at->p.z, scale)},
-                                       .size = (int16_t)size,
+    const int high = s->size_high[at->depth];
+    if (memo)
+        memo_update(s, memo);
+    for (int size = s->size_low[at->depth]; size <= high; size += SIZES) {
+        const struct cache_cell *cell[SIZES];
+        const struct cache_cell key = {.size = (int16_t)size,
                                        .depth = (uint16_t)at->depth};
-        const struct cache_cell *c =
-            memo ? cell_remembered(s, &key, memo) : cell_slot(s, &key);
-        if (c->count &&
-            !s->kernels->mean(s->sample, s->filed + c->first, c->count, at, mean))
-            return;
+        const uint32_t count = high - size < SIZES ? (uint32_t)(high - size) + 1 : SIZES;
+        cells_find(s, key, at->p, count, memo, cell);
+        for (uint32_t i = 0; i < count; i++)
+            if (cell[i]->count && !s->kernels->mean(s->sample, s->filed + cell[i]->first,
+                                                    cell[i]->count, at, mean))
+                return;
     }
 }
 
