@@ -21,19 +21,18 @@ void macro_define(struct stream *s, struct token word)
 {
     struct token name;
     version_has_macros(s, word.where);
-    struct macro *m = arena_new_struct(s->arena, struct macro);
+    struct macro_parameter parameter[PARAMETERS_MAX];
+    int count = 0;
     bool ok = raw_expect_name(s, &name, "#macro") && raw_expect(s, '(', "'('", "#macro");
     while (ok && raw_kind(s) != ')') {
         struct token t;
         ok = raw_expect_name(s, &t, "#macro");
-        if (ok && m->parameter_count == PARAMETERS_MAX) {
+        if (ok && count == PARAMETERS_MAX) {
             diag_at(s->diags, DIAG_TOO_MANY_PARAMETERS, t.where, PARAMETERS_MAX);
             ok = false;
         }
-        if (ok) {
-            m->parameter[m->parameter_count].text = t.text;
-            m->parameter[m->parameter_count++].len = t.len;
-        }
+        if (ok)
+            parameter[count++] = (struct macro_parameter){t.text, t.len};
         raw_take_if(s, ',');
     }
     ok = ok && raw_expect(s, ')', "')'", "#macro");
@@ -46,6 +45,10 @@ void macro_define(struct stream *s, struct token word)
     }
     if (!ok)
         return;
+    const size_t size = (size_t)count * sizeof *parameter;
+    struct macro *m = arena_alloc(s->arena, sizeof *m + size);
+    memcpy(m->parameter, parameter, size);
+    m->parameter_count = count;
     m->name = arena_strndup(s->arena, name.text, name.len);
     m->where = name.where;
     m->file = c->file;

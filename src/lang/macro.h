@@ -17,11 +17,11 @@ struct macro {
     const struct lexeme *body; // count tokens
     uint32_t *slots;           // ... and calc_place.slot of each
     uint32_t count;
-    struct {
+    int parameter_count;
+    struct macro_parameter {
         const char *text;
         size_t len;
-    } parameter[PARAMETERS_MAX];
-    int parameter_count;
+    } parameter[];
 };
 
 #endif

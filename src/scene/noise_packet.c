@@ -3,24 +3,14 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "math/isa.h"
+#include "math/processor.h"
 #include "scene/noise.h"
 #include "scene/noise_kernel.h"
 
 const struct noise_kernels *noise_kernels_find(const char *name)
 {
-#ifdef LAMBERT_X86
-    if (strcmp(name, "avx512") == 0)
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                       __builtin_cpu_supports("avx512vl") &&
-                       __builtin_cpu_supports("avx512bw")
-                   ? &noise_kernels_avx512
-                   : NULL;
-    if (strcmp(name, "avx2") == 0)
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")
-                   ? &noise_kernels_avx2
-                   : NULL;
-#endif
-    return strcmp(name, "base") == 0 ? &noise_kernels_base : NULL;
+    return processor_has(name) ? ISA_NAMED(name, noise_kernels) : NULL;
 }
 
 void noise_turbulence8(const struct noise_kernels *k, const double p[3][8], double lambda,

@@ -1,4 +1,5 @@
 // Bounds over eight boxes at once (tape.h): in lanes where the tape fits.
+#include "math/processor.h"
 #include "scene/tape_kernel.h"
 #include "scene/tape_steps.h"
 
@@ -12,10 +13,9 @@ bool tape_is_flat(const struct tape *t) { return tape_has_lanes(t) && !t->calls;
 const struct tape_kernels *tape_kernels_best(void)
 {
 #ifdef LAMBERT_X86
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    if (processor_has("avx512"))
         return &tape_kernels_avx512;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))
+    if (processor_has("avx2"))
         return &tape_kernels_avx2;
 #endif
     return &tape_kernels_base;

@@ -5,18 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef LAMBERT_X86
-static bool isa_present(const struct packet_kernels *k)
-{
-    if (k == &packet_kernels_avx512)
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-               __builtin_cpu_supports("avx2");
-    if (k == &packet_kernels_avx2)
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
-    return true;
-}
-#endif
+#include "math/processor.h"
 
 const struct packet_kernels *packet_kernels_choose(void)
 {
@@ -26,7 +15,7 @@ const struct packet_kernels *packet_kernels_choose(void)
     const char *wanted = getenv("LAMBERT_ISA");
     const struct packet_kernels *best = NULL;
     for (size_t i = 0; i < 3; i++) {
-        if (!isa_present(best_first[i]))
+        if (!processor_has(best_first[i]->name))
             continue;
         if (wanted && strcmp(wanted, best_first[i]->name) == 0)
             return best_first[i];

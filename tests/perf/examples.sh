@@ -4,7 +4,8 @@
 # advanced/balcony. Prints tab-separated CPU seconds, scenes sorted by the ratio of rendering: the
 # whole process of POV-Ray and lambert and their ratio, rendering and its ratio (POV-Ray's times of
 # photons, radiosity and tracing; all of lambert's but reading the scene). A scene that either does
-# not render in SECONDS is named at the end. Pictures are not compared here: tests/compare/run.sh does that.
+# not render in SECONDS of processor time is named at the end (timeout(1) would be a process whose own
+# time is counted). Pictures are not compared here: tests/compare/run.sh does that.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 lambert=$(realpath "${LAMBERT:-$here/../../build/lambert}")
@@ -30,10 +31,10 @@ row() {
   TIMEFORMAT=%U
   own=$(mktemp -d "$work/row.XXXXXX")
   cd "$(dirname "$scene")" || return
-  { time timeout "$limit" povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D -A -P \
-    </dev/null >"$own/out" 2>"$own/log"; } 2>"$own/pov"
-  { time timeout "$limit" "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 -A \
-    -q --stats=json </dev/null >"$own/json" 2>"$own/err"; } 2>"$own/lam"
+  { time (ulimit -t "$limit" && exec povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D -A -P \
+    </dev/null >"$own/out" 2>"$own/log"); } 2>"$own/pov"
+  { time (ulimit -t "$limit" && exec "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 -A \
+    -q --stats=json </dev/null >"$own/json" 2>"$own/err"); } 2>"$own/lam"
   local made=
   [ -s "$own/pov.png" ] || made="$made POV-Ray"
   [ -s "$own/lam.png" ] || made="$made lambert"
