@@ -90,7 +90,7 @@ static void find_shafts(struct radiosity *r)
     const struct patches *p = r->patches;
     r->shafts = p->shaft && r->emitter_count * p->job->world->object_count <= TESTS_MOST;
     for (uint32_t i = 0; i < r->emitter_count && r->shafts; i++) {
-        r->shafts = is_polygon(&r->emitter[i].e);
+        r->shafts = r->emitter[i].polygon;
         r->emitter[i].shaft = patches_shaft(p, &r->emitter[i].e, &r->emitter[i].at);
     }
     if (!r->shafts)
@@ -108,7 +108,7 @@ static void find_edges(struct radiosity *r)
     struct polygon_edges *edges = &r->edges;
     uint32_t count = 0;
     for (uint32_t i = 0; i < r->emitter_count; i++)
-        count += is_polygon(&r->emitter[i].e) ? r->emitter[i].e.corner_count : 0;
+        count += r->emitter[i].polygon ? r->emitter[i].e.corner_count : 0;
     edges->count = (count + 7) & ~7u;
     edges->a[0] = solver_alloc(6 * (size_t)edges->count, sizeof(double));
     for (int k = 1; k < 6; k++)
@@ -117,7 +117,7 @@ static void find_edges(struct radiosity *r)
         struct emitter *x = &r->emitter[i];
         const uint32_t n = x->e.corner_count;
         x->first_edge = at;
-        for (uint32_t c = 0; c < n && is_polygon(&x->e); c++, at++)
+        for (uint32_t c = 0; c < n && x->polygon; c++, at++)
             for (int k = 0; k < 3; k++) {
                 edges->a[k][at] = vec3_axis(x->e.corner[c], k);
                 edges->b[k][at] = vec3_axis(x->e.corner[c + 1 == n ? 0 : c + 1], k);
@@ -134,7 +134,6 @@ static void find_flat(struct radiosity *r)
         struct emitter *x = &r->emitter[i];
         const struct chart *c = &p->chart[x->at.chart];
         const struct transform *t = p->job->world->leaf[c->leaf].transform;
-        x->colour = rgb_scale(1 / rgb_max(x->e.emission), x->e.emission);
         x->flat = (struct flat_emitter){.o = transform_point(t, c->o),
                                         .a = transform_vector(t, c->a),
                                         .b = transform_vector(t, c->b),
@@ -168,6 +167,13 @@ void emitters_find(struct radiosity *r)
         ;
     if (r->emitter_count > EMITTERS_MOST)
         r->emitter_count = 0;
+    for (uint32_t i = 0; i < r->emitter_count; i++) {
+        struct emitter *x = &r->emitter[i];
+        const float most = rgb_max(x->e.emission);
+        x->polygon = is_polygon(&x->e);
+        x->colour = rgb_scale(1 / most, x->e.emission);
+        x->power = x->e.area * (double)most;
+    }
     find_shafts(r);
     find_edges(r);
     find_flat(r);
@@ -254,14 +260,13 @@ static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3
     r->patches->sight->edges(&r->edges, o, n, term, height);
     for (uint32_t i = 0; i < r->emitter_count; i++) {
         const struct emitter *x = &r->emitter[i];
-        const bool polygon = is_polygon(&x->e);
         const double given =
-            polygon ? lambert_of_edges(o, n, x->e.corner, x->e.corner_count,
-                                       term + x->first_edge, height + x->first_edge)
-                    : drawn_by(x, o, n);
+            x->polygon ? lambert_of_edges(o, n, x->e.corner, x->e.corner_count,
+                                          term + x->first_edge, height + x->first_edge)
+                       : drawn_by(x, o, n);
         const double c = given * (double)rgb_max(x->e.emission);
         sum += c;
-        polygons += polygon ? c : 0;
+        polygons += x->polygon ? c : 0;
         up_to[i] = sum;
     }
     return polygons;
@@ -279,9 +284,15 @@ static uint64_t in_between(const struct radiosity *r, uint32_t element, struct v
         at.hollow = p->shaft[element].hollow;
         some = r->between[element];
     }
-    for (uint32_t i = 0; i < r->emitter_count && some & ~found; before = up_to[i++])
-        if (up_to[i] > before)
-            found |= shafts_hide(p, &at, &r->emitter[i].shaft, some & ~found);
+    const struct shaft *last = NULL;
+    for (uint32_t i = 0; i < r->emitter_count && some & ~found; before = up_to[i++]) {
+        // Two triangles of a rectangle lie in the same box.
+        const struct shaft *to = &r->emitter[i].shaft;
+        if (!(up_to[i] > before) || (last && shaft_equals(last, to)))
+            continue;
+        found |= shafts_hide(p, &at, to, some & ~found);
+        last = to;
+    }
     return found;
 }
 
@@ -338,22 +349,28 @@ static double put_looks(const struct radiosity *r, struct looks *l, const double
     // Of a point relative to the mean: nearer than an element's size it has no bound.
     static const double weight_most = 8;
     const struct emitter_aims *x = &l->aims;
-    double all = 0;
+    const struct emitter *before = NULL;
+    double all = 0, scale = 0;
     l->rays->count = 0;
     for (uint32_t k = 0; k < EMITTER_RAYS; k++) {
         const struct emitter *e = l->drawn[k];
         const ptrdiff_t i = e - r->emitter;
-        const double share = up_to[i] - (i ? up_to[i - 1] : 0);
-        const double given = x->kernel[k] * e->e.area * (double)rgb_max(e->e.emission);
+        if (e != before) {
+            const double share = up_to[i] - (i ? up_to[i - 1] : 0);
+            scale = e->power / share;
+            before = e;
+        }
+        const double given = x->kernel[k] * scale;
         if (!(given > 0))
             continue;
-        const double weight = given < weight_most * share ? given / share : weight_most;
-        all += is_polygon(&e->e) ? weight : 0;
-        l->of[l->rays->count] = e;
-        l->weight[l->rays->count] = weight;
+        const double weight = given < weight_most ? given : weight_most;
+        const uint32_t ray = l->rays->count;
+        all += e->polygon ? weight : 0;
+        l->of[ray] = e;
+        l->weight[ray] = weight;
         // Ends short of the emitter, which is no obstacle to itself.
         ray_put_from(l->rays, x->o, vec3(x->d[0][k], x->d[1][k], x->d[2][k]), 1 - 1e-4);
-        l->rays->hidden_by[l->rays->count - 1] = OBJECT_NO_RADIOSITY;
+        l->rays->hidden_by[ray] = OBJECT_NO_RADIOSITY;
     }
     return all;
 }
@@ -386,7 +403,7 @@ struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer 
     for (uint32_t k = 0; k < l->rays->count; k++) {
         if (hidden[k])
             continue;
-        struct rgb *into = is_polygon(&l->of[k]->e) ? &open : &other;
+        struct rgb *into = l->of[k]->polygon ? &open : &other;
         *into = rgb_add(*into, rgb_scale((float)l->weight[k], l->of[k]->colour));
     }
     open = rgb_scale(all > 0 ? (float)(polygons / all) : 0, open);

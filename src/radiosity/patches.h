@@ -141,6 +141,8 @@ struct shaft patches_shaft(const struct patches *p, const struct element *e,
 // Which of `some` objects (bits) may hide part of one from the other.
 uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
                      const struct shaft *b, uint64_t some);
+// Whether the boxes and the hollows are the same.
+bool shaft_equals(const struct shaft *a, const struct shaft *b);
 // Whether a point lies in the box, up to rounding.
 bool shaft_holds(const struct shaft *s, struct vec3 at);
 // Drops elements that no light can reach on its way to the camera.

@@ -120,6 +120,16 @@ bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
     return !p->shaft || shafts_hide(p, &p->shaft[a], &p->shaft[b], UINT64_MAX);
 }
 
+static bool same(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+bool shaft_equals(const struct shaft *a, const struct shaft *b)
+{
+    return same(a->centre, b->centre) && same(a->half, b->half) && a->hollow == b->hollow;
+}
+
 bool shaft_holds(const struct shaft *s, struct vec3 at)
 {
     static const double rounding = 1e-9; // of the coordinates, as above

@@ -6,7 +6,10 @@
 #include "trace/packet_objects.h"
 #include "trace/packet_tree.h"
 
-enum { MESH_FEW = 2 }; // lanes that go on one by one
+enum {
+    MESH_FEW = 2,  // lanes that go on one by one
+    MESH_SMALL = 2 // faces that are tried without a way through the tree
+};
 
 struct mesh8 {
     const struct mesh *m;
@@ -98,6 +101,11 @@ static void mesh8_lane(struct mesh8 *v, int lane, int32_t child)
 static void mesh8_traverse(struct mesh8 *v, unsigned lanes)
 {
     const struct bvh8 *tree = &v->m->tree;
+    if (v->m->face_count <= MESH_SMALL) {
+        for (uint32_t i = 0; i < v->m->face_count; i++)
+            mesh8_face(v, lanes, i);
+        return;
+    }
     struct tree8 way = tree8_of(&v->at, lanes);
     const bool any = v->e->p->mode == SWEEP_OPAQUE;
     struct packet_entry stack[BVH8_STACK];

@@ -99,32 +99,45 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
         alternate(out, from);
 }
 
+// A face that is met before *t_max, which then is where.
+static bool closer_face(const struct mesh *m, const struct triangle_ray *r, double t_min,
+                        uint32_t face, bool found, double *t_max, struct boundary *out)
+{
+    struct vec3 p[3];
+    struct triangle_hit h;
+    mesh_corners(m, face, p);
+    if (!triangle_meet(r, p, &h) || !(h.t > t_min) ||
+        !(h.t < *t_max || (found && h.t == *t_max && face < out->part)))
+        return false; // of equal hits the first face, whatever the tree
+    fill(out, &h, face);
+    out->crossing = CROSS_TOUCH;
+    *t_max = h.t;
+    return true;
+}
+
 bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out)
 {
+    enum { SMALL = 2 }; // faces that are tried without a walk, as in trace/packet_mesh.h
     const struct mesh *m = shape;
-    const struct triangle_ray r = triangle_ray_of(ray);
     double t_max = ray->t_max;
     bool found = false;
     struct bvh8_ray way;
     struct bvh8_walk walk;
     if (!bvh8_ray_begin(&m->tree, ray, ray->t_min, t_max, &way))
         return false;
+    const struct triangle_ray r = triangle_ray_of(ray);
+    if (m->face_count <= SMALL) {
+        for (uint32_t f = 0; f < m->face_count; f++)
+            found |= closer_face(m, &r, ray->t_min, f, found, &t_max, out);
+        return found;
+    }
     bvh8_walk_begin(&walk, &m->tree);
     for (uint32_t first, n; bvh8_walk_next(&walk, &m->tree, &way, &first, &n);)
-        for (uint32_t k = first; k < first + n; k++) {
-            struct vec3 p[3];
-            struct triangle_hit h;
-            const uint32_t f = m->tree.item[k];
-            mesh_corners(m, f, p);
-            if (!triangle_meet(&r, p, &h) || !(h.t > ray->t_min) ||
-                !(h.t < t_max || (found && h.t == t_max && f < out->part)))
-                continue; // of equal hits the first face, whatever the tree
-            fill(out, &h, f);
-            out->crossing = CROSS_TOUCH;
-            t_max = h.t;
-            found = true;
-            bvh8_ray_limit(&way, t_max);
-        }
+        for (uint32_t k = first; k < first + n; k++)
+            if (closer_face(m, &r, ray->t_min, m->tree.item[k], found, &t_max, out)) {
+                found = true;
+                bvh8_ray_limit(&way, t_max);
+            }
     return found;
 }
 

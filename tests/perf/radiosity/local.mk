@@ -1,5 +1,6 @@
-# Radiosity against truths: `make radiosity-data` measures (an hour), `make
-# radiosity-chart` draws doc/radiosity.svg from the committed tables.
+# Radiosity against truths: `make radiosity-data` measures, `make radiosity-chart` draws
+# doc/radiosity.svg from the committed tables. PARTS=csg, PARTS='cube pictures-cube' and what
+# run.sh reads (ONLY, RUNS, LIMIT) measure some of it.
 EXTRA_PROGRAMS += radiosity_bench radiosity_picture radiosity_stability radiosity_truth
 radiosity_bench_SOURCES = %D%/radiosity_bench.c %D%/truth.c %D%/truth.h
 radiosity_bench_LDADD = $(lambert_libs)
@@ -16,7 +17,7 @@ EXTRA_DIST += %D%/chart.gp %D%/cornell.faces %D%/cornell.pov %D%/cornell.truth.t
 	%D%/room.pov %D%/room.truth.tsv %D%/run.sh %D%/solutions.tsv %D%/stability.tsv \
 	doc/radiosity.svg
 radiosity-data: radiosity_bench radiosity_picture radiosity_stability lambert
-	bash $(top_srcdir)/tests/perf/radiosity/run.sh . $(top_srcdir)/tests/perf/radiosity
+	bash $(top_srcdir)/tests/perf/radiosity/run.sh . $(top_srcdir)/tests/perf/radiosity $(PARTS)
 # The tables of truth: the cube in seconds, the others in minutes each.
 radiosity-truth: radiosity_truth
 	cd $(top_srcdir)/tests/perf/radiosity && \

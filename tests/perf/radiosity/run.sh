@@ -1,20 +1,29 @@
 #!/bin/bash
 # Measures the tables of the radiosity chart. Times are user CPU seconds on one thread: the
-# median of RUNS runs, errors the rms over them.
-# usage: [RUNS=3] run.sh BUILD_FOLDER OUT_FOLDER [scene ...] [stability] [pictures-cube] ...
+# median of RUNS runs, errors the rms over them. ONLY names curves (a regular expression for
+# method/solver); all other rows stay. What takes over LIMIT seconds has no row.
+# usage: [RUNS=3] [LIMIT=600] [ONLY='/(cg|elimination)$'] \
+#        run.sh BUILD_FOLDER OUT_FOLDER [scene ...] [stability] [pictures-cube] ...
 set -u
 build=$(cd "$1" && pwd) out=$(cd "$2" && pwd)
 shift 2
 here=$(cd "$(dirname "$0")" && pwd)
-runs=${RUNS:-3}
+runs=${RUNS:-3} limit=${LIMIT:-600} only=${ONLY:-.}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 solve() { # scene key=value ...
-  local truth=$here/$1.truth.tsv
+  local truth=$here/$1.truth.tsv method=analytic solver=stochastic i # by default
+  for i in "${@:2}"; do
+    case $i in
+    method=*) method=${i#*=} ;;
+    solver=*) solver=${i#*=} ;;
+    esac
+  done
+  [[ $method/$solver =~ $only ]] || return 0
   [ "$1" = csg ] && truth=furnace
-  timeout -s KILL 600 "$build/radiosity_bench" "$here/$1.pov" "$truth" runs="$runs" "${@:2}" \
-    >>"$work/table"
+  timeout -s KILL "$limit" "$build/radiosity_bench" "$here/$1.pov" "$truth" runs="$runs" "${@:2}" \
+    >>"$work/table" || echo "$1 ${*:2}: no row" >&2
 }
 
 scene() { # replaces the lines of a scene in the table
@@ -41,7 +50,8 @@ scene() { # replaces the lines of a scene in the table
   done
   # What one gets who sets nothing.
   solve "$1"
-  awk -F'\t' -v s="$1" '$1 != s' "$out/solutions.tsv" >"$work/rest" 2>/dev/null
+  awk -F'\t' -v s="$1" -v only="$only" '$1 != s || $2 "/" $3 !~ only' "$out/solutions.tsv" \
+    >"$work/rest" 2>/dev/null
   {
     printf '#scene\tmethod\tsolver\tsettings\tpatches\terror\tuser s\trays\tbytes\tsteps\testimate\truns\n'
     sort "$work/rest" "$work/table" | grep -v '^#'
