@@ -87,7 +87,8 @@ struct scan {
     float (*centre)[4];
     float (*fine)[4];
     struct judged *centre_judged, *fine_judged;
-    bool *known; // fine is there
+    uint8_t *edges; // between centres: BY_LEFT, BY_TOP
+    bool *known;    // fine is there
     bool *wanted;
     uint8_t *final; // of the current scan: stored is not the centre
 };
@@ -124,10 +125,27 @@ static void scan_centres(struct scan *s)
 }
 
 enum { FINAL = 1, FINE = 2 };
+enum { BY_LEFT = 1, BY_TOP = 2 };
 
-static const struct judged *stored(const struct scan *s, int i)
+// Where the centres of neighbours differ.
+static void scan_edges(struct scan *s)
 {
-    return s->final[i] & FINE ? &s->fine_judged[i] : &s->centre_judged[i];
+    for (int y = 0; y < s->height; y++) {
+        for (int x = 0; x < s->width; x++) {
+            const int i = scan_index(s, x, y);
+            const struct judged *j = s->centre_judged + i;
+            s->edges[i] = (uint8_t)((differ(s->a, j - 1, j) ? BY_LEFT : 0) |
+                                    (differ(s->a, j - s->stride, j) ? BY_TOP : 0));
+        }
+    }
+}
+
+// Whether what is stored of a neighbour differs from a centre.
+static bool edge(const struct scan *s, int neighbour, int i, int bit)
+{
+    return s->final[neighbour] & FINE
+               ? differ(s->a, &s->fine_judged[neighbour], &s->centre_judged[i])
+               : s->edges[i] & bit;
 }
 
 static void refine(struct scan *s, int i)
@@ -150,8 +168,8 @@ static bool scan_pass(struct scan *s)
     for (int y = 0; y < s->height; y++) {
         for (int x = 0; x < s->width; x++) {
             const int i = scan_index(s, x, y), left = i - 1, top = i - s->stride;
-            const bool by_left = differ(s->a, stored(s, left), &s->centre_judged[i]);
-            const bool by_top = differ(s->a, stored(s, top), &s->centre_judged[i]);
+            const bool by_left = edge(s, left, i, BY_LEFT);
+            const bool by_top = edge(s, top, i, BY_TOP);
             if (by_left && !(s->final[left] & FINAL))
                 refine(s, left);
             if (by_top && !(s->final[top] & FINAL))
@@ -252,7 +270,9 @@ static void method_1(const struct antialias *a, int x0, int y0, int x1, int y1,
     s.known = need(cells, sizeof *s.known);
     s.wanted = need(cells, sizeof *s.wanted);
     s.final = need(cells, sizeof *s.final);
+    s.edges = need(cells, sizeof *s.edges);
     scan_centres(&s);
+    scan_edges(&s);
     while (scan_pass(&s))
         scan_refine(&s);
     for (int y = 0; y < s.height; y++) {
@@ -269,6 +289,7 @@ static void method_1(const struct antialias *a, int x0, int y0, int x1, int y1,
     free(s.known);
     free(s.wanted);
     free(s.final);
+    free(s.edges);
 }
 
 // ---- method 2 ------------------------------------------------------------

@@ -19,31 +19,39 @@ LANES_INLINE struct real8 linear8(double working, struct real8 v, struct mask8 b
     return r8_select(below, zero, v);
 }
 
-// Two colours at a time; their transparency stays as it is.
+LANES_INLINE struct real8 judge8(double working, double exponent, struct real8 v)
+{
+    const struct mask8 below = r8_le(v, r8_set(0));
+    const struct real8 x = linear8(working, v, below);
+    if (exponent == 1)
+        return x;
+    return r8_select(below, x, r8_pow_single(r8_select(below, r8_set(1), x), exponent));
+}
+
+// Eight colours at a time; their transparency stays as it is.
 static void judge(double working, double gamma, const float (*color)[4], uint32_t count,
                   float (*out)[4])
 {
-    const double exponent = 1 / gamma;
-    for (uint32_t i = 0; i < count; i += 2) {
-        const uint32_t second = i + 1 < count ? i + 1 : i;
-        double c[8];
-        for (int k = 0; k < 4; k++) {
-            c[k] = (double)color[i][k];
-            c[4 + k] = (double)color[second][k];
+    for (uint32_t i = 0; i < count; i += 8) {
+        const uint32_t n = count - i < 8 ? count - i : 8;
+        // Skies and backgrounds: all are what the one before them is.
+        if (i && memcmp(color[i - 1], color[i], n * sizeof *color) == 0) {
+            for (uint32_t k = i; k < i + n; k++)
+                memcpy(out[k], out[i - 1], sizeof *out);
+            continue;
         }
-        c[3] = c[7] = 0;
-        const struct real8 v = r8_load(c);
-        const struct mask8 below = r8_le(v, r8_set(0));
-        struct real8 j = linear8(working, v, below);
-        if (exponent != 1)
-            j = r8_select(below, j,
-                          r8_pow_single(r8_select(below, r8_set(1), j), exponent));
-        float judged[8];
-        f8_store(judged, f8_of(j));
-        judged[3] = color[i][3];
-        judged[7] = color[second][3];
-        memcpy(out[second], judged + 4, 4 * sizeof *judged);
-        memcpy(out[i], judged, 4 * sizeof *judged);
+        float judged[3][8];
+        for (int c = 0; c < 3; c++) {
+            double v[8];
+            for (uint32_t k = 0; k < 8; k++)
+                v[k] = (double)color[i + (k < n ? k : 0)][c];
+            f8_store(judged[c], f8_of(judge8(working, 1 / gamma, r8_load(v))));
+        }
+        for (uint32_t k = 0; k < n; k++) {
+            const float j[4] = {judged[0][k], judged[1][k], judged[2][k],
+                                color[i + k][3]};
+            memcpy(out[i + k], j, sizeof j);
+        }
     }
 }
 
