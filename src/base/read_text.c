@@ -18,6 +18,7 @@ static char *read_plain(FILE *in, struct arena *a, const char *prefix, size_t mo
     *len = before + (size_t)s.st_size;
     if (*len > most)
         return NULL;
+    setvbuf(in, NULL, _IONBF, 0); // all of it is read at once
     const struct arena_mark mark = arena_mark(a);
     char *text = arena_alloc(a, *len + TEXT_END);
     memcpy(text, prefix, before);

@@ -60,7 +60,7 @@ static void enter(struct tape_builder *b, uint32_t id)
 
 static void grow(struct tape_builder *b)
 {
-    b->capacity = b->capacity ? 2 * b->capacity : 32;
+    b->capacity = b->capacity ? 2 * b->capacity : 8;
     struct tape_node *node = arena_new_array(b->work, struct tape_node, b->capacity);
     if (b->count)
         memcpy(node, b->node, b->count * sizeof *node);
