@@ -85,7 +85,6 @@ static void begin(struct tracer *t, uint32_t count)
     arena_reset(t->arena);
     t->last_push = (struct inside_pushed){0};
     t->sum_count = 0;
-    wave_sums_grow(t, count);
     t->samples += count;
 }
 
@@ -118,6 +117,7 @@ static void rays_run(struct tracer *t, const struct tracer_ray *ray, uint32_t co
     if (!one_eye)
         around = around_rays(t, ray, count);
     begin(t, count);
+    wave_sums_grow(t, count);
     t->camera_queue.count = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (!ray[i].exists) {
@@ -150,6 +150,7 @@ void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
                   struct first_hit *first, float (*out)[4])
 {
     begin(t, count);
+    wave_sums_grow(t, count);
     t->camera_queue.count = 0;
     for (uint32_t i = 0; i < count; i++) {
         struct path *p = path_queue_add(&t->camera_queue);
@@ -215,6 +216,7 @@ const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *posit
     const struct job *job = t->job;
     if (job->quick_camera) {
         begin(t, count);
+        wave_sums_reserve(t, count); // all are set by the camera's wave
         uint16_t place[BATCH_SIZE];
         const uint32_t made =
             job->kernels->camera(job, position, on_lens, count, t->rays, place);

@@ -69,15 +69,19 @@ void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
         (struct power_request){*path, factor, exponent, path->sample};
 }
 
-void wave_sums_grow(struct tracer *t, uint32_t count)
+void wave_sums_reserve(struct tracer *t, uint32_t count)
 {
     while (t->sum_count + count > t->sum_capacity) {
         t->sum_capacity = more(t->sum_capacity);
         t->sum = must_realloc(t->sum, t->sum_capacity, sizeof *t->sum);
     }
-    for (uint32_t i = 0; i < count; i++)
-        t->sum[t->sum_count + i] = (struct sample_sum){0};
     t->sum_count += count;
+}
+
+void wave_sums_grow(struct tracer *t, uint32_t count)
+{
+    wave_sums_reserve(t, count);
+    memset(t->sum + t->sum_count - count, 0, count * sizeof *t->sum);
 }
 
 static float powered(float c, float exponent)

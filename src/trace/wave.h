@@ -5,6 +5,8 @@
 
 // Room for `count` more samples, with sums of zero.
 void wave_sums_grow(struct tracer *t, uint32_t count);
+// The same with sums of anything.
+void wave_sums_reserve(struct tracer *t, uint32_t count);
 // Traces a queue to its end, adding to the sums.
 void wave_run(struct tracer *t, const struct path_queue *queue);
 // The same for the `count` rays that stand in the tracer's batch, straight from a camera
