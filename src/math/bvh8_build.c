@@ -290,12 +290,20 @@ static uint32_t new_node(struct builder *b)
     return b->node_count++;
 }
 
+// Whether to split a range of a node that has `count`. Items that each are a leaf, and would fill
+// one node, are better left to it than made nodes of few children.
+static bool may_split(const struct range *r, uint32_t count, uint32_t leaf_items)
+{
+    return !r->whole && (leaf_items > 1 || r->count > 8 || count + r->count <= 9);
+}
+
 // The range with the largest box that may still be split; -1: none.
-static int widest(const struct range *r, int count)
+static int widest(const struct range *r, int count, uint32_t leaf_items)
 {
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (!r[i].whole && (best < 0 || r[i].area > r[best].area))
+        if (may_split(&r[i], (uint32_t)count, leaf_items) &&
+            (best < 0 || r[i].area > r[best].area))
             best = i;
     return best;
 }
@@ -305,7 +313,7 @@ static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
 {
     struct range r[8] = {all};
     int n = 1;
-    for (int i; n < 8 && (i = widest(r, n)) >= 0;) {
+    for (int i; n < 8 && (i = widest(r, n, b->leaf_items)) >= 0;) {
         if (split(b, &r[i], depth, &r[n]))
             n++;
         else

@@ -471,8 +471,11 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
             accel->infinite[accel->infinite_count++] = i;
         }
     }
+    // One ray meets eight spheres at once, but other objects as fast as eight rays do.
+    const bool mostly_balls = 2 * balls > n;
+    accel->together = mostly_balls ? 4 : 2;
     accel->top =
-        bvh8_build(a, box, object, n, 2 * balls > n ? BVH8_CHEAP_ITEMS : BVH8_DEAR_ITEMS);
+        bvh8_build(a, box, object, n, mostly_balls ? BVH8_CHEAP_ITEMS : BVH8_DEAR_ITEMS);
     free(box);
     free(object);
 }

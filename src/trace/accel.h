@@ -93,6 +93,8 @@ struct accel {
     struct accel_product *product; // per object; NULL: there are no products
     unsigned lone_flags;           // of all objects that are bare spheres
     bool lone_opaque;              // all of them are
+    // Of a packet's lanes, how many a child of the root must hold on average; else they part.
+    uint32_t together;
     bool few;       // so few items, all cheap to miss, that the tree helps no packet
     unsigned flags; // of all objects
     const struct packet_kernels *kernels;

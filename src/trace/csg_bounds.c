@@ -5,6 +5,7 @@
 
 #include "scene/shapes/plane.h"
 #include "scene/shapes/quadric.h"
+#include "scene/shapes/sphere.h"
 
 static struct aabb drawn_bounds(const struct leaf *l)
 {
@@ -120,6 +121,72 @@ static void cut_by_planes(const struct csg_node *sibling, uint32_t count,
     out->surface = aabb_meet(out->surface, box);
 }
 
+// The box of what two spheres have in common. It reaches along an axis as far as the circle in
+// which they meet, or as the end of one sphere that lies in the other.
+static struct aabb lens_box(const struct sphere *a, const struct sphere *b)
+{
+    const struct vec3 between = vec3_sub(b->centre, a->centre);
+    const double dd = vec3_dot(between, between), aa = a->radius * a->radius,
+                 bb = b->radius * b->radius;
+    const double slack = box_slack * (aa + bb + dd);
+    const double share = (dd + aa - bb) / (2 * dd); // of the way, where the circle is
+    const double square = aa - share * share * dd;
+    if (!(square > 0)) // one holds the other, or they are apart
+        return aabb_infinite();
+    const struct vec3 middle = vec3_mad(a->centre, share, between);
+    double min[3], max[3];
+    for (int k = 0; k < 3; k++) {
+        const double way = vec3_axis(between, k);
+        const double from_a = vec3_axis(a->centre, k), from_b = vec3_axis(b->centre, k),
+                     at = vec3_axis(middle, k);
+        const double reach = sqrt(square * fmax(0, 1 - way * way / dd) + slack);
+        min[k] = at - reach;
+        max[k] = at + reach;
+        for (int side = -1; side <= 1; side += 2) {
+            const double ra = side * a->radius, rb = side * b->radius;
+            const bool a_in_b = dd - 2 * ra * way + aa <= bb + slack,
+                       b_in_a = dd + 2 * rb * way + bb <= aa + slack;
+            min[k] =
+                fmin(min[k], fmin(a_in_b ? from_a + ra : at, b_in_a ? from_b + rb : at));
+            max[k] =
+                fmax(max[k], fmax(a_in_b ? from_a + ra : at, b_in_a ? from_b + rb : at));
+        }
+        const double more =
+            box_slack * (fabs(from_a) + fabs(from_b) + a->radius + b->radius);
+        min[k] -= more;
+        max[k] += more;
+    }
+    return (struct aabb){vec3(min[0], min[1], min[2]), vec3(max[0], max[1], max[2])};
+}
+
+static const struct sphere *solid_sphere(const struct csg_node *n,
+                                         const struct leaf *leaf)
+{
+    if (n->op != NODE_LEAF)
+        return NULL;
+    const struct leaf *l = &leaf[n->leaf];
+    return l->ops == &sphere_ops && l->transform->identity && !l->inverted ? l->shape
+                                                                           : NULL;
+}
+
+// What the spheres among its siblings leave of a sphere's box.
+static void cut_by_spheres(const struct csg_node *sibling, uint32_t count,
+                           const struct leaf *leaf, const struct sphere *s,
+                           struct boxes *out)
+{
+    enum { MOST = 16 }; // spheres, so that large nodes take linear time
+    uint32_t spheres = 0;
+    for (uint32_t i = 0; i < count && spheres < MOST; i++) {
+        const struct sphere *other = solid_sphere(&sibling[i], leaf);
+        if (!other || other == s)
+            continue;
+        const struct aabb box = lens_box(s, other);
+        out->inside = aabb_meet(out->inside, box);
+        out->surface = aabb_meet(out->surface, box);
+        spheres++;
+    }
+}
+
 static void cut_children(const struct csg_node *child, uint32_t count,
                          const struct leaf *leaf, struct boxes *box)
 {
@@ -129,6 +196,9 @@ static void cut_children(const struct csg_node *child, uint32_t count,
         const struct leaf *l = &leaf[child[i].leaf];
         if (l->solid && !l->inverted && l->ops != &plane_ops)
             cut_by_planes(child, count, leaf, l, &box[i]);
+        const struct sphere *s = solid_sphere(&child[i], leaf);
+        if (s)
+            cut_by_spheres(child, count, leaf, s, &box[i]);
     }
 }
 

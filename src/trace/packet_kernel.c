@@ -6,9 +6,8 @@
 #include "trace/packet_list.h"
 
 enum {
-    FEW = 1,         // lanes that go on one by one
-    SMALL_TREE = 16, // nodes up to which packets always pay
-    TOGETHER = 4     // of the lanes at the root, how many a child must hold on average
+    FEW = 1,        // lanes that go on one by one
+    SMALL_TREE = 16 // nodes up to which packets always pay
 };
 
 // ---- one ray ----------------------------------------------------------------------------
@@ -175,6 +174,7 @@ static void traverse(struct eight *e, unsigned lanes)
     const struct bvh8 *tree = &p->w->accel->top;
     struct tree8 v = tree8_of(&p->top, lanes);
     const bool any = p->mode == SWEEP_OPAQUE;
+    const uint32_t together = p->w->accel->together;
     struct packet_entry stack[BVH8_STACK];
     uint32_t depth = 1;
     f8_store(stack[0].near, f8_set(0));
@@ -209,7 +209,7 @@ static void traverse(struct eight *e, unsigned lanes)
         depth = push_children8(&tree->node[child], &v, stack, depth, any, &met_lanes);
         // Rays that part at the root gain nothing from each other, and each alone meets
         // its boxes in its own order.
-        if (child == 0 && tree->node_count > SMALL_TREE && met_lanes < TOGETHER * depth) {
+        if (child == 0 && tree->node_count > SMALL_TREE && met_lanes < together * depth) {
             one_by_one(e, bits, 0);
             return;
         }

@@ -481,6 +481,56 @@ static void turned_planes_cut_boxes(void **state)
     assert_true(f->w->object[1].bounds.max.y >= 4);
 }
 
+// The ends along the axes of what is on one sphere and in the other, by many points.
+static struct aabb points_on_in(const struct sphere *on, const struct sphere *in)
+{
+    enum { AROUND = 400, DOWN = 200 };
+    static const double pi = 3.141592653589793;
+    struct aabb box = aabb_empty();
+    for (int i = 0; i < AROUND; i++) {
+        for (int k = 0; k <= DOWN; k++) {
+            const double phi = 2 * pi * i / AROUND, theta = pi * k / DOWN;
+            const struct vec3 d =
+                vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
+            const struct vec3 p = vec3_mad(on->centre, on->radius, d);
+            if (vec3_length(vec3_sub(p, in->centre)) <= in->radius)
+                box = aabb_add(box, p);
+        }
+    }
+    return box;
+}
+
+// What two spheres have in common has a box that holds it and hardly more, whether it is a thin
+// lens or all of one sphere.
+static void lenses_have_boxes(void **state)
+{
+    enum { LENSES = 30 };
+    struct fixture *f = *state;
+    const struct sphere *pair[LENSES][2];
+    uint64_t random = 5;
+    for (int i = 0; i < LENSES; i++) {
+        const struct object *o[2];
+        for (int k = 0; k < 2; k++) {
+            o[k] = sphere_at(f, between(&random, -0.8, 0.8), between(&random, -0.8, 0.8),
+                             between(&random, -0.8, 0.8), between(&random, 0.7, 2));
+            pair[i][k] = o[k]->shape;
+        }
+        add(f, csg(f, CSG_INTERSECTION, o[0], o[1]));
+    }
+    finish(f);
+    for (int i = 0; i < LENSES; i++) {
+        const struct aabb box = f->w->object[i].bounds;
+        const struct aabb part = aabb_join(points_on_in(pair[i][0], pair[i][1]),
+                                           points_on_in(pair[i][1], pair[i][0]));
+        assert_false(aabb_is_empty(part));
+        for (int a = 0; a < 3; a++) {
+            const double below = vec3_axis(part.min, a) - vec3_axis(box.min, a),
+                         above = vec3_axis(box.max, a) - vec3_axis(part.max, a);
+            assert_true(0 <= below && below < 0.05 && 0 <= above && above < 0.05);
+        }
+    }
+}
+
 // Planes across the axis of a quadric that has no end leave a part that has one, however both
 // were turned, moved and scaled; what is the widest there touches the box.
 static void planes_end_quadrics(void **state)
@@ -670,6 +720,7 @@ int main(void)
         TEST(the_sweep_agrees_with_points),
         TEST(many_holes),
         TEST(turned_planes_cut_boxes),
+        TEST(lenses_have_boxes),
         TEST(planes_end_quadrics),
         TEST(the_clear_world_has_no_opaque_object),
         TEST(a_ray_leaves_its_surface),
