@@ -218,6 +218,81 @@ static void intersect_boxes(const struct csg_node *n, const struct boxes *child,
     }
 }
 
+// What takes apart a direction into shares of three normals (Cramer).
+struct dual {
+    struct vec3 cross[3];
+    double det;
+};
+
+// How far along an axis three half spaces let a point go: if the axis is a sum of shares of
+// their normals, none below 0, no further than that of their distances (weak duality of
+// linear programs).
+static double dual_end(const struct half_space *const h[3], const struct dual *x,
+                       int axis, double sign)
+{
+    static const double rounding = 0x1p-40;
+    double end = 0, size = 0;
+    for (int i = 0; i < 3; i++) {
+        const double share = sign * vec3_axis(x->cross[i], axis) / x->det;
+        if (share < -rounding)
+            return INFINITY;
+        end += fmax(0, share) * h[i]->d;
+        size += fabs(share) * h[i]->size;
+    }
+    return end + box_slack * size;
+}
+
+static struct vec3 normal_of(const struct half_space *h)
+{
+    return vec3(h->m[0], h->m[1], h->m[2]);
+}
+
+// The box of a polyhedron of planes; infinite where they enclose none. Some three planes tell
+// each end of it exactly; those that are nearly parallel are not asked.
+static struct aabb polyhedron_bounds(const struct half_space *plane, uint32_t count)
+{
+    static const double parallel = 0x1p-12;
+    struct aabb box = aabb_infinite();
+    double *const min[3] = {&box.min.x, &box.min.y, &box.min.z};
+    double *const max[3] = {&box.max.x, &box.max.y, &box.max.z};
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t j = i + 1; j < count; j++) {
+            for (uint32_t k = j + 1; k < count; k++) {
+                const struct half_space *const h[3] = {plane + i, plane + j, plane + k};
+                const struct vec3 a = normal_of(h[0]), b = normal_of(h[1]),
+                                  c = normal_of(h[2]);
+                const struct dual x = {
+                    {vec3_cross(b, c), vec3_cross(c, a), vec3_cross(a, b)},
+                    vec3_dot(a, vec3_cross(b, c))};
+                for (int axis = 0; axis < 3 && fabs(x.det) > parallel; axis++) {
+                    *max[axis] = fmin(*max[axis], dual_end(h, &x, axis, 1));
+                    *min[axis] = fmax(*min[axis], -dual_end(h, &x, axis, -1));
+                }
+            }
+        }
+    }
+    return box;
+}
+
+// Of an intersection that no child gives an end: what its planes enclose.
+static void enclose(const struct csg_node *child, uint32_t count, const struct leaf *leaf,
+                    struct boxes *out)
+{
+    enum { MOST = 24 }; // planes; there are 2,024 threes of them
+    struct half_space plane[MOST];
+    uint32_t planes = 0;
+    if (aabb_is_finite(out->surface))
+        return;
+    for (uint32_t i = 0; i < count && planes < MOST; i++)
+        if (child[i].op == NODE_LEAF && leaf[child[i].leaf].ops == &plane_ops)
+            plane[planes++] = half_space(&leaf[child[i].leaf], &transform_identity);
+    const struct aabb box = polyhedron_bounds(plane, planes);
+    if (!aabb_is_finite(box))
+        return;
+    out->inside = aabb_meet(out->inside, aabb_pad(box));
+    out->surface = aabb_meet(out->surface, aabb_pad(box));
+}
+
 struct aabb csg_bound(struct csg_node *node, uint32_t root, uint32_t count,
                       const struct leaf *leaf)
 {
@@ -243,6 +318,7 @@ struct aabb csg_bound(struct csg_node *node, uint32_t root, uint32_t count,
         } else if (n->op == NODE_INTERSECTION) {
             cut_children(&node[n->first_child], n->child_count, leaf, child);
             intersect_boxes(n, child, to, suffix);
+            enclose(&node[n->first_child], n->child_count, leaf, to);
         } else {
             *to = (struct boxes){aabb_empty(), aabb_empty()};
             for (uint32_t k = 0; k < n->child_count; k++) {

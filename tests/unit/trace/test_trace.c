@@ -586,6 +586,46 @@ static void planes_end_quadrics(void **state)
     }
 }
 
+// Planes alone that enclose a polyhedron give it its box, whatever way they stand; others none.
+static void planes_enclose_polyhedra(void **state)
+{
+    struct fixture *f = *state;
+    enum { TURNS = 4, FACES = 8 };
+    const struct vec3 degrees[TURNS] = {{0, 0, 0}, {90, 0, 0}, {45, 0, 45}, {20, 30, 40}};
+    const struct vec3 to = vec3(70, -8, 9);
+    for (int i = 0; i < 2 * TURNS; i++) { // octahedra of radius 2, and without a face
+        const uint32_t faces = i < TURNS ? FACES : FACES / 2;
+        const struct object **child = arena_new_array(f->a, const struct object *, FACES);
+        for (uint32_t k = 0; k < faces; k++)
+            child[k] = half_space(
+                f, vec3_normalize(vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)),
+                2 / sqrt(3));
+        struct object *o =
+            object_new_csg(f->a, CSG_INTERSECTION, child, faces, (struct span){0});
+        o = moved(f, o, transform_rotate(degrees[i % TURNS]));
+        add(f, moved(f, o, transform_translate(to)));
+    }
+    finish(f);
+    for (int i = 0; i < TURNS; i++) {
+        const struct transform turn = transform_rotate(degrees[i]);
+        const struct aabb box = f->w->object[i].bounds;
+        struct aabb corners = aabb_empty();
+        for (int k = 0; k < 6; k++) {
+            const double r = k & 1 ? -2 : 2;
+            const struct vec3 p =
+                vec3(k / 2 == 0 ? r : 0, k / 2 == 1 ? r : 0, k / 2 == 2 ? r : 0);
+            corners = aabb_add(corners, vec3_add(transform_point(&turn, p), to));
+        }
+        for (int a = 0; a < 3; a++) {
+            const double above = vec3_axis(box.max, a) - vec3_axis(corners.max, a);
+            const double below = vec3_axis(corners.min, a) - vec3_axis(box.min, a);
+            assert_true(above >= -1e-14 && above < 1e-6 && below >= -1e-14 &&
+                        below < 1e-6);
+        }
+        assert_false(aabb_is_finite(f->w->object[TURNS + i].bounds));
+    }
+}
+
 // Shadow rays that nothing opaque stops go on among the objects that let light through.
 static void the_clear_world_has_no_opaque_object(void **state)
 {
@@ -722,6 +762,7 @@ int main(void)
         TEST(turned_planes_cut_boxes),
         TEST(lenses_have_boxes),
         TEST(planes_end_quadrics),
+        TEST(planes_enclose_polyhedra),
         TEST(the_clear_world_has_no_opaque_object),
         TEST(a_ray_leaves_its_surface),
         TEST(small_gaps_are_seen),
