@@ -150,8 +150,22 @@ double chi_square(double probability, int degrees)
     return (low + high) / 2;
 }
 
-void lens_init(struct lens *l, struct arena *a, const struct camera *c)
+static void spread_init(struct lens *l, const struct jitter_tables *jitter)
 {
+    for (int i = 0; i < 256; i++) {
+        struct vec2 d = {(2 * (i % 16) + 1) / 32.0 - 0.5,
+                         (2 * (i / 16) + 1) / 32.0 - 0.5};
+        const struct vec2 j = jitter_at(jitter, d.u, d.v);
+        d.u += (j.u - 0.5) / 16;
+        d.v += (j.v - 0.5) / 16;
+        l->spread[i] = d;
+    }
+}
+
+void lens_init(struct lens *l, struct arena *a, const struct camera *c,
+               const struct jitter_tables *jitter)
+{
+    spread_init(l, jitter);
     const int n = c->blur_samples;
     l->count = n;
     l->point = arena_new_array(a, struct vec2, (size_t)n);
@@ -189,10 +203,7 @@ void lens_sample(const struct lens *l, const struct jitter_tables *jitter,
     const int seed = 313 * px + 11 + 311 * py + 17 + s;
     const int cx = jitter->shuffle[seed & 4095] % 16;
     const int cy = jitter->shuffle[(seed + 1) & 4095] % 16;
-    struct vec2 d = {(2 * cx + 1) / 32.0 - 0.5, (2 * cy + 1) / 32.0 - 0.5};
-    const struct vec2 j = jitter_at(jitter, d.u, d.v);
-    d.u += (j.u - 0.5) / 16;
-    d.v += (j.v - 0.5) / 16;
+    const struct vec2 d = l->spread[16 * cy + cx];
     *place = (struct vec2){px + 0.5 + d.u, py + 0.5 + d.v};
     const struct vec2 k = jitter_at(jitter, px + d.u + 0.5, py + d.v - 0.5);
     on_lens->u = c->aperture / 2 * (l->point[s].u + 2 * l->shake * k.u);

@@ -13,10 +13,13 @@ struct lens {
     int count;
     struct vec2 *point; // in a unit square around 0
     double shake;       // how far jitter moves a point
-    double *threshold;  // [k]: the variance of the mean at which k samples are enough
+    struct vec2
+        spread[256];   // where in a pixel samples lie, off its middle: 16 by 16 cells
+    double *threshold; // [k]: the variance of the mean at which k samples are enough
 };
 
-void lens_init(struct lens *lens, struct arena *a, const struct camera *c);
+void lens_init(struct lens *lens, struct arena *a, const struct camera *c,
+               const struct jitter_tables *jitter);
 // The batch after `done` samples: how many to take next; 0: all are taken.
 int lens_batch(const struct lens *lens, int done);
 // Sample s of a pixel: its place in the picture and on the lens (scene units).

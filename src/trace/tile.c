@@ -46,7 +46,7 @@ void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *
     if (s->antialias || camera_has_lens(job->camera))
         jitter_tables_init(&t->jitter);
     if (camera_has_lens(job->camera))
-        lens_init(&t->lens, a, job->camera);
+        lens_init(&t->lens, a, job->camera, &t->jitter);
     t->place_count = 0;
     if (width <= 0 || height <= 0)
         return;

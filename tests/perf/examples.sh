@@ -1,7 +1,7 @@
 #!/bin/bash
 # Speed of every scene that POV-Ray ships, rendered by both one after the other, one thread each.
-# Usage: tests/perf/examples.sh [-s WxH] [-j JOBS] [-t SECONDS] [NAME...], NAME such as
-# advanced/balcony. Prints tab-separated CPU seconds, scenes sorted by the ratio of rendering: the
+# Usage: tests/perf/examples.sh [-s WxH] [-j JOBS] [-t SECONDS] [-a THRESHOLD] [NAME...], NAME such
+# as advanced/balcony. -a: with anti-aliasing, +ATHRESHOLD. Prints tab-separated CPU seconds, scenes sorted by the ratio of rendering: the
 # whole process of POV-Ray and lambert and their ratio, rendering and its ratio (POV-Ray's times of
 # photons, radiosity and tracing; all of lambert's but reading the scene). A scene that either does
 # not render in SECONDS of processor time is named at the end (timeout(1) would be a process whose own
@@ -10,12 +10,13 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 lambert=$(realpath "${LAMBERT:-$here/../../build/lambert}")
 examples=${EXAMPLES:-/usr/share/doc/povray/examples}
-size=320x240 jobs=1 limit=120
-while getopts s:j:t: option; do
+size=320x240 jobs=1 limit=120 antialias=-A
+while getopts s:j:t:a: option; do
   case $option in
   s) size=$OPTARG ;;
   j) jobs=$OPTARG ;;
   t) limit=$OPTARG ;;
+  a) antialias=+A$OPTARG ;;
   *) exit 64 ;;
   esac
 done
@@ -23,7 +24,7 @@ shift $((OPTIND - 1))
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -r "$examples" "$work/scenes" # some scenes write files
-export lambert work limit width=${size%x*} height=${size#*x}
+export lambert work limit antialias width=${size%x*} height=${size#*x}
 
 # row NAME: renders one scene with both and prints its row.
 row() {
@@ -31,9 +32,9 @@ row() {
   TIMEFORMAT=%U
   own=$(mktemp -d "$work/row.XXXXXX")
   cd "$(dirname "$scene")" || return
-  { time (ulimit -t "$limit" && exec povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D -A -P \
+  { time (ulimit -t "$limit" && exec povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D "$antialias" -P \
     </dev/null >"$own/out" 2>"$own/log"); } 2>"$own/pov"
-  { time (ulimit -t "$limit" && exec "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 -A \
+  { time (ulimit -t "$limit" && exec "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 "$antialias" \
     -q --stats=json </dev/null >"$own/json" 2>"$own/err"); } 2>"$own/lam"
   local made=
   [ -s "$own/pov.png" ] || made="$made POV-Ray"
