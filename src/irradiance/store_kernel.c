@@ -20,16 +20,19 @@ static void rows_of(const struct cache_sample *sample, const uint32_t *k, uint32
         row[i] = sample[k[i < count ? i : 0]].row;
 }
 
-// Which samples may count: those that are neither too far nor turned too much.
-LANES_INLINE unsigned may_count(const struct asked *a, const struct real8 r[4],
-                                const struct real8 q[4])
+// Which samples are not too far to count, and which of them are not turned too much.
+LANES_INLINE struct mask8 near_enough(const struct asked *a, const struct real8 r[4])
 {
     const struct vec8 d = v8_sub(a->p, (struct vec8){r[0], r[1], r[2]});
     const struct real8 limit = r8_mul(r[3], a->bound);
+    return r8_lt(v8_dot(d, d), r8_mul(limit, limit));
+}
+
+LANES_INLINE struct mask8 even_enough(const struct asked *a, const struct real8 q[4])
+{
     const struct real8 turned =
         r8_abs(r8_sub(r8_set(1), v8_dot(a->n, (struct vec8){q[0], q[1], q[2]})));
-    return m8_bits(m8_and(r8_lt(v8_dot(d, d), r8_mul(limit, limit)),
-                          r8_lt(r8_mul(r8_set(4), turned), a->bound2)));
+    return r8_lt(r8_mul(r8_set(4), turned), a->bound2);
 }
 
 LANES_INLINE struct real8 falloff8(struct real8 error, const struct asked *a)
@@ -130,8 +133,11 @@ static bool mean_of(const struct cache_sample *sample, const uint32_t *filed,
         n = end < 8 ? end : 8;
         rows_of(sample, filed + end - n, n, row);
         r8_load_rows(row, 0, r);
+        unsigned good = m8_bits(near_enough(&a, r)) & ((1u << n) - 1);
+        if (!good)
+            continue;
         r8_load_rows(row, 4, q);
-        unsigned good = may_count(&a, r, q) & ((1u << n) - 1);
+        good &= m8_bits(even_enough(&a, q));
         while (good) { // the last first
             const int i = 31 - __builtin_clz(good);
             good ^= 1u << i;
@@ -168,9 +174,9 @@ static void means_of(const struct cache_sample *sample, const uint32_t *filed,
         const struct cache_sample *x = &sample[filed[i]];
         struct real8 r[4], q[4], s[4];
         set_row(x->row, r);
-        set_row(x->row + 4, q);
-        if (!(may_count(&a, r, q) & lanes))
+        if (!(m8_bits(near_enough(&a, r)) & lanes))
             continue;
+        set_row(x->row + 4, q);
         set_row(x->row + 8, s);
         const struct real8 w = weights(&a, r, q, s);
         const struct mask8 on = m8_and(wanted, r8_lt(nought, w));

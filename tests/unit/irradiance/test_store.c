@@ -193,10 +193,71 @@ static void test_eight_points(void **state)
     }
 }
 
+static struct cache_sample plain_sample(struct vec3 p, double reach)
+{
+    return (struct cache_sample){.p = p,
+                                 .n = {0, 1, 0},
+                                 .radius = reach,
+                                 .reach = reach,
+                                 .nearest = INFINITY,
+                                 .quality = 1,
+                                 .light = {1, 1, 1}};
+}
+
+static double weight_at(const struct store *s, struct vec3 p, struct store_memo *memo)
+{
+    const struct cache_point at = {p, {0, 1, 0}, 1, 0, false, INFINITY};
+    struct cache_mean mean = {0};
+    store_mean(s, &at, memo, &mean);
+    return mean.weight;
+}
+
+// A sample in cells that are known already, when half of the index is used: what a thread
+// remembers of a cell stays true.
+static void test_memo_when_full(void **state)
+{
+    struct store s;
+    struct store_memo memo = {0};
+    (void)state;
+    store_init(&s, isas[0]);
+    for (int i = 0; i < 16; i++) {
+        const struct cache_sample x = plain_sample(vec3(2 * i, 0, 0), 0.3);
+        store_add(&s, &x);
+    }
+    assert_int_equal(s.cell_count, 128);
+    assert_int_equal(s.cell_capacity, 2 * s.cell_count);
+    const struct vec3 p = vec3(0.1, 0, 0.1);
+    const double before = weight_at(&s, p, &memo);
+    const struct cache_sample x = plain_sample(vec3(0, 0, 0), 0.3);
+    store_add(&s, &x);
+    assert_int_equal(s.cell_count, 128);
+    assert_true(before > 0 && weight_at(&s, p, &memo) == 2 * before);
+    store_free(&s);
+}
+
+// Cells so small that their places are no integers, and large ones at the same point.
+static void test_far_from_origin(void **state)
+{
+    struct store s;
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const struct vec3 p = vec3(sign * 1e5, sign * 0.3, -sign * 1e5);
+        store_init(&s, isas[0]);
+        for (int i = -6; i <= 3; i++) {
+            const struct cache_sample x = plain_sample(p, pow(10, i));
+            store_add(&s, &x);
+        }
+        assert_near(weight_at(&s, p, NULL), 10, 1e-12);
+        assert_true(weight_at(&s, vec3_add(p, vec3(0, 0.05, 0)), NULL) > 3);
+        store_free(&s);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_weight_of_one),
-                                       cmocka_unit_test(test_sum_of_many),
-                                       cmocka_unit_test(test_eight_points)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_weight_of_one), cmocka_unit_test(test_sum_of_many),
+        cmocka_unit_test(test_eight_points), cmocka_unit_test(test_memo_when_full),
+        cmocka_unit_test(test_far_from_origin)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
