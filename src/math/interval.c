@@ -270,8 +270,9 @@ struct interval interval_pow(struct interval a, struct interval b)
         return whole_power(a, b.lo);
     if (!(a.lo > 0 || (a.lo == 0 && b.lo > 0)))
         return interval_whole();
-    const double p = det_pow(a.lo, b.lo), q = det_pow(a.lo, b.hi);
-    const double r = det_pow(a.hi, b.lo), s = det_pow(a.hi, b.hi);
+    const bool constant = interval_is_point(b);
+    const double p = det_pow(a.lo, b.lo), q = constant ? p : det_pow(a.lo, b.hi);
+    const double r = det_pow(a.hi, b.lo), s = constant ? r : det_pow(a.hi, b.hi);
     // Monotone in each argument, whatever the other: the extremes are at corners.
     struct interval v = interval_widened(
         fmin(fmin(p, q), fmin(r, s)), fmax(fmax(p, q), fmax(r, s)), INTERVAL_ELEMENTARY);
