@@ -27,18 +27,21 @@ void gather_init(struct gather *g, const struct radiosity_system *s,
     g->emitter = solver_alloc(n, sizeof *g->emitter);
     g->up_to = solver_alloc(n, sizeof *g->up_to);
     g->radius = solver_alloc(n, sizeof *g->radius);
+    g->rank = solver_alloc(n, sizeof *g->rank);
     g->rays = solver_alloc(n, sizeof *g->rays);
     for (uint32_t i = 0; i < n; i++) {
         const struct element *e = &s->e->element[i];
         double own[3];
         element_emission(e, own);
         area += e->area;
+        g->rank[i] = ELEMENT_NONE;
         if (own[0] + own[1] + own[2] <= 0)
             continue;
         glowing += e->area;
         g->power += e->area * (own[0] + own[1] + own[2]);
         g->up_to[g->emitter_count] = g->power;
         g->radius[g->emitter_count] = polygon_radius(e);
+        g->rank[i] = g->emitter_count;
         g->emitter[g->emitter_count++] = i;
     }
     g->direct = glowing < few * area;
@@ -49,6 +52,7 @@ void gather_free(struct gather *g)
     free(g->emitter);
     free(g->up_to);
     free(g->radius);
+    free(g->rank);
     free(g->rays);
 }
 
@@ -80,6 +84,37 @@ static void end(void *user, void *state)
     factor_state_free(state);
 }
 
+// ---- which emitters are looked at ---------------------------------------------------
+// Where one looks from: a flat element or one point, or, curved, with any normal.
+struct looker {
+    struct vec3 o, n;
+    double radius;
+    bool curved;
+};
+
+static struct looker looker_of(const struct element *e)
+{
+    return (struct looker){e->centre, e->normal, polygon_radius(e), e->curved};
+}
+
+// An emitter that lies before one so closely that what it gives differs from point to
+// point too much to be guessed beforehand is left to rays, which find it often.
+static bool is_close(const struct gather *g, uint32_t k, const struct looker *at)
+{
+    static const double gap = .3; // of the sizes
+    const struct element *e = &g->s->e->element[g->emitter[k]];
+    const struct vec3 d = vec3_sub(e->centre, at->o);
+    const double sizes = g->radius[k] + at->radius, r = vec3_length(d);
+    const double away = at->curved || e->curved ? r : fabs(vec3_dot(d, at->n));
+    return r < sizes && away < gap * sizes;
+}
+
+// Whether rays from there bring what element j sends of its own.
+static bool rays_bring(const struct gather *g, uint32_t j, const struct looker *at)
+{
+    return g->rank[j] != ELEMENT_NONE && is_close(g, g->rank[j], at);
+}
+
 // ---- what rays find ----------------------------------------------------------------
 static void found(const struct gather *g, struct factor_state *s, const uint32_t *sender)
 {
@@ -90,9 +125,11 @@ static void found(const struct gather *g, struct factor_state *s, const uint32_t
             continue;
         double own[3];
         element_emission(&g->s->e->element[j], own);
+        const struct looker self = looker_of(&g->s->e->element[i]);
+        const bool brought = !g->direct || rays_bring(g, j, &self);
         for (int c = 0; c < 3; c++) {
             g->h[i][c] += g->b[j][c] - (g->direct ? own[c] : 0);
-            if (!g->direct)
+            if (brought)
                 g->h_emitted[i][c] += own[c];
         }
     }
@@ -139,18 +176,13 @@ struct drawing {
     double total, local[LOCAL_MOST];
 };
 
-// Where one looks from: a flat element or one point, or, curved, with any normal.
-struct looker {
-    struct vec3 o, n;
-    double radius;
-    bool curved;
-};
-
-// About what emitter k gives there, and more than nothing where any point of it gives any
-// point there anything: cosines are the greatest there are.
+// About what emitter k gives there but for what rays bring, and more than nothing where
+// any point of it gives any point there anything: cosines are the greatest there are.
 static double may_give(const struct gather *g, uint32_t k, const struct looker *at)
 {
     static const double blur = .3; // of the sizes: how near points of both are
+    if (is_close(g, k, at))
+        return 0;
     const struct element *e = &g->s->e->element[g->emitter[k]];
     const double power = g->up_to[k] - (k ? g->up_to[k - 1] : 0);
     const double size = blur * (g->radius[k] + at->radius);
@@ -214,9 +246,7 @@ static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
     s->rays->count = 0;
     for (uint32_t i = from; i < to; i++) {
         const uint32_t seed = sequence_seed(i, ~g->seed);
-        const struct element *const here = &g->s->e->element[i];
-        const struct looker self = {here->centre, here->normal, polygon_radius(here),
-                                    here->curved};
+        const struct looker self = looker_of(&g->s->e->element[i]);
         double offset[4];
         struct drawing w;
         random_point(g->first, seed, offset);
@@ -226,7 +256,7 @@ static void at_emitters(void *user, void *state, uint32_t from, uint32_t to)
             double x[4], own[3], chance;
             const uint32_t e =
                 g->emitter[emitter_at(g, &w, (k + offset[0]) / g->count, &chance)];
-            if (e == i || !point_of(s, i, seed, g->first + k, x, &at))
+            if (rays_bring(g, e, &self) || !point_of(s, i, seed, g->first + k, x, &at))
                 continue;
             const double seen = factor_from_point(s, &at, e);
             double y[4];
@@ -255,6 +285,7 @@ static void point_around(const struct gather *g, struct factor_state *s,
                          const struct element_point *at, uint32_t seed, uint32_t rays,
                          double h[3])
 {
+    const struct looker self = {at->p, at->normal, 0, false};
     s->rays->count = 0;
     for (uint32_t k = 0; k < rays; k++) {
         double x[4];
@@ -267,8 +298,9 @@ static void point_around(const struct gather *g, struct factor_state *s,
         if (s->met[r] == ELEMENT_NONE)
             continue;
         element_emission(&g->s->e->element[s->met[r]], own);
+        const bool brought = !g->direct || rays_bring(g, s->met[r], &self);
         for (int c = 0; c < 3; c++)
-            h[c] += (g->b[s->met[r]][c] - (g->direct ? own[c] : 0)) / rays;
+            h[c] += (g->b[s->met[r]][c] - (brought ? 0 : own[c])) / rays;
     }
     s->rays->count = 0;
 }
@@ -287,7 +319,7 @@ static void point_emitters(const struct gather *g, struct factor_state *s,
         struct element_point of;
         double y[4], own[3], chance;
         const uint32_t e = g->emitter[emitter_at(g, &w, (k + offset[0]) / rays, &chance)];
-        const double seen = factor_from_point(s, at, e);
+        const double seen = rays_bring(g, e, &self) ? 0 : factor_from_point(s, at, e);
         if (seen <= 0 || !point_of(s, e, sequence_seed(seed, k), 0, y, &of))
             continue;
         element_emission(&g->s->e->element[e], own);

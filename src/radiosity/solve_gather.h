@@ -11,6 +11,7 @@ struct gather {
     uint32_t *emitter, emitter_count;
     double *up_to, power; // of emitters up to each, and of all
     double *radius;       // of emitters
+    uint32_t *rank;       // of elements among emitters; or ELEMENT_NONE
     // Of the pass at hand:
     double (*b)[3], (*h)[3], (*h_emitted)[3];
     uint32_t first, count; // of the elements' rays
