@@ -474,6 +474,7 @@ static void build_top(struct arena *a, const struct world *w, struct accel *acce
     // One ray meets eight spheres at once, but other objects as fast as eight rays do.
     const bool mostly_balls = 2 * balls > n;
     accel->together = mostly_balls ? 4 : 2;
+    accel->alone = mostly_balls ? 2 : 1;
     accel->top =
         bvh8_build(a, box, object, n, mostly_balls ? BVH8_CHEAP_ITEMS : BVH8_DEAR_ITEMS);
     free(box);

@@ -95,6 +95,7 @@ struct accel {
     bool lone_opaque;              // all of them are
     // Of a packet's lanes, how many a child of the root must hold on average; else they part.
     uint32_t together;
+    uint32_t alone; // lanes that go on one by one when they are no more
     bool few;       // so few items, all cheap to miss, that the tree helps no packet
     unsigned flags; // of all objects
     const struct packet_kernels *kernels;

@@ -5,10 +5,7 @@
 #include "trace/packet_any.h"
 #include "trace/packet_list.h"
 
-enum {
-    FEW = 1,        // lanes that go on one by one
-    SMALL_TREE = 16 // nodes up to which packets always pay
-};
+enum { SMALL_TREE = 16 }; // nodes up to which packets always pay
 
 // ---- one ray ----------------------------------------------------------------------------
 
@@ -164,7 +161,7 @@ static void one_by_one(struct eight *e, unsigned lanes, int32_t child)
         walk_from(packet_lane_begin(p, i), &r, child, e, i);
         packet_lane_end(p, i);
         if (p->t[i] < before)
-            limit(p, 1u << i);
+            tree_limit_lane(&p->top, i, p->t[i], p->mode == SWEEP_OPAQUE);
     }
 }
 
@@ -174,7 +171,7 @@ static void traverse(struct eight *e, unsigned lanes)
     const struct bvh8 *tree = &p->w->accel->top;
     struct tree8 v = tree8_of(&p->top, lanes);
     const bool any = p->mode == SWEEP_OPAQUE;
-    const uint32_t together = p->w->accel->together;
+    const uint32_t together = p->w->accel->together, alone = p->w->accel->alone;
     struct packet_entry stack[BVH8_STACK];
     uint32_t depth = 1;
     f8_store(stack[0].near, f8_set(0));
@@ -187,7 +184,7 @@ static void traverse(struct eight *e, unsigned lanes)
             f8_le(f8_load(top->near), f8_mul(v.far, f8_set(BVH8_SLACK)));
         if (!bits)
             continue;
-        if (__builtin_popcount(bits) <= FEW &&
+        if ((uint32_t)__builtin_popcount(bits) <= alone &&
             (child >= 0 || !takes_some(p->w->accel, child))) {
             one_by_one(e, bits, child);
             continue;

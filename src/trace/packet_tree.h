@@ -262,6 +262,13 @@ LANES_INLINE unsigned tree_begin(const struct bvh8 *b, struct vec8 o, struct vec
     return in;
 }
 
+// A lane wants nothing beyond t; if `any`, nothing at all.
+static inline void tree_limit_lane(struct tree_lanes *l, int i, double t, bool any)
+{
+    const double far = (t - l->t_begin[i]) * l->scale[i];
+    l->t_far[i] = any ? -1 : far < 1e30 ? (float)far * BVH8_SLACK : 1e30f;
+}
+
 // The lanes of `won` want nothing beyond t; if `any`, nothing at all.
 LANES_INLINE void tree_limit(struct tree_lanes *l, unsigned won, const double t[8],
                              bool any)
