@@ -79,6 +79,8 @@ LAMBERT_API const struct lambert_option *lambert_option_at(size_t i);
 LAMBERT_API const struct lambert_option *lambert_option_find(const char *name);
 // The name a mistyped one was likely meant to be, or NULL.
 LAMBERT_API const char *lambert_option_suggest(const char *name);
+// The same of INI keywords, whose case does not matter.
+LAMBERT_API const char *lambert_keyword_suggest(const char *keyword);
 
 LAMBERT_API enum lambert_status lambert_option_set(struct lambert_context *ctx,
                                                    const char *name, const char *value);

@@ -46,6 +46,28 @@ const char *lambert_option_suggest(const char *name)
     return diag_closest(name, strlen(name), names, OPTION_COUNT);
 }
 
+const char *lambert_keyword_suggest(const char *keyword)
+{
+    enum { LONGEST = 40 };
+    char low[OPTION_COUNT + 1][LONGEST]; // the last is what was written
+    const char *names[OPTION_COUNT];
+    for (int i = 0; i <= OPTION_COUNT; i++) {
+        const char *from = i == OPTION_COUNT ? keyword : options[i].keyword;
+        size_t n = 0;
+        for (; from && from[n] && n + 1 < LONGEST; n++)
+            low[i][n] = from[n] >= 'A' && from[n] <= 'Z' ? (char)(from[n] + 32) : from[n];
+        low[i][n] = 0;
+        if (i < OPTION_COUNT)
+            names[i] = low[i];
+    }
+    const char *near =
+        diag_closest(low[OPTION_COUNT], strlen(low[OPTION_COUNT]), names, OPTION_COUNT);
+    for (int i = 0; near && i < OPTION_COUNT; i++)
+        if (near == low[i])
+            return options[i].keyword;
+    return NULL;
+}
+
 static bool same_word(const char *a, const char *b, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -21,10 +21,36 @@ bool text_same(const char *a, const char *b, size_t n)
     return true;
 }
 
+static bool is_name(const char *text, size_t n)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
+    for (size_t i = 0; i < n; i++)
+        if (!strchr(letters, text[i]) && (i == 0 || text[i] < '0' || text[i] > '9'))
+            return false;
+    return true;
+}
+
+// POV-Ray takes such declarations in silence: they declare nothing, or something else.
+static void warn_of_declare(struct cmd *c, const char *text)
+{
+    const size_t name = strcspn(text, "=");
+    const char *value = text + name + (text[name] == '=');
+    char *end;
+    strtod(value, &end);
+    if (text[name] != '=' || name == 0 || !is_name(text, name))
+        cmd_warn(c, "Declare=%s declares nothing; it is written Declare=NAME=NUMBER",
+                 text);
+    else if (*value != '"' && (end == value || end[strspn(end, " \t")]))
+        cmd_warn(c, "Declare=%s: '%s' is no number; as much as can be read of it is used",
+                 text, value);
+}
+
 int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
 {
     if (lambert_option_set(c->ctx, o->name, value) != LAMBERT_OK)
         return cmd_fail(CMD_USAGE, "%s", lambert_error(c->ctx));
+    if (strcmp(o->name, "declare") == 0)
+        warn_of_declare(c, value);
     return CMD_OK;
 }
 
@@ -118,6 +144,17 @@ static const struct lambert_option *find_switch(const char *text, const char **r
     return best;
 }
 
+// The switch of that name that takes a value.
+static const struct lambert_option *find_whole(const char *text)
+{
+    const struct lambert_option *o;
+    for (size_t i = 0; (o = lambert_option_at(i)); i++)
+        if (o->pov && strlen(o->pov) == strlen(text) &&
+            text_same(text, o->pov, strlen(text)))
+            return o;
+    return NULL;
+}
+
 static char *unquoted(const char *text)
 {
     size_t n = strlen(text);
@@ -131,6 +168,9 @@ int cmdline_switch(struct cmd *c, const char *arg)
     const char *rest;
     bool on = arg[0] == '+';
     const struct lambert_option *o = find_switch(arg + 1, &rest);
+    if (!o && (o = find_whole(arg + 1)) != NULL)
+        return cmd_fail(CMD_USAGE, "'%s' needs a value right behind it: %s%s", arg, arg,
+                        o->value);
     if (!o && (arg[1] == 'F' || arg[1] == 'f'))
         return set_format(c, arg, arg + 2, on);
     if (!o && (arg[1] == 'A' || arg[1] == 'a'))
@@ -148,6 +188,8 @@ int cmdline_switch(struct cmd *c, const char *arg)
     char *value = unquoted(rest);
     int code = set_pov(c, o, value);
     free(value);
+    if (code)
+        fprintf(stderr, "  in '%s'\n", arg);
     return code;
 }
 
@@ -155,8 +197,13 @@ int cmdline_keyword(struct cmd *c, const char *keyword, const char *value)
 {
     size_t len = strlen(keyword);
     const struct lambert_option *o = cmdline_find_keyword(keyword, len);
+    const char *near = o ? NULL : lambert_keyword_suggest(keyword);
+    if (near)
+        return cmd_fail(CMD_USAGE, "'%s' is no INI keyword; did you mean '%s'?", keyword,
+                        near);
     if (!o)
-        return cmd_fail(CMD_USAGE, "'%s' is no INI keyword", keyword);
+        return cmd_fail(CMD_USAGE, "'%s' is no INI keyword; --help=all lists them",
+                        keyword);
     if (strcmp(o->name, "include-ini") == 0)
         return ini_read(c, value, NULL, 1);
     if (strcmp(o->name, "type") == 0)

@@ -1,6 +1,7 @@
 // `lambert SCENE`: one picture, or the frames of an animation.
 #include "cmd/cmd.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,8 +37,10 @@ static int check_output(const char *path)
         slash ? text_format("%.*s", (int)(slash - path + 1), path) : text_format(".");
     bool exists = access(path, F_OK) == 0;
     bool ok = access(folder, W_OK) == 0 || (exists && access(path, W_OK) == 0);
+    const int why = errno;
     free(folder);
-    return ok ? CMD_OK : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s'", path);
+    return ok ? CMD_OK
+              : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path, strerror(why));
 }
 
 static int write_picture(struct cmd *c, const struct lambert_image *image,

@@ -13,10 +13,12 @@
 bool args_expected(struct args *a, const char *role, const char *type)
 {
     const struct ast *n = a->at;
-    const char *hint = n && n->kind == AST_UNDECLARED
-                           ? undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL)
-                           : NULL;
-    diag_hint(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), hint, a->name, role, type);
+    if (n && n->kind == AST_UNDECLARED)
+        diag_hint(args_diags(a), DIAG_UNKNOWN_NAME, args_span(a),
+                  undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL),
+                  arena_strndup(a->b->e->parse, n->text, n->len), a->name);
+    else
+        diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, role, type);
     args_fail(a);
     return false;
 }

@@ -118,6 +118,23 @@ static const char *item_name(struct args *a, const struct ast *n)
     return NULL;
 }
 
+// What was likely meant by an item that has no place; NULL: nobody knows.
+static const char *misplaced_hint(const struct args *a, const struct ast *n)
+{
+    const bool pigment = strcmp(a->name, "pigment") == 0,
+               texture = strcmp(a->name, "texture") == 0;
+    if (n->kind == AST_CONSTANT &&
+        (n->word == WORD_x || n->word == WORD_y || n->word == WORD_z))
+        return "a product is written with a *, as in 45*y";
+    if (n->kind == AST_NUMBER && pigment)
+        return "the parts of a colour are written in < >, as in rgb <1, 0.5, 0>";
+    const bool colour = n->word == WORD_rgb || n->word == WORD_rgbf ||
+                        n->word == WORD_rgbt || n->word == WORD_rgbft ||
+                        n->word == WORD_color || n->word == WORD_colour;
+    return n->kind == AST_WORD && colour && texture ? "colours belong in a pigment { }"
+                                                    : NULL;
+}
+
 void args_unknown(struct args *a, const enum word *known, size_t count)
 {
     const struct ast *n = args_next(a);
@@ -138,9 +155,10 @@ void args_unknown(struct args *a, const enum word *known, size_t count)
             hint = arena_printf(a->b->e->parse, "did you mean '%s'?", close);
         diag_hint(args_diags(a), DIAG_UNKNOWN_NAME, n->where, hint, name, a->name);
     } else if (name) {
-        diag_at(args_diags(a), DIAG_UNKNOWN_ITEM, n->where, name, a->name);
+        diag_hint(args_diags(a), DIAG_UNKNOWN_ITEM, n->where, misplaced_hint(a, n), name,
+                  a->name);
     } else {
-        diag_at(args_diags(a), DIAG_EXTRA_ARG, n->where, a->name);
+        diag_hint(args_diags(a), DIAG_EXTRA_ARG, n->where, misplaced_hint(a, n), a->name);
     }
     args_fail(a);
     args_skip(a);

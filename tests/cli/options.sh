@@ -11,6 +11,19 @@ want='41 30' check "the last one wins" size +W40 --height 30 width=41
 
 unknown() { exits 64 "$lambert" sphere.pov --widht 3 && has err "did you mean '--width'"; }
 check "an unknown option is named, with a suggestion" unknown
+says() { exits 64 "$lambert" sphere.pov +W8 +H6 "$1" && has err "$2"; }
+check "so is an unknown keyword" says Widht=3 "'Widht' is no INI keyword; did you mean 'Width'?"
+check "in any case" says output_file_nam=x "did you mean 'Output_File_Name'?"
+check "a switch without its value is told so" says +W "'+W' needs a value right behind it: +WN"
+check "a wrong value is shown where it was written" says +W16x12 "in '+W16x12'"
+folder() { exits 73 "$lambert" sphere.pov +W8 +H6 -o none/s.png && has err "cannot write 'none/s.png': No such file or directory"; }
+check "a folder that is missing is the reason given" folder
+declares() { exits 0 "$lambert" sphere.pov +W8 +H6 -F -q "Declare=$1" && if [ "$2" ]; then has err "warning: Declare=$1$2"; else ! test -s err; fi; }
+check "a declaration without a value is a warning" declares A " declares nothing; it is written Declare=NAME=NUMBER"
+check "and one of no number" declares A=x ": 'x' is no number"
+check "and one of no name" declares 3=4 " declares nothing"
+check "numbers are none" declares A=-1.5e3 ""
+check "nor are strings" declares 'A_1="x y"' ""
 bad_switch() { exits 64 "$lambert" sphere.pov +Zx && has err "+Zx"; }
 check "an unknown switch is named" bad_switch
 check "+A.3 is an error" exits 64 "$lambert" sphere.pov +A.3

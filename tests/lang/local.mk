@@ -213,6 +213,7 @@ lang_scenes = \
 	%D%/336-error-t-colour.scn \
 	%D%/337-isosurface-jump.scn \
 	%D%/338-isosurface-pattern-jump.scn \
-	%D%/339-error-undeclared-once.scn
+	%D%/339-error-undeclared-once.scn \
+	%D%/340-message-misplaced.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh
