@@ -107,10 +107,11 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
         m8_without(m8_and(inside, ring_drawn(r, r->end_at)), crosses);
     const struct mask8 begun = m8_and(
         r8_le(r8_set(0), r->at), product_near(&r->others, r->from, r->from_e, r->at));
+    // One of two that coincide may be drawn, whichever begins or ends the stretch.
     const struct mask8 ended =
-        m8_and(ends, product_near(&r->others, r->to, r->to_e, r->end_at));
-    const struct mask8 near =
-        m8_or(ended, m8_and(begun, m8_or(begins, m8_or(crosses, ends))));
+        m8_and(m8_without(inside, crosses),
+               product_near(&r->others, r->to, r->to_e, r->end_at));
+    const struct mask8 near = m8_or(ended, m8_and(begun, m8_or(inside, crosses)));
     r->unsure |=
         bits & (m8_bits(x.odd) | m8_bits(m8_and(x.met, touches)) | m8_bits(near));
     bits &= ~r->unsure;

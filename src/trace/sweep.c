@@ -52,9 +52,12 @@ static double moved_error(const struct world *w, const struct ray *ray,
     }
     struct surface_point at = {.p = ray_at(local, b->t)};
     l->ops->surface(l->shape, b, at.p, &at);
-    const double slope = fabs(vec3_dot(at.ng, local->d));
+    // The direction is off by `turned` too, which counts |t| times in `error`. A crossing far away
+    // comes no nearer than where the ray that turns towards it has it.
+    const double slope = fabs(vec3_dot(at.ng, local->d)),
+                 turned = GAMMA(32) * vec3_max_abs(ray->d) * l->stretch;
     const double dt =
-        fmin(most, error / fmax(slope, GAMMA(12) * vec3_max_abs(local->d)));
+        fmin(most, error / (fmax(slope, GAMMA(12) * vec3_max_abs(local->d)) + turned));
     return dt > 0 ? dt : 0; // of a t that is no number, none
 }
 

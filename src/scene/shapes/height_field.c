@@ -183,10 +183,13 @@ static bool build(void *shape, struct args *args)
 
 // ---- rays -----------------------------------------------------------------------------
 
-static void side(struct height_walk *w, double t)
+// What is not drawn: a side across x or z, or the water (y), numbered from FLAT on.
+static const uint32_t FLAT = UINT32_MAX - 2;
+
+static void flat(struct height_walk *w, int axis, double t)
 {
     boundary_list_add(w->out, (t + w->shift) / w->length, w->error / w->length,
-                      w->in ? CROSS_EXIT : CROSS_ENTER, 0)
+                      w->in ? CROSS_EXIT : CROSS_ENTER, FLAT + (uint32_t)axis)
         ->drawn = 0;
 }
 
@@ -196,7 +199,7 @@ static void turn(struct height_walk *w, bool in, double t, double dt, uint32_t p
     if (!w->started) { // what the line's first piece says
         w->started = true;
         if (in && w->sides)
-            side(w, t);
+            flat(w, w->ends[0], t);
         w->in = in;
         return;
     }
@@ -317,7 +320,7 @@ static void block(struct height_walk *w, int level, int i, int j, double t0, dou
 }
 
 // The stretch of the line over the square; false: none.
-static bool clip(const struct height_walk *w, double *t0, double *t1)
+static bool clip(struct height_walk *w, double *t0, double *t1)
 {
     const double size[3] = {w->field->h.width - 1, 0, w->field->h.height - 1};
     for (int axis = 0; axis < 3; axis += 2) {
@@ -328,8 +331,14 @@ static bool clip(const struct height_walk *w, double *t0, double *t1)
             continue;
         }
         const double a = -o / d, b = (size[axis] - o) / d;
-        *t0 = fmax(*t0, fmin(a, b));
-        *t1 = fmin(*t1, fmax(a, b));
+        if (fmin(a, b) > *t0) {
+            *t0 = fmin(a, b);
+            w->ends[0] = axis;
+        }
+        if (fmax(a, b) < *t1) {
+            *t1 = fmax(a, b);
+            w->ends[1] = axis;
+        }
     }
     return *t0 < *t1;
 }
@@ -378,14 +387,14 @@ static void add_water(struct height_walk *w, double t0, double t1)
                                  : w->o[1] + t0 * w->d[1] < h;
     w->in = false;
     if (in && !isinf(t0))
-        side(w, t0);
+        flat(w, w->ends[0], t0);
     w->in = in;
     if (!level && t > t0 && t < t1) {
-        side(w, t);
+        flat(w, 1, t);
         w->in = in = !in;
     }
     if (in && !isinf(t1))
-        side(w, t1);
+        flat(w, w->ends[1], t1);
 }
 
 // Keeps the crossings of the union of two solids; `depth` of them hold the line's start.
@@ -412,7 +421,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     w.sides = !isinf(t0);
     walk(&w, t0, t1);
     if (w.in && !isinf(t1))
-        side(&w, t1);
+        flat(&w, w.ends[1], t1);
     if (!w.field->under_water)
         return;
     add_water(&w, t0, t1);
@@ -469,6 +478,12 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
     const struct height_field *f = shape;
+    if (b->part >= FLAT) { // CSG asks how steeply a ray meets it
+        const uint32_t axis = b->part - FLAT;
+        out->p = p;
+        out->ng = out->ns = vec3(axis == 0, axis == 1, axis == 2);
+        return;
+    }
     const uint32_t at = b->part / 2, columns = (uint32_t)(f->h.width - 1);
     const int i = (int)(at % columns), j = (int)(at / columns);
     const double y10 = value(f, i + 1, j), y01 = value(f, i, j + 1);

@@ -42,6 +42,7 @@ struct height_walk {
     double o[3], d[3];
     double shift, length, error, cells;
     bool started, in, sides; // the state is known; which it is; report where it begins
+    int ends[2];             // the axis of the sides where the stretch begins and ends
     struct boundary_list *out;
 };
 

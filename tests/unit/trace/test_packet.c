@@ -613,6 +613,32 @@ static void rings(void **state)
     }
 }
 
+// A block less a ring, clipped by a box whose upper face lies a rounding below the block's:
+// where that begins and ends what is left, nothing of it is drawn.
+static void clips_share_faces_with_ringed_solids(void **state)
+{
+    (void)state;
+    struct maker m = {.a = arena_new(1 << 16), .random = 31};
+    for (int i = 0; i < 9; i++) {
+        const struct object **child = arena_new_array(m.a, const struct object *, 2);
+        const struct object **clip = arena_new_array(m.a, const struct object *, 1);
+        const struct box b = {vec3(-1, -1, -1), vec3(1, 1, .3 + 2e-15)};
+        const struct box c = {vec3(-.9, -.9, -.9), vec3(.9, .9, .3)};
+        child[0] = of(&m, &box_ops, &b);
+        child[1] = of(&m, &torus_ops, &(struct torus){.5, .25});
+        clip[0] = of(&m, &box_ops, &c);
+        struct object *o =
+            object_new_csg(m.a, CSG_DIFFERENCE, child, 2, (struct span){0});
+        o->clip = clip;
+        o->clip_count = 1;
+        const struct transform t =
+            transform_translate(vec3(3 * (i % 3 - 1), 3 * (i / 3 - 1), 0));
+        object_transform(m.a, o, &t);
+        m.object[m.count++] = o;
+    }
+    check_made(&m);
+}
+
 // Bounds that are smaller than the object cull: what packets keep is what one ray keeps.
 static void bounded(void **state)
 {
@@ -876,6 +902,7 @@ int main(void)
         cmocka_unit_test(clear_products),
         cmocka_unit_test(merges),
         cmocka_unit_test(rings),
+        cmocka_unit_test(clips_share_faces_with_ringed_solids),
         cmocka_unit_test(bounded),
         cmocka_unit_test(clipped),
         cmocka_unit_test(large_products),
