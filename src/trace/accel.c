@@ -200,18 +200,20 @@ static bool is_carved(const struct world *w, const struct accel *accel,
 {
     uint32_t solids = 0;
     bool shown = false, closed = false; // a cut's own face; the solid
+    bool drawn = false;                 // the solid
     if (!has_intersections_only(w, o) || o->leaf_count > CARVE_LEAVES)
         return false;
     for (uint32_t i = o->first_leaf; i < o->first_leaf + o->leaf_count; i++) {
         const struct leaf *l = &w->leaf[i];
         const bool solid = accel->leaf_shape[i] == PACKET_LANES;
-        if (solid ? !l->drawn : !packet_is_product_shape(accel->leaf_shape[i]))
+        if (!solid && !packet_is_product_shape(accel->leaf_shape[i]))
             return false;
         solids += solid;
         shown |= !solid && l->drawn;
         closed |= solid && is_closed(l);
+        drawn |= solid && l->drawn;
     }
-    return solids == 1 && (closed || !shown);
+    return solids == 1 && (drawn ? closed || !shown : shown);
 }
 
 static bool is_merge(const struct world *w, const struct accel *accel,

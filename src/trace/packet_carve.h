@@ -4,7 +4,8 @@
 // Eight rays and a solid whose shape takes eight rays itself (shape_ops.closest8), intersected
 // with simple ones or their complements: half spaces, boxes, what is cut off or clipped. The
 // simple ones are met first; they leave stretches of each ray on which all of them are inside,
-// and the solid's first crossing on such a stretch is all that has to be found of it.
+// and the solid's first crossing on such a stretch is all that has to be found of it. One that
+// only clips is asked for points alone.
 #include "trace/packet_lanes.h"
 
 // Crossings no farther apart than this many of their errors, or this share of their t, are
@@ -214,26 +215,30 @@ static struct mask8 too_near(const struct carving *c, struct real8 t, struct rea
     return near;
 }
 
-// Of `lanes`, where the solid has no crossing on the stretch at hand: those inside it.
-static unsigned inside_between(const struct carving *c, unsigned lanes)
+// Of `lanes`: those that are inside the solid at t.
+static unsigned inside_at(const struct carving *c, unsigned lanes, struct real8 t)
 {
     const struct leaf *l = &c->e->p->w->leaf[c->solid];
-    double lo[8], hi[8];
+    double at[8];
     unsigned in = 0;
-    if (!l->solid)
-        return 0;
-    r8_store(lo, c->begin);
-    r8_store(hi, r8_min(c->end, c->limit));
-    for (unsigned m = lanes; m; m &= m - 1) {
+    r8_store(at, t);
+    for (unsigned m = l->solid ? lanes : 0; m; m &= m - 1) {
         const int i = __builtin_ctz(m);
-        const double t = hi[i] < INFINITY ? lo[i] + 0.5 * (hi[i] - lo[i])
-                                          : lo[i] + fmax(1, fabs(lo[i]));
         const struct ray ray = ray_of_lane(c->e->p, i);
-        const struct vec3 p = transform_inverse_point(l->transform, ray_at(&ray, t));
+        const struct vec3 p = transform_inverse_point(l->transform, ray_at(&ray, at[i]));
         if (l->ops->inside(l->shape, p) != l->inverted)
             in |= m & -m;
     }
     return in;
+}
+
+// The same on the stretch at hand, where the solid has no crossing.
+static unsigned inside_between(const struct carving *c, unsigned lanes)
+{
+    const struct real8 lo = c->begin, hi = r8_min(c->end, c->limit);
+    const struct real8 middle = r8_add(lo, r8_mul(r8_set(0.5), r8_sub(hi, lo))),
+                       beyond = r8_add(lo, r8_max(r8_set(1), r8_abs(lo)));
+    return inside_at(c, lanes, r8_select(r8_lt(hi, r8_set(INFINITY)), middle, beyond));
 }
 
 // ---- the solid --------------------------------------------------------------------------------
@@ -272,6 +277,52 @@ static unsigned exits_of(const struct shape_hits *hits, unsigned lanes, bool inv
     return exits;
 }
 
+static bool is_close(double p, double lo, double hi, double slack)
+{
+    return fabs(p - lo) <= slack || fabs(p - hi) <= slack;
+}
+
+// Of `lanes`: those that are at t beside the box of the solid's shape, in its space. There may be
+// boundaries that are not drawn, such as the sides of a height field, and rays along them.
+static unsigned beside_box(const struct carving *c, unsigned lanes, struct real8 t)
+{
+    const struct leaf *l = &c->e->p->w->leaf[c->solid];
+    const struct aabb b = l->ops->bounds(l->shape);
+    unsigned beside = 0;
+    double at[8];
+    r8_store(at, t);
+    for (unsigned m = lanes; m; m &= m - 1) {
+        const int i = __builtin_ctz(m);
+        const struct ray ray = ray_of_lane(c->e->p, i);
+        const struct vec3 o = transform_inverse_point(l->transform, ray.o);
+        const struct vec3 p = transform_inverse_point(l->transform, ray_at(&ray, at[i]));
+        const double slack = NEAR_SHARE * (vec3_max_abs(o) + vec3_max_abs(p));
+        if (is_close(p.x, b.min.x, b.max.x, slack) ||
+            is_close(p.y, b.min.y, b.max.y, slack) ||
+            is_close(p.z, b.min.z, b.max.z, slack))
+            beside |= m & -m;
+    }
+    return beside;
+}
+
+// Of `lanes`: those that meet an end of the stretch at t within the solid, which is not drawn.
+static unsigned end_search(struct carving *c, unsigned lanes, struct real8 t,
+                           struct real8 at, struct real8 margin, struct carve_hits *h)
+{
+    struct shape_hits hits;
+    if (!lanes)
+        return 0;
+    const struct real8 far = r8_add(margin, margin), before = r8_sub(t, far),
+                       after = r8_add(t, far);
+    unsigned unsure = solid_meets(c, lanes, before, after, &hits);
+    unsure |= beside_box(c, lanes & ~unsure, t);
+    const unsigned met = inside_at(c, lanes & ~unsure, before);
+    unsure |= met ^ inside_at(c, lanes & ~unsure, after); // a boundary that is not drawn
+    h->unsure |= unsure;
+    found_at(h, c, met & ~unsure, t, at);
+    return met & ~unsure;
+}
+
 // One stretch of the lanes; returns those that meet the object there.
 static unsigned stretch_search(struct carving *c, unsigned lanes, struct carve_hits *h)
 {
@@ -281,6 +332,11 @@ static unsigned stretch_search(struct carving *c, unsigned lanes, struct carve_h
                        end = r8_add(c->end, end_margin(c, c->end_at, &ends));
     const unsigned opens = lanes & m8_bits(begins),
                    closes = lanes & m8_bits(m8_and(ends, r8_lt(c->end, c->limit)));
+    if (!c->e->p->w->leaf[c->solid].drawn) {
+        const unsigned met = end_search(c, opens, c->begin, c->begin_at, margin, h);
+        return met | end_search(c, closes & ~(met | h->unsure), c->end, c->end_at,
+                                r8_sub(end, c->end), h);
+    }
     // So that what is too near the ends is found as well.
     const unsigned met =
         solid_meets(c, lanes, r8_max(c->e->t_min, r8_sub(c->begin, margin)),
@@ -357,7 +413,8 @@ static unsigned carve8(struct eight *e, unsigned bits, uint32_t object,
     if (!bits)
         return 0;
     h->unsure = bits & (c.unsure | m8_bits(cuts_near(&c)));
-    if (!ends_search(p, &p->w->leaf[c.solid])) // what is clear may be followed by more
+    const struct leaf *solid = &p->w->leaf[c.solid];
+    if (solid->drawn && !ends_search(p, solid)) // what is clear may be followed by more
         h->unsure = bits;
     bits &= ~h->unsure;
     return bits ? stretches_search(&c, bits, h) : 0;

@@ -537,6 +537,13 @@ static const char *const carved[] = {
     " pigment { rgbt 1 } } box { -.4, .4 pigment { rgbt 1 } } }",
     "difference { object { " BLOB
     " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } }",
+    "cylinder { -y, y, .4 clipped_by { object { " BLOB " } } }",
+    "difference { box { -.5, .5 } sphere { 0, .6 } clipped_by { object { " BLOB
+    " inverse } } }",
+    "cylinder { -y, y, .4 clipped_by { height_field { function 9, 9 { x*y } scale 2 "
+    "translate -1 } } }",
+    "box { <-1, -.7, -1>, <1, .7, 1> clipped_by { height_field { function 9, 9 { x*y } scale "
+    "2 translate -1 } } }", // they share sides
     "intersection { object { " BLOB
     " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } plane { -z, 0 } }",
 };
