@@ -32,10 +32,11 @@ row() {
   TIMEFORMAT=%U
   own=$(mktemp -d "$work/row.XXXXXX")
   cd "$(dirname "$scene")" || return
-  { time (ulimit -t "$limit" && exec povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D "$antialias" -P \
-    </dev/null >"$own/out" 2>"$own/log"); } 2>"$own/pov"
-  { time (ulimit -t "$limit" && exec "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 "$antialias" \
-    -q --stats=json </dev/null >"$own/json" 2>"$own/err"); } 2>"$own/lam"
+  ulimit -t "$limit" # of each process from here
+  { time povray "+I$scene" "+O$own/pov.png" "+W$width" "+H$height" +WT1 -D "$antialias" -P \
+    </dev/null >"$own/out" 2>"$own/log"; } 2>"$own/pov"
+  { time "$lambert" "$scene" -o "$own/lam.png" "+W$width" "+H$height" --threads=1 "$antialias" \
+    -q --stats=json </dev/null >"$own/json" 2>"$own/err"; } 2>"$own/lam"
   local made=
   [ -s "$own/pov.png" ] || made="$made POV-Ray"
   [ -s "$own/lam.png" ] || made="$made lambert"
