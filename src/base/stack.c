@@ -1,3 +1,6 @@
+// For pthread_getattr_np.
+#define _GNU_SOURCE
+
 #include "base/stack.h"
 
 #include <pthread.h>
@@ -11,30 +14,37 @@ static const size_t stack_size_least = (size_t)16 << 20;
 // Below this much use of such a stack there is no need for another.
 static const size_t stack_used_most = (size_t)1 << 20;
 
-// Where the stack of a thread that was started here begins; 0: any other thread.
-static _Thread_local uintptr_t stack_begin;
-
 struct call {
     void (*fn)(void *user);
     void *user;
 };
 
-static uintptr_t here(void) { return (uintptr_t)__builtin_frame_address(0); }
-
 static void *start(void *user)
 {
     const struct call *call = user;
-    stack_begin = here();
     call->fn(call->user);
     return NULL;
 }
 
-// Stacks may grow up or down.
+// Whether this thread has such a stack and has used little of it: not known but of the GNU
+// C library's threads. Stacks may grow up or down.
 static bool is_deep(void)
 {
-    const uintptr_t at = here();
-    const uintptr_t used = at > stack_begin ? at - stack_begin : stack_begin - at;
-    return stack_begin && used <= stack_used_most;
+    bool deep = false;
+#ifdef __GLIBC__
+    pthread_attr_t attributes;
+    void *low;
+    size_t size;
+    if (pthread_getattr_np(pthread_self(), &attributes) != 0)
+        return false;
+    if (pthread_attr_getstack(&attributes, &low, &size) == 0) {
+        const uintptr_t at = (uintptr_t)__builtin_frame_address(0) - (uintptr_t)low;
+        const size_t used = at < size - at ? at : size - at;
+        deep = size >= stack_size_least && at < size && used <= stack_used_most;
+    }
+    pthread_attr_destroy(&attributes);
+#endif
+    return deep;
 }
 
 void stack_run(void (*fn)(void *user), void *user)
