@@ -83,6 +83,7 @@ END
 # SIG: while form factors are computed, once the first tenth has been told.
 solving()
 {
+  : >err # what the run before told must not be taken for this one's
   "$lambert" room.pov +W8 +H8 +WT1 --gi=radiosity --gi-patches=8000 --gi-solver=gauss-seidel -o room.png 2>err &
   pid=$!
   waited=0
