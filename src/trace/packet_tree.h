@@ -4,6 +4,7 @@
 // Eight rays and the boxes of a BVH8; one ray and eight boxes.
 #include "math/lanes.h"
 #include "trace/packet.h"
+#include "trace/packet_shapes.h"
 
 // ---- one ray ----------------------------------------------------------------------------
 
