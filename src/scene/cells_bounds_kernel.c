@@ -342,8 +342,10 @@ void OF_ISA(noise_cells_bounds_)(const struct noise_cells_form *f, const double 
                                  const double hi[3][8], bool slopes,
                                  struct noise_bounds8 *out)
 {
-    struct boxes8 b = {.lo = lo, .hi = hi};
-    struct search8 s = {.form = f};
+    struct boxes8 b;
+    struct search8 s; // most of it is not used: nothing is cleared
+    b.lo = lo, b.hi = hi;
+    s.form = f;
     unsigned jumps = 0, several = 0;
     set_up(&b);
     for (int l = 0; l < 8; l++) {

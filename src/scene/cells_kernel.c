@@ -9,6 +9,7 @@
 #include "math/single_lanes.h"
 #include "scene/noise_kernel.h"
 #include "scene/noise_tables.h"
+#include "scene/pattern_math.h"
 
 // Past this a coordinate is near the end of the integers.
 #define NOISE_FAR 4611686018427387904.0
@@ -168,10 +169,33 @@ static void search_sums(struct cells8 *s, struct found8 *f, int metric, int coun
         search8(s, f, 1, count, false);
 }
 
-void OF_ISA(noise_nearest_)(const double p[3][8], const double cell[3], unsigned lanes,
-                            int metric, int count, double sum[3][8], double place[3][8])
+// Of `lanes` those in the cell of the first.
+LANES_INLINE unsigned sharing(const double p[3][8], unsigned lanes, double cell[3])
 {
-    struct cells8 s = {.at = v8_load(p), .cell = cell, .lanes = lanes};
+    const int first = __builtin_ctz(lanes);
+    for (int a = 0; a < 3; a++) {
+        const struct real8 c = r8_floor(r8_sub(r8_load(p[a]), r8_set(PATTERN_EDGE)));
+        cell[a] = floor(p[a][first] - PATTERN_EDGE);
+        lanes &= m8_bits(r8_eq(c, r8_set(cell[a])));
+    }
+    return lanes | 1u << first; // no numbers are not the same
+}
+
+LANES_INLINE void keep_lanes(double to[3][8], struct mask8 m, const struct real8 v[3])
+{
+    for (int k = 0; k < 3; k++)
+        r8_store(to[k], r8_select(m, v[k], r8_load(to[k])));
+}
+
+unsigned OF_ISA(noise_nearest_)(const double p[3][8], unsigned lanes, int metric,
+                                int count, double sum[3][8], double place[3][8])
+{
+    double cell[3];
+    lanes = sharing(p, lanes, cell);
+    if (!(lanes & (lanes - 1)))
+        return lanes;
+    struct cells8 s;
+    s.at = v8_load(p), s.cell = cell, s.lanes = lanes;
     const struct real8 far = r8_set(DBL_MAX);
     struct found8 f = {
         {far, far, far}, {r8_set(cell[0]), r8_set(cell[1]), r8_set(cell[2])}, r8_set(-1)};
@@ -183,12 +207,13 @@ void OF_ISA(noise_nearest_)(const double p[3][8], const double cell[3], unsigned
     }
     if (place) {
         search_places(&s, &f, metric);
-        v8_store(place, f.place);
+        keep_lanes(place, m8_of(lanes),
+                   (struct real8[]){f.place.x, f.place.y, f.place.z});
     } else {
         search_sums(&s, &f, metric, count);
+        keep_lanes(sum, m8_of(lanes), f.sum);
     }
-    for (int k = 0; k < 3; k++)
-        r8_store(sum[k], f.sum[k]);
+    return lanes;
 }
 
 void OF_ISA(noise_powers_)(const double *x, size_t count, double y, bool single,

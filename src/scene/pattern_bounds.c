@@ -297,13 +297,32 @@ static bool ascends(const struct color_map *m)
     return true;
 }
 
-static double channel_at(const struct color_map *m, int c, double v)
-{
+// Where a value is in a map: between the entries a and b.
+struct map_place {
     uint32_t a, b;
     double f;
-    map_find(m->key, m->count, v, &a, &b, &f);
-    const double from = channel(&m->color[a], c), to = channel(&m->color[b], c);
-    return a == b || from == to ? to : from + f * (to - from);
+};
+
+static struct map_place place_of(const struct color_map *m, double v)
+{
+    struct map_place p;
+    map_find(m->key, m->count, v, &p.a, &p.b, &p.f);
+    return p;
+}
+
+static double channel_at(const struct color_map *m, int c, const struct map_place *p)
+{
+    const double from = channel(&m->color[p->a], c), to = channel(&m->color[p->b], c);
+    return p->a == p->b || from == to ? to : from + p->f * (to - from);
+}
+
+// Whether two channels are the same in all entries.
+static bool are_same(const struct color_map *m, int c, int other)
+{
+    for (uint32_t i = 0; i < m->count; i++)
+        if (channel(&m->color[i], c) != channel(&m->color[i], other))
+            return false;
+    return true;
 }
 
 // What blends of the entries a..last are rounded by.
@@ -350,20 +369,27 @@ static void colors_bounds(const void *data, const struct interval *in,
     const struct color_map *m = data;
     const struct interval v = in[0];
     const bool known = ascends(m);
-    uint32_t a = 0, last = m->count - 1, unused;
-    double f;
+    uint32_t a = 0, last = m->count - 1;
+    struct map_place low, high;
     if (known) {
-        map_find(m->key, m->count, v.lo, &a, &unused, &f);
-        map_find(m->key, m->count, v.hi, &unused, &last, &f);
+        low = place_of(m, v.lo);
+        high = place_of(m, v.hi);
+        a = low.a, last = high.b;
         for (; a > 0 && m->key[a] >= v.lo; a--)
             ;
         for (; last + 1 < m->count && m->key[last] <= v.hi; last++)
             ;
     }
     for (int c = 0; c < 5; c++) {
+        if (c > 0 && are_same(m, c, c - 1)) { // greys, or nothing passes
+            out[c] = out[c - 1];
+            if (partial)
+                partial[c] = partial[c - 1];
+            continue;
+        }
         struct interval r = interval_point(channel(&m->color[0], c));
         if (known) {
-            const double x = channel_at(m, c, v.lo), y = channel_at(m, c, v.hi);
+            const double x = channel_at(m, c, &low), y = channel_at(m, c, &high);
             r = interval(fmin(x, y), fmax(x, y));
         }
         for (uint32_t i = a; i <= last; i++)

@@ -239,48 +239,22 @@ static void keep_lane(struct nearest8 *all, int i, const struct nearest *n)
     all->p[0][i] = n->p.x, all->p[1][i] = n->p.y, all->p[2][i] = n->p.z;
 }
 
-static void keep_lanes(double to[3][8], const double from[3][8], unsigned lanes)
-{
-    for (; lanes; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
-        for (int k = 0; k < 3; k++)
-            to[k][i] = from[k][i];
-    }
-}
-
 // Points that share a cell look at its surroundings together.
 static void search_all(const struct pattern *p, const struct noise_kernels *k,
                        const double at[3][8], struct nearest8 *all)
 {
     const bool together = p->metric == 2 || p->metric == 1;
-    double cell[3][8];
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i < 8; i++)
-            cell[a][i] = floor(at[a][i] - PATTERN_EDGE);
-    for (unsigned left = 255; left;) {
-        const int first = __builtin_ctz(left);
-        const double c[3] = {cell[0][first], cell[1][first], cell[2][first]};
-        unsigned lanes = 0;
-        for (int i = 0; i < 8; i++)
-            lanes |= (unsigned)((cell[0][i] == c[0]) & (cell[1][i] == c[1]) &
-                                (cell[2][i] == c[2]))
-                     << i;
-        lanes = (lanes & left) | 1u << first; // no numbers are not the same
-        left &= ~lanes;
-        if (together && lanes & (lanes - 1)) {
-            double sum[CRACKLE_NEAREST][8], place[3][8];
-            k->nearest(at, c, lanes, (int)p->metric, crackle_wanted(p), sum,
-                       p->solid ? place : NULL);
-            keep_lanes(p->solid ? all->p : all->d,
-                       (const double(*)[8])(p->solid ? place : sum), lanes);
+    const int wanted = crackle_wanted(p);
+    for (unsigned left = 255, lanes; left; left &= ~lanes) {
+        const int i = __builtin_ctz(left);
+        lanes = together ? k->nearest(at, left, (int)p->metric, wanted, all->d,
+                                      p->solid ? all->p : NULL)
+                         : 1u << i;
+        if (lanes != 1u << i)
             continue;
-        }
-        for (; lanes; lanes &= lanes - 1) {
-            const int i = __builtin_ctz(lanes);
-            struct nearest n;
-            search_one(p, vec3(at[0][i], at[1][i], at[2][i]), k, &n);
-            keep_lane(all, i, &n);
-        }
+        struct nearest n;
+        search_one(p, vec3(at[0][i], at[1][i], at[2][i]), k, &n);
+        keep_lane(all, i, &n);
     }
 }
 
@@ -323,7 +297,7 @@ static void form_values(const struct pattern *p, const struct noise_kernels *k,
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    struct nearest8 all;
+    struct nearest8 all = {0};
     search_all(p, k, at, &all);
     if (!p->solid) {
         form_values(p, k, &all, out);

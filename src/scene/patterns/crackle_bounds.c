@@ -222,7 +222,9 @@ static void bounds(const void *data, const struct interval *in, struct interval 
         partial[k] = interval_whole();
     if (!good || !is_known(in, first, last))
         return;
-    struct search s = {.power = crackle_power(metric), .wanted = crackle_wanted(p)};
+    struct search s; // most of it is not used: nothing is cleared
+    s.power = crackle_power(metric);
+    s.wanted = crackle_wanted(p);
     // No point that another cell does not know is nearer; beyond, its distance may jump.
     const double shared = fmin(2, det_pow(2, metric)) - 1e-6;
     bool any = false, jumps = false;

@@ -37,12 +37,21 @@ struct walk8 {
 
 // ---- f --------------------------------------------------------------------------------
 
-static struct real8 value_at_points(struct walk8 *w, struct vec8 p)
+// Lanes that are not wanted look where the first wanted one does, since points that are near
+// each other share work, as the cells of patterns.
+LANES_INLINE void store_wanted(double *to, struct real8 v, unsigned lanes)
+{
+    r8_store(to, v);
+    if (lanes != 255)
+        r8_store(to, r8_select(m8_of(lanes), v, r8_set(to[__builtin_ctz(lanes)])));
+}
+
+static struct real8 value_at_points(struct walk8 *w, struct vec8 p, unsigned lanes)
 {
     double at[3][8], v[8];
-    r8_store(at[0], p.x);
-    r8_store(at[1], p.y);
-    r8_store(at[2], p.z);
+    store_wanted(at[0], p.x, lanes);
+    store_wanted(at[1], p.y, lanes);
+    store_wanted(at[2], p.z, lanes);
     TAPE.values(w->s->f, (const double(*)[8])at, v);
     return r8_sub(r8_load(v), r8_set(w->s->threshold));
 }
@@ -50,7 +59,7 @@ static struct real8 value_at_points(struct walk8 *w, struct vec8 p)
 static struct real8 value(struct walk8 *w, struct real8 t, unsigned lanes)
 {
     w->evaluations += (unsigned)__builtin_popcount(lanes);
-    return value_at_points(w, v8_mad(w->o, r8_select(m8_of(lanes), t, r8_set(0)), w->d));
+    return value_at_points(w, v8_mad(w->o, t, w->d), lanes);
 }
 
 LANES_INLINE struct real8 rounded_down(struct real8 v, double unit)
@@ -64,26 +73,25 @@ LANES_INLINE struct real8 rounded_up(struct real8 v, double unit)
 }
 
 LANES_INLINE void stretch_axis(struct real8 o, struct real8 d, struct real8 a,
-                               struct real8 b, struct real8 slack, double *lo, double *hi)
+                               struct real8 b, struct real8 slack, unsigned lanes,
+                               double *lo, double *hi)
 {
     const struct real8 p = r8_mul(a, d), q = r8_mul(b, d);
     const double e = INTERVAL_ROUNDING;
-    r8_store(lo,
-             r8_sub(rounded_down(r8_add(o, rounded_down(r8_min(p, q), e)), e), slack));
-    r8_store(hi, r8_add(rounded_up(r8_add(o, rounded_up(r8_max(p, q), e)), e), slack));
+    const struct real8 low = rounded_down(r8_add(o, rounded_down(r8_min(p, q), e)), e);
+    const struct real8 high = rounded_up(r8_add(o, rounded_up(r8_max(p, q), e)), e);
+    store_wanted(lo, r8_sub(low, slack), lanes);
+    store_wanted(hi, r8_add(high, slack), lanes);
 }
 
-// The box of a stretch, in lanes that are not wanted of the origin.
+// The boxes of stretches.
 LANES_INLINE void stretch_box(struct vec8 o, struct vec8 d, struct real8 a,
                               struct real8 b, struct real8 slack, unsigned lanes,
                               struct tape_boxes *box)
 {
-    const struct mask8 m = m8_of(lanes);
-    a = r8_select(m, a, r8_set(0));
-    b = r8_select(m, b, r8_set(0));
-    stretch_axis(o.x, d.x, a, b, slack, box->lo[0], box->hi[0]);
-    stretch_axis(o.y, d.y, a, b, slack, box->lo[1], box->hi[1]);
-    stretch_axis(o.z, d.z, a, b, slack, box->lo[2], box->hi[2]);
+    stretch_axis(o.x, d.x, a, b, slack, lanes, box->lo[0], box->hi[0]);
+    stretch_axis(o.y, d.y, a, b, slack, lanes, box->lo[1], box->hi[1]);
+    stretch_axis(o.z, d.z, a, b, slack, lanes, box->lo[2], box->hi[2]);
 }
 
 struct over8 {

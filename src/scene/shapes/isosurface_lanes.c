@@ -77,7 +77,7 @@ static void look_at_eighths(struct walk8 *w, int lane, const struct piece *s,
     struct tape_boxes box;
     stretch_box(o, dir, from, to, r8_set(0), 255, &box);
     const struct over8 v = over(w, &box, (const double(*)[8])d, 255);
-    r8_store(e->f, value_at_points(w, v8_mad(o, from, dir)));
+    r8_store(e->f, value_at_points(w, v8_mad(o, from, dir), 255));
     e->f[0] = s->fa;
     e->f[8] = s->fb;
     r8_store(e->lo, v.lo);
