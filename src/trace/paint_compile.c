@@ -7,8 +7,8 @@
 #include "trace/simple.h"
 
 // ---- what sees the normal of the layer before -----------------------------------------
-// Textures after the first of a map see the normal of the layer that was evaluated last,
-// which may be another one here: layers that hardly count are not left out.
+// Textures after the first of a map see the normal of the layer that was evaluated last.
+// Below another layer it may be another one here: layers that hardly count are not left out.
 
 static bool pattern_sees(const struct pattern *p);
 
@@ -51,7 +51,9 @@ struct paint_size {
 struct build {
     const struct job *job;
     struct pigment_compiler pigments;
-    bool mapped; // below a map
+    bool mapped;      // below a map
+    bool sees;        // a map in a map sees the normal of the layer before
+    bool lower_bumps; // layers below others have normals
 };
 
 enum { LEVELS_MAX = 4 };
@@ -69,6 +71,7 @@ static bool plain_compile(struct build *b, const struct texture *x,
         tape[i] = NULL;
         if (b->mapped && b->job->normals && l->normal && normal_sees(l->normal))
             return false;
+        b->lower_bumps |= l->normal && i + 1 < x->layer_count;
         if (l->pigment->kind == PIGMENT_SOLID)
             continue;
         tape[i] = pigment_compile(&b->pigments, l->pigment);
@@ -88,8 +91,7 @@ static bool map_compile(struct build *b, const struct texture *x, int level,
     const uint32_t count = x->kind == TEXTURE_UV ? 1 : x->map->count;
     struct paint_texture *entry =
         arena_new_array(b->pigments.arena, struct paint_texture, count);
-    if (level > 0 && x->pattern && pattern_sees(x->pattern))
-        return false;
+    b->sees |= level > 0 && x->pattern && pattern_sees(x->pattern);
     b->mapped = true;
     *size = (struct paint_size){0, 0};
     for (uint32_t i = 0; i < count; i++) {
@@ -138,8 +140,9 @@ static const struct paint_texture *side_compile(struct build *b, const struct te
 {
     struct paint_texture *out = arena_new_struct(b->pigments.arena, struct paint_texture);
     struct paint_size size;
-    b->mapped = false;
-    return texture_compile(b, x, 0, out, &size) ? out : NULL;
+    b->mapped = b->sees = b->lower_bumps = false;
+    return texture_compile(b, x, 0, out, &size) && !(b->sees && b->lower_bumps) ? out
+                                                                                : NULL;
 }
 
 static struct paint_surface surface_compile(struct build *b, const struct surface *s)

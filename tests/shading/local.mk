@@ -220,7 +220,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/309-image-types.pov \
 	%D%/310-image-internal.pov \
 	%D%/311-cutaway-textures.pov %D%/312-texture-lanes.pov \
-	%D%/313-slope-seen.pov %D%/318-texture-maps.pov %D%/314-total-reflection.pov %D%/315-bokeh.pov \
+	%D%/313-slope-seen.pov %D%/318-texture-maps.pov %D%/372-slope-nested.pov %D%/314-total-reflection.pov %D%/315-bokeh.pov \
 	%D%/313-camera-mesh-several.pov \
 	%D%/314-camera-mesh-list.pov \
 	%D%/315-camera-mesh-width.pov \
