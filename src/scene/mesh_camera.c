@@ -1,6 +1,9 @@
 #include "scene/mesh_camera.h"
 
+#include <string.h>
+
 #include "base/arena.h"
+#include "math/gamma.h"
 #include "scene/camera.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/triangle.h"
@@ -98,8 +101,9 @@ static const struct uv_faces *uv_faces_new(const struct mesh *m, struct arena *a
     return f;
 }
 
-// Barycentric coordinates in the uv plane; false: outside.
-static bool uv_inside(const struct vec2 t[3], struct vec2 p, double w[3])
+// Barycentric coordinates in the uv plane and a bound on how far they are off where p and
+// the corners are rounded; false: a face without area.
+static bool uv_weights(const struct vec2 t[3], struct vec2 p, double w[3], double *off)
 {
     const double a = t[1].u - t[0].u, b = t[2].u - t[0].u;
     const double c = t[1].v - t[0].v, d = t[2].v - t[0].v;
@@ -107,10 +111,40 @@ static bool uv_inside(const struct vec2 t[3], struct vec2 p, double w[3])
     const double area = a * d - b * c;
     if (area == 0)
         return false;
+    double most = fmax(fabs(p.u), fabs(p.v));
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, fmax(fabs(t[i].u), fabs(t[i].v)));
+    *off = GAMMA(8) * most * (fabs(a) + fabs(b) + fabs(c) + fabs(d)) / fabs(area);
     w[1] = (e * d - b * f) / area;
     w[2] = (a * f - e * c) / area;
     w[0] = 1 - w[1] - w[2];
-    return w[0] >= 0 && w[1] >= 0 && w[2] >= 0;
+    return true;
+}
+
+// The first face that holds p; where p lies on an edge and rounding puts it out of the faces
+// on both sides, the one that it is least outside of. UINT32_MAX: none.
+static uint32_t uv_face_at(const struct uv_faces *f, const struct mesh *m, struct vec2 p,
+                           double w[3])
+{
+    const uint32_t k = cell_of(f, p.v) * f->side + cell_of(f, p.u);
+    uint32_t nearest = UINT32_MAX;
+    double best = -INFINITY;
+    for (uint32_t i = f->begin[k]; i < f->begin[k + 1]; i++) {
+        struct vec2 t[3];
+        double at[3], off;
+        uv_corners(m, f->face[i], t);
+        if (!uv_weights(t, p, at, &off))
+            continue;
+        const double least = fmin(at[0], fmin(at[1], at[2]));
+        if (least <= best || least < -off)
+            continue;
+        best = least;
+        nearest = f->face[i];
+        memcpy(w, at, sizeof at);
+        if (least >= 0)
+            break;
+    }
+    return nearest;
 }
 
 // ---- rays --------------------------------------------------------------------------
@@ -162,21 +196,12 @@ static void start_in_face(const struct mesh_camera *m, uint32_t face, const doub
 
 static bool start_in_uv(const struct mesh_camera *m, struct vec2 at, struct start *out)
 {
-    const struct uv_faces *f = m->uv;
-    const struct mesh *mesh = m->mesh->mesh;
-    if (!f)
+    double w[3];
+    const uint32_t face = m->uv ? uv_face_at(m->uv, m->mesh->mesh, at, w) : UINT32_MAX;
+    if (face == UINT32_MAX)
         return false;
-    const uint32_t k = cell_of(f, at.v) * f->side + cell_of(f, at.u);
-    for (uint32_t i = f->begin[k]; i < f->begin[k + 1]; i++) {
-        struct vec2 t[3];
-        double w[3];
-        uv_corners(mesh, f->face[i], t);
-        if (uv_inside(t, at, w)) {
-            start_in_face(m, f->face[i], w, out);
-            return true;
-        }
-    }
-    return false;
+    start_in_face(m, face, w, out);
+    return true;
 }
 
 // Rows begin half a pixel late, as the language has it: rows 0 and 1 share their faces.

@@ -265,4 +265,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/363-media-truth-eccentric.pov \
 	%D%/364-media-truth-shadow.pov \
 	%D%/370-patterns-more.pov \
-	%D%/371-old-finish.pov
+	%D%/371-old-finish.pov \
+	%D%/372-camera-mesh-edges.pov
