@@ -28,6 +28,7 @@ enum shape_flags {
     // shape. With neither, none.
     SHAPE_BOUND_BOX = 64,
     SHAPE_BOUND_SHAPE = 128,
+    SHAPE_FLAT = 256, // may have flat faces
 };
 
 // A point on a surface, as shading wants it. In the shape's own space.

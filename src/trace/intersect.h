@@ -50,6 +50,17 @@ struct hit_batch {
 struct hit_batch *hit_batch_new(uint32_t capacity);
 void hit_batch_free(struct hit_batch *b);
 struct hit hit_batch_at(const struct hit_batch *b, uint32_t i);
+static inline void hit_batch_put(const struct hit_batch *b, uint32_t i,
+                                 const struct boundary *x)
+{
+    b->t[i] = x->t;
+    b->dt[i] = x->dt;
+    b->part[i] = x->part;
+    b->u[i] = x->u;
+    b->v[i] = x->v;
+    b->leaf[i] = x->leaf;
+    b->crossing[i] = x->crossing;
+}
 // The nearest drawn boundary with t_min < t < t_max of each ray. Same bits for
 // every ISA and for one ray at a time.
 void trace_closest(const struct world *w, struct trace_scratch *s,

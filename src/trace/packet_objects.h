@@ -426,13 +426,7 @@ static void hit_alone(struct packet *p, int lane, const struct hit_batch *out)
     const uint32_t i = p->first + (uint32_t)lane;
     const struct boundary b =
         packet_lane_known(p, lane) ? p->search[lane].b : packet_lane_hit(p, lane);
-    out->t[i] = b.t;
-    out->dt[i] = b.dt;
-    out->part[i] = b.part;
-    out->u[i] = b.u;
-    out->v[i] = b.v;
-    out->leaf[i] = b.leaf;
-    out->crossing[i] = b.crossing;
+    hit_batch_put(out, i, &b);
 }
 
 static void hits(struct eight *e, const struct hit_batch *out)

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "math/elementary.h"
 #include "trace/area.h"
+#include "trace/coincident.h"
 #include "trace/paint.h"
 #include "trace/shade_kernel.h"
 #include "trace/simple.h"
@@ -374,6 +375,8 @@ static void wave_trace(struct tracer *t)
     const uint32_t first = w->next->count;
     struct misses sky = {.count = 0};
     trace_closest(t->job->world, t->scratch, t->rays, t->hit);
+    if (t->job->world->has_coincident)
+        coincident_hits(t->job->world, t->scratch, t->rays, t->hit);
     if (t->first)
         first_keep(t);
     if (t->job->has_air)

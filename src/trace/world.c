@@ -1,4 +1,5 @@
 #include "trace/world.h"
+#include "trace/coincident.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -199,5 +200,6 @@ struct world *world_build(struct arena *a, const struct scene *scene)
             w->bounds = aabb_join(w->bounds, w->object[i].bounds);
     w->accel = accel_build(a, w);
     split(a, w);
+    coincident_mark(w);
     return w;
 }

@@ -20,15 +20,15 @@ struct surface {
     struct transform texture_transform;     // world from the texture's outer space
     const struct texture *interior_texture; // NULL: none
     struct transform interior_texture_transform;
-    const struct interior *interior; // never NULL; identity decides refraction
-    unsigned flags;                  // OBJECT_*: visibility, double_illuminate, uv
+    const struct interior *interior;     // never NULL; identity decides refraction
+    unsigned flags;                      // OBJECT_*: visibility, double_illuminate, uv
     const struct photon_target *photons; // NULL: nothing was written
-    bool opaque;                     // never lets light through
-    bool wants_uv;                   // shading may look at uv coordinates
-    bool parts;                      // parts of the shape have textures of their own, or
-    const struct cutaway *cutaway;   // those of other parts of the object are seen
-    uint32_t light_group;            // index+1 into world light groups; 0: none
-    float importance;                // share of gathering rays that see it
+    bool opaque;                         // never lets light through
+    bool wants_uv;                       // shading may look at uv coordinates
+    bool parts;                    // parts of the shape have textures of their own, or
+    const struct cutaway *cutaway; // those of other parts of the object are seen
+    uint32_t light_group;          // index+1 into world light groups; 0: none
+    float importance;              // share of gathering rays that see it
 };
 
 // A shape placed in the world. `inverted`: an odd number of inversions lies on the
@@ -38,12 +38,12 @@ struct leaf {
     const void *shape;
     const struct transform *transform; // world from shape space; identity when absorbed
     double stretch; // how much longer the transform's inverse makes a coordinate at most
-    struct aabb bounds;         // world, of the bare shape
-    uint32_t surface;           // index into world surfaces
-    uint32_t object;            // index into world objects
-    uint32_t node;              // its NODE_LEAF node, of a CSG object
-    bool solid;                 // false: a sheet, never inside, whatever `inverse` says
-    bool bounded;               // the bare shape is (shape_is_bounded)
+    struct aabb bounds; // world, of the bare shape
+    uint32_t surface;   // index into world surfaces
+    uint32_t object;    // index into world objects
+    uint32_t node;      // its NODE_LEAF node, of a CSG object
+    bool solid;         // false: a sheet, never inside, whatever `inverse` says
+    bool bounded;       // the bare shape is (shape_is_bounded)
     bool required; // outside this leaf its object has nothing: it is bounded, and only
                    // intersections lie above it
     bool inverted;
@@ -52,7 +52,8 @@ struct leaf {
 
 // The rounding, in shape space, of a point o + t d with coordinates of these sizes on its
 // way there through the leaf's transform, which a chain of up to seven rotations made.
-static inline double leaf_position_error(const struct leaf *l, double o, double t, double d)
+static inline double leaf_position_error(const struct leaf *l, double o, double t,
+                                         double d)
 {
     const double offset = vec3_max_abs(l->transform->offset);
     return GAMMA(32) * (o + 2 * offset + fabs(t) * d) * l->stretch;
@@ -88,7 +89,9 @@ struct world_object {
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     bool mixed;                // some are, some are not
-    unsigned flags;            // visibility of the whole
+    bool
+        may_coincide; // faces that are not may lie in faces of opaque objects (coincident.h)
+    unsigned flags; // visibility of the whole
     const struct object *source;
     const struct user_bound *bound; // bounded_by, its own and those of unions around it
     uint32_t bound_count;
@@ -117,6 +120,7 @@ struct world {
     struct light_group *light_group;
     uint32_t light_group_count;
     bool has_transparent; // some surface is not opaque
+    bool has_coincident;  // some object may_coincide
     struct aabb bounds;   // of the finite objects
     struct accel *accel;  // trace/accel.h
     // The same world with nothing to meet but the objects that are not wholly opaque, for

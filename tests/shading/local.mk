@@ -266,4 +266,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/364-media-truth-shadow.pov \
 	%D%/370-patterns-more.pov \
 	%D%/371-old-finish.pov \
-	%D%/372-camera-mesh-edges.pov
+	%D%/373-camera-mesh-edges.pov \
+	%D%/374-coincident-faces.pov

@@ -173,7 +173,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops box_ops = {
     .keyword = "box",
     .size = sizeof(struct box),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_UV,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_UV,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

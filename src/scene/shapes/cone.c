@@ -205,7 +205,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops cone_ops = {
     .keyword = "cone",
     .size = sizeof(struct cone),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_BOUND_BOX,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

@@ -160,7 +160,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops cylinder_ops = {
     .keyword = "cylinder",
     .size = sizeof(struct cylinder),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_CONVEX | SHAPE_BOUND_BOX,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

@@ -107,7 +107,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops disc_ops = {
     .keyword = "disc",
     .size = sizeof(struct disc),
-    .flags = SHAPE_SOLID,
+    .flags = SHAPE_SOLID | SHAPE_FLAT,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

@@ -377,7 +377,7 @@ static bool build_mesh2(void *shape, struct args *args)
     const struct shape_ops word##_ops = {                                                \
         .keyword = #word,                                                                \
         .size = sizeof(struct mesh),                                                     \
-        .flags = SHAPE_BOUNDED | SHAPE_HIERARCHY | SHAPE_UV,                             \
+        .flags = SHAPE_BOUNDED | SHAPE_HIERARCHY | SHAPE_UV | SHAPE_FLAT,                \
         .build = build_##word,                                                           \
         .bounds = mesh_bounds,                                                           \
         .is_solid = mesh_is_solid,                                                       \

@@ -92,7 +92,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops plane_ops = {
     .keyword = "plane",
     .size = sizeof(struct plane),
-    .flags = SHAPE_SOLID | SHAPE_CONVEX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_CONVEX,
     .build = build,
     .absorb = absorb,
     .bounds = bounds,

@@ -178,7 +178,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops polygon_ops = {
     .keyword = "polygon",
     .size = sizeof(struct polygon),
-    .flags = SHAPE_BOUNDED,
+    .flags = SHAPE_BOUNDED | SHAPE_FLAT,
     .build = build,
     .bounds = bounds,
     .inside = inside,

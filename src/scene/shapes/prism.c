@@ -264,7 +264,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops prism_ops = {
     .keyword = "prism",
     .size = sizeof(struct prism),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

@@ -130,7 +130,8 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops sor_ops = {
     .keyword = "sor",
     .size = sizeof(struct sor),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV |
+             SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

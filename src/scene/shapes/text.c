@@ -340,7 +340,7 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops text_ops = {
     .keyword = "text",
     .size = sizeof(struct text),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_FLAT | SHAPE_BOUNDED | SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

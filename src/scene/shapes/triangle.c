@@ -203,7 +203,7 @@ static void print(const void *shape, FILE *out)
     const struct shape_ops word##_ops = {                                                \
         .keyword = #word,                                                                \
         .size = sizeof(struct triangle),                                                 \
-        .flags = SHAPE_BOUNDED,                                                          \
+        .flags = SHAPE_BOUNDED | SHAPE_FLAT,                                             \
         .build = builder,                                                                \
         .absorb = absorb,                                                                \
         .bounds = bounds,                                                                \
