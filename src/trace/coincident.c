@@ -16,7 +16,8 @@ static bool touches_opaque(const struct world *w, const struct world_object *o)
 {
     enum { MOST = 64 };
     uint32_t near[MOST];
-    const uint32_t count = trace_boxes_meet(w->dark, o->bounds, near, MOST);
+    const struct aabb box = aabb_is_finite(o->bounds) ? o->bounds : w->bounds;
+    const uint32_t count = trace_boxes_meet(w->dark, box, near, MOST);
     for (uint32_t i = 0; i < count; i++)
         if (&w->object[near[i]] != o && is_flat(w, &w->object[near[i]]))
             return true;

@@ -83,7 +83,7 @@ void trace_occluded_by(const struct world *w, struct trace_scratch *s,
 // Every top-level object (world_object index) that contains p; returns the count.
 uint32_t trace_containing(const struct world *w, struct vec3 p, uint32_t *object,
                           uint32_t max);
-// Those whose boxes meet the box, at most `max`.
+// Those whose boxes meet the box, which is finite, at most `max`.
 uint32_t trace_boxes_meet(const struct world *w, struct aabb box, uint32_t *object,
                           uint32_t max);
 // Whether p is inside the world object.

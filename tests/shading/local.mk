@@ -267,4 +267,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/370-patterns-more.pov \
 	%D%/371-old-finish.pov \
 	%D%/373-camera-mesh-edges.pov \
-	%D%/374-coincident-faces.pov
+	%D%/374-coincident-faces.pov \
+	%D%/375-coincident-infinite.pov
