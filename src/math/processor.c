@@ -7,7 +7,16 @@
 #if defined LAMBERT_X86 && defined __has_include
 #if __has_include(<sys/platform/x86.h>)
 #include <sys/platform/x86.h>
-#define ISA_HAS(name, word) x86_cpu_active(x86_cpu_##name)
+// Its own x86_cpu_active shifts a signed 1 into the sign (AVX512VL).
+static bool active(unsigned index)
+{
+    enum { WORD = 32, LEAF = 128 };
+    const unsigned bit = index % LEAF;
+    return __x86_get_cpuid_feature_leaf(index / LEAF)->active_array[bit / WORD] >>
+               bit % WORD &
+           1;
+}
+#define ISA_HAS(name, word) active(x86_cpu_##name)
 #endif
 #endif
 #ifndef ISA_HAS
