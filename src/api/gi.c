@@ -204,10 +204,8 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
     g->cache = irradiance_cache_new(ctx->world, settings, &ctx->cancel);
     enum lambert_status status = samples_load(ctx, g->cache, &read);
     if (status == LAMBERT_OK && !read.complete &&
-        !irradiance_cache_fill(g->cache, settings, &watch, &r)) {
-        ctx->cancel = false;
+        !irradiance_cache_fill(g->cache, settings, &watch, &r))
         status = context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
-    }
     if (status == LAMBERT_OK)
         status = samples_save(ctx, g->cache);
     ctx->phase = LAMBERT_PHASE_TILES;
@@ -253,10 +251,8 @@ static enum lambert_status patches_prepare(struct lambert_context *ctx,
     }
     if (status == LAMBERT_OK && aov)
         status = write_aov(ctx, g, aov);
-    if (ctx->cancel) {
-        ctx->cancel = false;
+    if (ctx->cancel)
         status = context_fail(ctx, LAMBERT_CANCELLED, "stopped on request");
-    }
     if (status != LAMBERT_OK) {
         gi_free(g);
         return status;

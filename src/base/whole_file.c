@@ -5,14 +5,20 @@
 
 bool whole_file_begin(struct whole_file *w, const char *path)
 {
-    const int n =
-        snprintf(w->name, sizeof w->name, "%s.%ld.tmp", path, (long)getpid());
+    enum { TRIES = 100 };
     w->path = path;
     w->f = NULL;
-    if (n < 0 || (size_t)n >= sizeof w->name)
-        errno = ENAMETOOLONG;
-    else
-        w->f = fopen(w->name, "wb");
+    for (int i = 0; i < TRIES; i++) {
+        const int n =
+            snprintf(w->name, sizeof w->name, "%s.%ld-%d.part", path, (long)getpid(), i);
+        if (n < 0 || (size_t)n >= sizeof w->name) {
+            errno = ENAMETOOLONG;
+            return false;
+        }
+        w->f = fopen(w->name, "wbx");
+        if (w->f || errno != EEXIST)
+            break;
+    }
     return w->f;
 }
 

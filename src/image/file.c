@@ -1,5 +1,6 @@
 // Pictures to and from the file system.
 #define _XOPEN_SOURCE 700 // realpath
+#include "base/whole_file.h"
 #include "image/codec.h"
 
 #include <errno.h>
@@ -62,44 +63,16 @@ static bool write_all(int fd, const struct byte_buffer *b)
     return true;
 }
 
-// A new file beside `path`. Its name is in *temporary, to be freed.
-static int open_beside(const char *path, char **temporary)
-{
-    size_t n = strlen(path) + 32;
-    char *name = malloc(n);
-    *temporary = name;
-    for (int i = 0; name && i < 100; i++) {
-        snprintf(name, n, "%s.%ld-%d.part", path, (long)getpid(), i);
-        int fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0 || errno != EEXIST)
-            return fd;
-    }
-    return -1;
-}
-
-// The file takes its place only when it is whole and on the disk's books.
+// The file takes its place only when it is whole.
 static bool replace_file(const char *path, const struct byte_buffer *b,
                          struct codec_error e)
 {
-    char *temporary = NULL;
-    int fd = open_beside(path, &temporary);
-    bool ok = fd >= 0 && write_all(fd, b);
-    int why = errno;
-    if (fd >= 0 && close(fd) && ok) {
-        why = errno;
-        ok = false;
-    }
-    if (ok && rename(temporary, path)) {
-        why = errno;
-        ok = false;
-    }
-    if (!ok) {
-        if (fd >= 0)
-            unlink(temporary);
-        codec_fail(e, "cannot write '%s': %s", path, strerror(why));
-    }
-    free(temporary);
-    return ok;
+    struct whole_file w;
+    if (whole_file_begin(&w, path) &&
+        whole_file_end(&w, fwrite(b->data, 1, b->size, w.f) == b->size))
+        return true;
+    codec_fail(e, "cannot write '%s': %s", path, strerror(errno));
+    return false;
 }
 
 static bool write_into(const char *path, const struct byte_buffer *b,

@@ -53,9 +53,9 @@ uint64_t gatherer_rays(const struct gatherer *g);
 double gather_reach(const struct irradiance_cache *c, const struct cache_sample *s);
 // Whether a query before the picture would take a sample where this one lies.
 bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s);
-// A new store takes what is found, or what was known has grown; directions from here on.
 // Whether nearest_count's second number says that where it was since the start enough is known.
 bool gather_is_settled(const struct gatherer *g);
+// A new store takes what is found, or what was known has grown; directions from here on.
 void gatherer_start(struct gatherer *g, uint32_t direction);
 
 // Rays of one sample at a depth.

@@ -510,9 +510,6 @@ static struct patches *build_counted(const struct job *job,
     struct patches *const coarsest = s->count <= TRIAL ? build_coarsest(job, s) : NULL;
     if (coarsest)
         return coarsest;
-    struct patches *const coarse = build_coarsest(job, s);
-    if (coarse)
-        return coarse;
     settings.count = fmin(s->count, TRIAL);
     settings.depth = 0;
     settings.trial = true;

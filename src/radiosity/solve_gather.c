@@ -115,6 +115,15 @@ static bool rays_bring(const struct gather *g, uint32_t j, const struct looker *
     return g->rank[j] != ELEMENT_NONE && is_close(g, g->rank[j], at);
 }
 
+// The same of rays from all over element i.
+static bool rays_bring_to(const struct gather *g, uint32_t j, uint32_t i)
+{
+    if (g->rank[j] == ELEMENT_NONE) // most
+        return false;
+    const struct looker at = looker_of(&g->s->e->element[i]);
+    return rays_bring(g, j, &at);
+}
+
 // ---- what rays find ----------------------------------------------------------------
 static void found(const struct gather *g, struct factor_state *s, const uint32_t *sender)
 {
@@ -125,8 +134,7 @@ static void found(const struct gather *g, struct factor_state *s, const uint32_t
             continue;
         double own[3];
         element_emission(&g->s->e->element[j], own);
-        const struct looker self = looker_of(&g->s->e->element[i]);
-        const bool brought = !g->direct || rays_bring(g, j, &self);
+        const bool brought = !g->direct || rays_bring_to(g, j, i);
         for (int c = 0; c < 3; c++) {
             g->h[i][c] += g->b[j][c] - (g->direct ? own[c] : 0);
             if (brought)

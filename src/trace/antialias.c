@@ -105,8 +105,8 @@ static void scan_centres(struct scan *s)
     float(*value)[4] = need((size_t)cells, sizeof *value);
     int *cell = need((size_t)cells, sizeof *cell);
     uint32_t n = 0;
-    for (int y = 0; y <= s->height;
-         y += 2) { // two rows at once: packets are near squares
+    // Two rows at once: packets are near squares.
+    for (int y = 0; y <= s->height; y += 2) {
         for (int x = 0; x < s->stride; x++) {
             for (int k = y; k <= y + 1 && k <= s->height; k++) {
                 cell[n] = k * s->stride + x;

@@ -50,6 +50,7 @@ struct hit_batch {
 struct hit_batch *hit_batch_new(uint32_t capacity);
 void hit_batch_free(struct hit_batch *b);
 struct hit hit_batch_at(const struct hit_batch *b, uint32_t i);
+// Sets all that hit_batch_at gives.
 static inline void hit_batch_put(const struct hit_batch *b, uint32_t i,
                                  const struct boundary *x)
 {

@@ -13,9 +13,9 @@ struct lens {
     int count;
     struct vec2 *point; // in a unit square around 0
     double shake;       // how far jitter moves a point
-    struct vec2
-        spread[256];   // where in a pixel samples lie, off its middle: 16 by 16 cells
-    double *threshold; // [k]: the variance of the mean at which k samples are enough
+    double *threshold;  // [k]: the variance of the mean at which k samples are enough
+    // Where in a pixel samples lie, off its middle: 16 by 16 cells.
+    struct vec2 spread[256];
 };
 
 void lens_init(struct lens *lens, struct arena *a, const struct camera *c,

@@ -1,11 +1,11 @@
 #include "trace/world.h"
-#include "trace/coincident.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
 #include "trace/accel.h"
+#include "trace/coincident.h"
 #include "trace/csg_bounds.h"
 #include "trace/world_build.h"
 

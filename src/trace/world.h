@@ -89,9 +89,8 @@ struct world_object {
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     bool mixed;                // some are, some are not
-    bool
-        may_coincide; // faces that are not may lie in faces of opaque objects (coincident.h)
-    unsigned flags; // visibility of the whole
+    bool may_coincide;         // clear faces may lie in others' opaque ones (coincident.h)
+    unsigned flags;            // visibility of the whole
     const struct object *source;
     const struct user_bound *bound; // bounded_by, its own and those of unions around it
     uint32_t bound_count;

@@ -38,7 +38,7 @@ struct walk8 {
 // ---- f --------------------------------------------------------------------------------
 
 // Lanes that are not wanted look where the first wanted one does, since points that are near
-// each other share work, as the cells of patterns.
+// each other share work, as the cells of patterns. lanes: not 0.
 LANES_INLINE void store_wanted(double *to, struct real8 v, unsigned lanes)
 {
     r8_store(to, v);
