@@ -6,9 +6,9 @@
 // the other. Here it meets the opaque one.
 #include "trace/intersect.h"
 
-// Says which objects that may concern (world_object.may_coincide): clear ones with flat
-// faces whose boxes touch those of opaque ones with flat faces. Curved faces in one place
-// are not looked for.
+// Says which objects that may concern (world_object.may_coincide): those with clear and flat
+// faces whose boxes touch those of wholly opaque ones with flat faces. Curved faces in one
+// place, and those of objects that are opaque in part, are not looked for.
 void coincident_mark(struct world *w);
 // Hits of clear faces of these objects become hits of the opaque ones that are no farther
 // from them than the bounds on both errors.

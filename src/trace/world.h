@@ -89,6 +89,7 @@ struct world_object {
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     bool mixed;                // some are, some are not
+    bool flat;                 // it may have flat faces; set where there are clear ones
     bool may_coincide;         // clear faces may lie in others' opaque ones (coincident.h)
     unsigned flags;            // visibility of the whole
     const struct object *source;
