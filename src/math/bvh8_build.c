@@ -1,6 +1,6 @@
 // The building of a tree of boxes: the surface area heuristic over bins of the centres (Wald,
 // "On fast construction of SAH-based bounding volume hierarchies", RT 2007), eight children
-// gathered from binary cuts.
+// gathered from binary cuts: the widest is cut first, or, of dear items, the best of all ways.
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,9 +15,12 @@
 
 enum {
     BINS = 16,
-    BINS_OF_FEW = 8,  // of ranges of up to
-    FEW = 32,         // items
-    DEPTH_BINNED = 24 // below, halve by count: the depth stays within BVH8_STACK
+    BINS_OF_FEW = 8, // of ranges of up to
+    FEW = 32,        // items
+    // Where to halve by count, so that the depth stays within BVH8_STACK: below this depth,
+    DEPTH_BINNED = 24,
+    // or, in a tree of two children, where so many levels just suffice for that.
+    DEPTH_OF_CUTS = 44
 };
 
 // The error of a test in units of the half extent of the tree: rounding the moved
@@ -44,6 +47,8 @@ struct builder {
     uint32_t *order;  // which item it is
     struct bvh8_node *node;
     uint32_t node_count, node_capacity;
+    struct cut_node *cut; // of dear items
+    uint32_t cut_count;
     uint32_t leaf_items; // a leaf of no more is split only if that pays
     struct vec3 origin;
     double pad;
@@ -209,7 +214,7 @@ static bool find_cut(const struct builder *b, const struct range *r, struct cut 
     for (uint32_t i = 0; i < r->count; i++)
         widen_by_centre(&centres, &item[i]);
     *best = (struct cut){.axis = -1, .cost = FLT_MAX};
-    best->bins = r->count <= FEW ? BINS_OF_FEW : BINS;
+    best->bins = r->count <= FEW && b->leaf_items > 1 ? BINS_OF_FEW : BINS;
     for (int axis = 0; axis < 3; axis++) {
         const float width = -centres.hi[axis] - centres.lo[axis];
         best->from[axis] = centres.lo[axis];
@@ -246,13 +251,13 @@ static uint32_t partition(struct builder *b, const struct range *r, const struct
     return i - r->first;
 }
 
-static bool split(struct builder *b, struct range *r, uint32_t depth, struct range *rest)
+static bool split(struct builder *b, struct range *r, bool binned, struct range *rest)
 {
     if (r->count <= 1)
         return false;
     uint32_t left = r->count / 2;
     struct cut c;
-    const bool cut = depth < DEPTH_BINNED && find_cut(b, r, &c);
+    const bool cut = binned && find_cut(b, r, &c);
     if (cut) {
         // A test of a box costs about as much as half a test of an object.
         if (r->count <= b->leaf_items &&
@@ -290,20 +295,25 @@ static uint32_t new_node(struct builder *b)
     return b->node_count++;
 }
 
-// Whether to split a range of a node that has `count`. Items that each are a leaf, and would fill
-// one node, are better left to it than made nodes of few children.
-static bool may_split(const struct range *r, uint32_t count, uint32_t leaf_items)
+static void set_child(struct builder *b, uint32_t id, int i, const struct box *box,
+                      int32_t child)
 {
-    return !r->whole && (leaf_items > 1 || r->count > 8 || count + r->count <= 9);
+    struct bvh8_node *n = &b->node[id];
+    for (int axis = 0; axis < 3; axis++) {
+        n->box[axis][i] = box->lo[axis];
+        n->box[3 + axis][i] = -box->hi[axis];
+    }
+    n->child[i] = child;
 }
 
+// ---- cheap items: the widest box is cut first -----------------------------------------------
+
 // The range with the largest box that may still be split; -1: none.
-static int widest(const struct range *r, int count, uint32_t leaf_items)
+static int widest(const struct range *r, int count)
 {
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (may_split(&r[i], (uint32_t)count, leaf_items) &&
-            (best < 0 || r[i].area > r[best].area))
+        if (!r[i].whole && (best < 0 || r[i].area > r[best].area))
             best = i;
     return best;
 }
@@ -313,25 +323,121 @@ static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
 {
     struct range r[8] = {all};
     int n = 1;
-    for (int i; n < 8 && (i = widest(r, n, b->leaf_items)) >= 0;) {
-        if (split(b, &r[i], depth, &r[n]))
+    for (int i; n < 8 && (i = widest(r, n)) >= 0;) {
+        if (split(b, &r[i], depth < DEPTH_BINNED, &r[n]))
             n++;
         else
             r[i].whole = true;
     }
     uint32_t id = new_node(b);
     for (int i = 0; i < n; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            b->node[id].box[axis][i] = r[i].box.lo[axis];
-            b->node[id].box[3 + axis][i] = -r[i].box.hi[axis];
-        }
         int32_t child = r[i].count <= b->leaf_items
                             ? bvh8_leaf(r[i].first, r[i].count)
                             : (int32_t)make_node(b, r[i], depth + 1);
-        b->node[id].child[i] = child;
+        set_child(b, id, i, &r[i].box, child);
     }
     return id;
 }
+
+// ---- dear items: the best of all ways to gather children ------------------------------------
+//
+// A tree costs a ray as much as the areas of its nodes are together. The least that follows from
+// a binary tree is found from its leaves up (Pinto, "Adaptive collapsing on bounding volume
+// hierarchies for ray-tracing", Eurographics 2010; Ylitie et al., "Efficient incoherent ray
+// traversal on GPUs through compressed wide BVHs", HPG 2017).
+
+struct cut_node {
+    struct range r; // of one item: a leaf
+    uint32_t half[2];
+    // The least cost as at most k children of a node; how many of them are then of the first
+    // half, 0: all is one child.
+    float cost[9];
+    uint8_t share[9];
+};
+
+static void find_costs(const struct builder *b, struct cut_node *n)
+{
+    const struct cut_node *one = &b->cut[n->half[0]], *other = &b->cut[n->half[1]];
+    for (int k = 2; k <= 8; k++) {
+        n->cost[k] = one->cost[1] + other->cost[k - 1];
+        n->share[k] = 1;
+        for (int i = 2; i < k; i++) {
+            const float cost = one->cost[i] + other->cost[k - i];
+            if (cost < n->cost[k]) {
+                n->cost[k] = cost;
+                n->share[k] = (uint8_t)i;
+            }
+        }
+    }
+    n->cost[1] = n->r.area + n->cost[8];
+    for (int k = 2; k < 8; k++)
+        if (n->cost[1] < n->cost[k]) {
+            n->cost[k] = n->cost[1];
+            n->share[k] = 0;
+        }
+}
+
+// Whether halving `count` items until each is alone fits into that many levels.
+static bool fits(uint32_t count, uint32_t levels)
+{
+    return levels >= 32 || count <= (uint32_t)1 << levels;
+}
+
+// The depth of the recursion is bounded: see DEPTH_OF_CUTS.
+static uint32_t make_cuts(struct builder *b, struct range r, uint32_t depth)
+{
+    const uint32_t id = b->cut_count++;
+    struct cut_node *n = &b->cut[id];
+    *n = (struct cut_node){.r = r};
+    struct range rest;
+    if (split(b, &r,
+              depth + 1 < DEPTH_OF_CUTS && fits(r.count, DEPTH_OF_CUTS - 1 - depth),
+              &rest)) {
+        n->half[0] = make_cuts(b, r, depth + 1);
+        n->half[1] = make_cuts(b, rest, depth + 1);
+        find_costs(b, n);
+    }
+    return id;
+}
+
+// Adds to the n children of a node what is at most `most` of them; returns how many it has.
+static int gather(const struct builder *b, uint32_t cut, int most, uint32_t child[8],
+                  int n)
+{
+    const struct cut_node *c = &b->cut[cut];
+    const int share = c->share[most];
+    if (!share) {
+        child[n] = cut;
+        return n + 1;
+    }
+    n = gather(b, c->half[0], share, child, n);
+    return gather(b, c->half[1], most - share, child, n);
+}
+
+static uint32_t make_best_node(struct builder *b, uint32_t cut)
+{
+    uint32_t child[8];
+    const int n = gather(b, cut, 8, child, 0);
+    const uint32_t id = new_node(b);
+    for (int i = 0; i < n; i++) {
+        const struct range *r = &b->cut[child[i]].r;
+        set_child(b, id, i, &r->box,
+                  r->count == 1 ? bvh8_leaf(r->first, 1)
+                                : (int32_t)make_best_node(b, child[i]));
+    }
+    return id;
+}
+
+static void make_best_tree(struct builder *b, struct range all)
+{
+    b->cut = aligned_alloc(16, (2 * (size_t)all.count - 1) * sizeof *b->cut);
+    if (!b->cut)
+        abort();
+    make_best_node(b, make_cuts(b, all, 0));
+    free(b->cut);
+}
+
+// ---- the tree -------------------------------------------------------------------------------
 
 static float round_down(double v)
 {
@@ -376,7 +482,10 @@ struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
     }
     struct range all = {.count = count, .box = range_box(&b, 0, count)};
     all.area = half_area(&all.box);
-    make_node(&b, all, 0);
+    if (leaf_items == 1)
+        make_best_tree(&b, all);
+    else
+        make_node(&b, all, 0);
     free(b.item);
     t.origin = b.origin;
     t.node_count = b.node_count;
