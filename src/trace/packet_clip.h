@@ -86,7 +86,7 @@ static unsigned clipped_leaf(struct eight *e, unsigned bits, uint32_t object,
     const unsigned won =
         met ? take(e, met, r8_select(first, x.t[0], x.t[1]), object, leaf) : 0;
     if (won && e->p->mode == SWEEP_CLOSEST)
-        keep(e->p, &x, first, won, l->inverted);
+        keep(e->p, &x, first, won, lanes_if(l->inverted));
     return won;
 }
 

@@ -120,9 +120,13 @@ static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
     }
 }
 
+// All lanes or none.
+LANES_INLINE unsigned lanes_if(bool all) { return all ? 255 : 0; }
+
 // Keeps the boundaries of `won` in full: those of `first` in x->t[0], else in x->t[1].
+// inverted: lanes whose leaf is a complement.
 LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 first,
-                       unsigned won, bool inverted)
+                       unsigned won, unsigned inverted)
 {
     const struct mask8 m = m8_of(won);
     r8_store(p->dt, r8_select(m, r8_select(first, x->dt[0], x->dt[1]), r8_load(p->dt)));
@@ -131,7 +135,7 @@ LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 fi
     r8_store(p->u, r8_select(m, x->u, r8_load(p->u)));
     r8_store(p->v, r8_select(m, x->v, r8_load(p->v)));
     p->whole |= won;
-    const unsigned leaves = (m8_bits(x->enters) ^ m8_bits(first)) ^ (inverted ? 255 : 0);
+    const unsigned leaves = (m8_bits(x->enters) ^ m8_bits(first)) ^ inverted;
     if (x->sheet)
         b8_put(p->crossing, won, 0, CROSS_TOUCH, CROSS_TOUCH);
     else
@@ -147,7 +151,7 @@ static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint
     const unsigned won =
         met ? take(e, met, r8_select(first, x.t[0], x.t[1]), object, leaf) : 0;
     if (won && e->p->mode == SWEEP_CLOSEST)
-        keep(e->p, &x, first, won, e->p->w->leaf[leaf].inverted);
+        keep(e->p, &x, first, won, lanes_if(e->p->w->leaf[leaf].inverted));
     return odd ? won | packet_try_object(e->p, odd, object) : won;
 }
 
@@ -170,7 +174,7 @@ static unsigned plane8(struct eight *e, unsigned bits, uint32_t object)
     const struct cross8 x = cross8_plane(s, ray);
     const unsigned won = take(e, bits & m8_bits(x.met), x.t[0], object, leaf);
     if (won && e->p->mode == SWEEP_CLOSEST) // nothing is left to do for the boundary
-        keep(e->p, &x, m8_of(255), won, l->inverted);
+        keep(e->p, &x, m8_of(255), won, lanes_if(l->inverted));
     return won;
 }
 
@@ -252,8 +256,8 @@ LANES_INLINE struct real8 moved8_by(const struct leaf *l, const struct ray8 *ray
     const struct real8 error = r8_mul(r8_set(unit), size),
                        o_max = r8_add(own->o_max, r8_set(0x1p-900)),
                        most = r8_div(error, o_max);
-    const struct real8 share = r8_select(r8_le(most, r8_set(65)), most,
-                                         r8_div(error, r8_add(o_max, extent)));
+    const struct real8 share =
+        r8_select(r8_le(most, r8_set(65)), most, r8_div(error, r8_add(o_max, extent)));
     const struct mask8 finite = r8_lt(r8_abs(t), r8_set(INFINITY));
     return r8_select(finite, r8_add(dt, r8_mul(dt, share)), dt);
 }
@@ -314,8 +318,7 @@ LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
         return x;
     const struct mask8 deep =
         r8_le(r8_mul(r8_set(2), r8_add(x.in_e, x.out_e)), r8_sub(x.out, x.in));
-    const struct real8 extent =
-        r8_select(deep, r8_set(own_extent(l, shape)), r8_set(0));
+    const struct real8 extent = r8_select(deep, r8_set(own_extent(l, shape)), r8_set(0));
     x.in_e = moved8_by(l, &e->ray, own, extent, x.in, x.in_e);
     x.out_e = moved8_by(l, &e->ray, own, extent, x.out, x.out_e);
     return x;
@@ -331,9 +334,9 @@ static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
         return won;
     double which[8];
     r8_store(which, at);
-    for (unsigned m = won; m; m &= m - 1) {
-        const int lane = __builtin_ctz(m);
-        e->p->leaf[lane] = first_leaf + (uint32_t)which[lane] / 2;
+    for (unsigned i = 0; i < 8; i++) { // at is -1 or more
+        const uint32_t leaf = first_leaf + ((uint32_t)(int32_t)which[i] >> 1);
+        e->p->leaf[i] = won >> i & 1 ? leaf : e->p->leaf[i];
     }
     return won;
 }
@@ -363,7 +366,7 @@ static unsigned exact_leaves(struct eight *e, struct product *x, bool complement
 // Lanes whose t is one of the crossings become whole; not those whose hit is of another
 // making.
 LANES_INLINE void complete(struct packet *p, const struct cross8 *x, unsigned lanes,
-                           bool inverted)
+                           unsigned inverted)
 {
     const struct real8 t = r8_load(p->t);
     const struct mask8 first = m8_and(x->drawn[0], r8_eq(t, x->t[0]));
@@ -377,11 +380,11 @@ static unsigned complete_balls(struct eight *e, unsigned lanes)
 {
     struct packet *p = e->p;
     double x[8] = {0}, y[8] = {0}, z[8] = {0}, r[8] = {0};
-    unsigned balls = 0;
+    unsigned balls = 0, inverted = 0;
     for (unsigned m = lanes; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
         const struct leaf *l = &p->w->leaf[p->leaf[lane]];
-        if (l->ops != &sphere_ops || !l->transform->identity || l->inverted)
+        if (l->ops != &sphere_ops || !l->transform->identity)
             continue;
         const struct sphere *s = l->shape;
         x[lane] = s->centre.x;
@@ -389,13 +392,24 @@ static unsigned complete_balls(struct eight *e, unsigned lanes)
         z[lane] = s->centre.z;
         r[lane] = s->radius;
         balls |= m & -m;
+        inverted |= l->inverted ? m & -m : 0;
     }
     if (!(balls & (balls - 1)))
         return lanes;
     const struct cross8 c = cross8_ball((struct vec8){r8_load(x), r8_load(y), r8_load(z)},
                                         r8_load(r), &e->ray);
-    complete(p, &c, balls, false);
+    complete(p, &c, balls, inverted);
     return lanes & ~balls;
+}
+
+// Those of `lanes`, which are some, that hit the leaf that the first of them hits.
+LANES_INLINE unsigned lanes_alike(const struct packet *p, unsigned lanes)
+{
+    const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
+    unsigned alike = 0;
+    for (unsigned i = 0; i < 8; i++)
+        alike |= (unsigned)(p->leaf[i] == leaf) << i;
+    return lanes & alike;
 }
 
 // The simplest shapes' kernels find t and the leaf only. What most rays of a packet hit is
@@ -403,19 +417,13 @@ static unsigned complete_balls(struct eight *e, unsigned lanes)
 static void complete_all(struct eight *e, unsigned lanes)
 {
     struct packet *p = e->p;
-    unsigned others = 0;
-    for (unsigned m = lanes; m; m &= m - 1)
-        others |= p->leaf[__builtin_ctz(m)] ^ p->leaf[__builtin_ctz(lanes)];
-    if (others)
+    if (lanes && lanes_alike(p, lanes) != lanes)
         lanes = complete_balls(e, lanes);
     while (lanes) {
         const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
-        unsigned same = 0;
-        for (unsigned m = lanes; m; m &= m - 1)
-            if (p->leaf[__builtin_ctz(m)] == leaf)
-                same |= m & -m;
+        const unsigned same = lanes_alike(p, lanes);
         const struct cross8 x = leaf_cross(e, leaf);
-        complete(p, &x, same, p->w->leaf[leaf].inverted);
+        complete(p, &x, same, lanes_if(p->w->leaf[leaf].inverted));
         lanes &= ~same;
     }
 }

@@ -108,9 +108,8 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
     const struct mask8 begun = m8_and(
         r8_le(r8_set(0), r->at), product_near(&r->others, r->from, r->from_e, r->at));
     // One of two that coincide may be drawn, whichever begins or ends the stretch.
-    const struct mask8 ended =
-        m8_and(m8_without(inside, crosses),
-               product_near(&r->others, r->to, r->to_e, r->end_at));
+    const struct mask8 ended = m8_and(
+        m8_without(inside, crosses), product_near(&r->others, r->to, r->to_e, r->end_at));
     const struct mask8 near = m8_or(ended, m8_and(begun, m8_or(inside, crosses)));
     r->unsure |=
         bits & (m8_bits(x.odd) | m8_bits(m8_and(x.met, touches)) | m8_bits(near));
@@ -120,7 +119,7 @@ static unsigned ring_look(struct ring *r, unsigned bits, uint32_t object,
     *settled = own | other | r->unsure;
     unsigned won = own ? take(e, own, next, object, r->torus) : 0;
     if (won && e->p->mode == SWEEP_CLOSEST)
-        keep(e->p, &x, m8_without(m8_of(255), within), won, l->inverted);
+        keep(e->p, &x, m8_without(m8_of(255), within), won, lanes_if(l->inverted));
     return won | take_leaves(e, other, r8_select(begins, r->from, r->to),
                              r8_select(begins, r->at, r->end_at), object);
 }
