@@ -31,7 +31,7 @@ packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noi
 	src/scene/shapes/julia_lanes.c src/scene/shapes/julia_lanes.h src/scene/shapes/lanes.h src/scene/shapes/ovus_lanes.c src/scene/shapes/superellipsoid_lanes.c src/scene/shapes/poly_lanes.c src/scene/shapes/poly_lanes.h \
 	src/irradiance/store.h src/irradiance/store_kernel.c src/irradiance/store_kernel.h \
 	src/radiosity/sight_kernel.c src/radiosity/sight_kernel.h \
-	%D%/photon_kernel.c %D%/photon_search.h \
+	%D%/media_kernel.c %D%/photon_kernel.c %D%/photon_search.h \
 	%D%/packet_kernel.c %D%/packet_product.h %D%/packet_quick.h \
 	%D%/packet.h %D%/packet_any.h %D%/packet_bound.h %D%/packet_carve.h %D%/packet_clip.h %D%/packet_cross.h %D%/packet_csg.h %D%/packet_objects.h %D%/packet_parts.h %D%/packet_shapes.h \
 	%D%/packet_lanes.h %D%/packet_list.h %D%/packet_mesh.h %D%/packet_ring.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \

@@ -119,7 +119,7 @@ static void keep_lit(struct lighting *l)
 }
 
 static void samples_lit(struct lighting *l, struct media_sample *sample,
-                        const struct media_point *point)
+                        const struct vec3 *scattering)
 {
     const struct media_march *m = l->m;
     struct shadow_batch *b = &m->t->near;
@@ -140,12 +140,12 @@ static void samples_lit(struct lighting *l, struct media_sample *sample,
         const struct rgb color = {l->color[0][i], l->color[1][i], l->color[2][i]};
         s->light = vec3_mad(s->light, l->phase[i],
                             vec3_mul(vec3_of_rgb(rgb_mul(color, l->factor[i])),
-                                     point[l->sample[i]].scattering));
+                                     scattering[l->sample[i]]));
     }
 }
 
 void media_samples_lit(struct media_march *m, struct media_sample *sample,
-                       const struct media_point *point, uint32_t count)
+                       const struct vec3 *scattering, uint32_t count)
 {
     const struct lamp_list *all = &m->t->job->lamps[m->walker[0].way->group];
     struct turn turn[MEDIA_SAMPLES];
@@ -163,6 +163,6 @@ void media_samples_lit(struct media_march *m, struct media_sample *sample,
                 ask(&l, &turn[i], &w->lamp[turn[i].lamp++], sample, photons);
         }
         if (l.count)
-            samples_lit(&l, sample, point);
+            samples_lit(&l, sample, scattering);
     }
 }

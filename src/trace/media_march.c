@@ -41,29 +41,58 @@ static uint32_t sample_add(struct media_march *m, uint32_t interval, double t)
     return s->sample_count++;
 }
 
+// What is lost and given at a few samples, and what is scattered.
+static void samples_points(struct media_march *m, struct media_sample *sample,
+                           uint32_t count, struct vec3 *scattering)
+{
+    enum { BLOCKS = 8 };
+    struct media_places place[BLOCKS];
+    struct media_eight at[BLOCKS];
+    for (uint32_t first = 0; first < count; first += 8 * BLOCKS) {
+        const uint32_t n = count - first < 8 * BLOCKS ? count - first : 8 * BLOCKS;
+        for (uint32_t i = 0; i < n; i++) {
+            const struct media_sample *s = &sample[first + i];
+            const struct media_way *way = walker_of(m, s->interval)->way;
+            media_place(&place[i / 8], i % 8, vec3_mad(way->o, s->t, way->d), way->d);
+        }
+        media_points(m->t->job, m->mix, place, n, at);
+        for (uint32_t i = 0; i < n; i++) {
+            struct media_sample *s = &sample[first + i];
+            const struct media_eight *a = &at[i / 8];
+            const uint32_t k = i % 8;
+            const double l = m->interval[s->interval].length;
+            s->depth = vec3(l * a->extinction[0][k], l * a->extinction[1][k],
+                            l * a->extinction[2][k]);
+            s->light = vec3(a->emission[0][k], a->emission[1][k], a->emission[2][k]);
+            scattering[first + i] =
+                vec3(a->scattering[0][k], a->scattering[1][k], a->scattering[2][k]);
+        }
+    }
+}
+
+static void samples_even(struct media_march *m, struct media_sample *sample,
+                         uint32_t count, struct vec3 *scattering)
+{
+    const struct media_point *p = &m->mix->everywhere;
+    for (uint32_t i = 0; i < count; i++) {
+        sample[i].depth =
+            vec3_scale(m->interval[sample[i].interval].length, p->extinction);
+        sample[i].light = p->emission;
+        scattering[i] = p->scattering;
+    }
+}
+
 static void samples_eval_few(struct media_march *m, struct media_sample *sample,
                              uint32_t count)
 {
-    struct media_at at[MEDIA_SAMPLES];
-    struct media_point p[MEDIA_SAMPLES];
-    for (uint32_t i = 0; i < count; i++) {
-        const struct media_way *way = walker_of(m, sample[i].interval)->way;
-        at[i] = (struct media_at){way->o, way->d, sample[i].t};
-        p[i] = m->mix->everywhere;
-    }
-    if (!m->mix->even)
-        media_points(m->t->job, m->mix, at, count, p);
-    for (uint32_t i = 0; i < count; i++) {
-        const double l = m->interval[sample[i].interval].length;
-        sample[i].depth = vec3_scale(l, p[i].extinction);
-        sample[i].light = p[i].emission;
-    }
+    struct vec3 scattering[MEDIA_SAMPLES];
+    (m->mix->even ? samples_even : samples_points)(m, sample, count, scattering);
     if (m->depth_only)
         return;
     if (m->mix->scatters)
-        media_samples_lit(m, sample, p, count);
+        media_samples_lit(m, sample, scattering, count);
     if (m->t->job->photons && m->t->job->photons->media.count)
-        photon_media_lit(m, sample, p, count);
+        photon_media_lit(m, sample, scattering, count);
     for (uint32_t i = 0; i < count; i++)
         sample[i].light =
             vec3_scale(m->interval[sample[i].interval].length, sample[i].light);

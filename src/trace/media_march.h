@@ -83,8 +83,9 @@ uint32_t media_stride(const struct media_mix *mix);
 struct media_walker media_walker(struct tracer *t, const struct media_way *way,
                                  const uint8_t *missed, uint8_t lane);
 
-// Light that reaches samples from the lamps: added to their `light` (media_light.c).
+// Light that reaches samples from the lamps: added to their `light` (media_light.c);
+// scattering: of media there.
 void media_samples_lit(struct media_march *m, struct media_sample *sample,
-                       const struct media_point *point, uint32_t count);
+                       const struct vec3 *scattering, uint32_t count);
 
 #endif

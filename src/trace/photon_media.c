@@ -34,6 +34,18 @@ static struct rgb clear_through(struct vec3 depth)
                (float)det_exp(-depth.z));
 }
 
+static struct vec3 extinction_at(const struct job *job, const struct media_mix *mix,
+                                 struct vec3 p, struct vec3 d)
+{
+    struct media_places place;
+    struct media_eight here;
+    if (mix->even)
+        return mix->everywhere.extinction;
+    media_place(&place, 0, p, d);
+    media_points(job, mix, &place, 1, &here);
+    return vec3(here.extinction[0][0], here.extinction[1][0], here.extinction[2][0]);
+}
+
 // Leaves photons on the way, weaker the more of the medium lies behind them.
 static void leave(struct photon_flight *f, const struct leg *leg,
                   const struct media_mix *mix, double s)
@@ -47,13 +59,11 @@ static void leave(struct photon_flight *f, const struct leg *leg,
     for (uint32_t i = 0; i < n; i++) {
         const double r = hash_unit(hash_mix(leg->path.hash, 1000 + i)) - 0.5;
         const double t = (i + 0.5 + r * set->jitter) * step;
-        struct media_point here = mix->everywhere;
-        const struct media_at at = {leg->path.o, leg->path.d, t};
-        if (!mix->even)
-            media_points(f->job, mix, &at, 1, &here);
-        const struct vec3 half = vec3_mad(depth, step / 2, here.extinction);
-        depth = vec3_mad(depth, step, here.extinction);
-        photon_leave(f, &f->to->media, leg, vec3_mad(leg->path.o, t, leg->path.d), t,
+        const struct vec3 at = vec3_mad(leg->path.o, t, leg->path.d);
+        const struct vec3 lost = extinction_at(f->job, mix, at, leg->path.d);
+        const struct vec3 half = vec3_mad(depth, step / 2, lost);
+        depth = vec3_mad(depth, step, lost);
+        photon_leave(f, &f->to->media, leg, at, t,
                      rgb_scale((float)step, clear_through(half)));
     }
 }
@@ -87,7 +97,7 @@ void photon_media_cross(struct photon_flight *f, struct leg *leg, double s)
 }
 
 void photon_media_lit(struct media_march *m, struct media_sample *sample,
-                      const struct media_point *point, uint32_t count)
+                      const struct vec3 *scattering, uint32_t count)
 {
     static const double ball = 4.0 / 3 * 3.14159265358979323846;
     const struct vec3 none = {0, 0, 0};
@@ -97,7 +107,8 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
         return;
     for (uint32_t k = 0; k < count; k++) {
         double reach;
-        const struct media_way *way = m->walker[m->interval[sample[k].interval].walker].way;
+        const struct media_way *way =
+            m->walker[m->interval[sample[k].interval].walker].way;
         const struct vec3 p = vec3_mad(way->o, sample[k].t, way->d);
         const uint32_t n =
             photons_gather(&photons->media, &photons->gather, p, none, near, &reach);
@@ -112,6 +123,6 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
         if (n && reach > 0)
             sample[k].light =
                 vec3_mad(sample[k].light, 1 / (ball * reach * reach * reach),
-                         vec3_mul(sum, point[k].scattering));
+                         vec3_mul(sum, scattering[k]));
     }
 }

@@ -51,10 +51,9 @@ uint8_t photons_instead_in_media(const struct job *job, const struct media_mix *
 
 struct media_march;
 struct media_sample;
-struct media_point;
 // The light of photons at samples in media: added to their `light` (photon_media.c).
 void photon_media_lit(struct media_march *m, struct media_sample *sample,
-                      const struct media_point *point, uint32_t count);
+                      const struct vec3 *scattering, uint32_t count);
 
 // How obliquely photons may come in before they count no more (spec/lighting.md 11.5).
 static const double photon_steepest = 0.1;

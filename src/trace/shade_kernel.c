@@ -477,6 +477,8 @@ static unsigned meets(const struct aabb *box, uint32_t count,
     return met;
 }
 
+media_add_fn OF_ISA(media_add_);
+
 const struct shade_kernels OF_ISA(shade_kernels_) = {
     ISA_TEXT,      &OF_ISA(surface_kernels_),
     camera,        place,
@@ -489,4 +491,4 @@ const struct shade_kernels OF_ISA(shade_kernels_) = {
     points,        texture_space,
     world_normals, sheet_pass,
     own_sheets,    light_sheets,
-    caustics};
+    caustics,      OF_ISA(media_add_)};

@@ -4,6 +4,10 @@
 #include "trace/antialias.h"
 #include "trace/simple.h"
 
+struct media;
+struct media_eight;
+struct media_places;
+struct pigment_tape;
 struct surface_kernels;
 struct paint_coat;
 struct paint_group;
@@ -23,6 +27,12 @@ struct area_places {
 struct area_ray {
     uint32_t place, point, value; // value: where what it brings is kept
 };
+
+// Adds what a medium is at `count` points, eight a block; tape: its densities', NULL where
+// there is none.
+typedef void media_add_fn(const struct media *m, const struct pigment_tape *const *tape,
+                          const struct media_places *place, uint32_t count,
+                          struct media_eight *sum);
 
 // What shading compiles once per instruction set, as trace/packet.h.
 struct shade_kernels {
@@ -96,6 +106,7 @@ struct shade_kernels {
     // finishes with crand, irid or subsurface light are not for this.
     struct rgb (*caustics)(const struct shading *s, const struct photon *photon,
                            const uint32_t *id, uint32_t count, bool side_test);
+    media_add_fn *media_add; // trace/media_kernel.c
 };
 
 extern const struct shade_kernels shade_kernels_base, shade_kernels_avx2,
