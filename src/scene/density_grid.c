@@ -11,6 +11,8 @@ bool density_grid_init(struct density_grid *g, const uint8_t *data, size_t size)
     // Below 2^48, so that four times it cannot overflow.
     const uint64_t count = (uint64_t)g->size[0] * g->size[1] * g->size[2];
     g->sample = data + HEADER;
+    for (int i = 0; i < 256; i++)
+        g->level[i] = i / 255.0;
     for (g->width = 4; g->width; g->width /= 2)
         if (count && size - HEADER == count * g->width)
             return true;

@@ -10,6 +10,7 @@ struct density_grid {
     uint32_t size[3];
     uint32_t width; // bytes per sample: 1, 2 or 4
     const uint8_t *sample;
+    double level[256]; // of samples of one byte, 0 to 1
 };
 
 // Points into data, which must outlive it. False: the length does not fit the sizes.

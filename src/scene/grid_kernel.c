@@ -21,17 +21,31 @@ LANES_INLINE struct cells8 cells_of(struct real8 v, uint32_t size)
     return c;
 }
 
+LANES_INLINE void store_whole8(uint64_t out[8], struct real8 x)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    _mm512_storeu_si512(out, _mm512_cvttpd_epi64(x.a));
+#else
+    double v[8];
+    r8_store(v, x);
+    for (int i = 0; i < 8; i++)
+        out[i] = (uint64_t)v[i];
+#endif
+}
+
 // The samples of these numbers, 0 to 1.
 LANES_INLINE struct real8 samples_at(const struct density_grid *g, struct real8 number)
 {
-    double at[8], v[8];
-    r8_store(at, number);
-    if (g->width == 1)
+    uint64_t at[8];
+    double v[8];
+    store_whole8(at, number);
+    if (g->width == 1) {
         for (int i = 0; i < 8; i++)
-            v[i] = g->sample[(uint64_t)at[i]];
-    else
-        for (int i = 0; i < 8; i++)
-            v[i] = density_grid_raw(g, (size_t)at[i]);
+            v[i] = g->level[g->sample[at[i]]];
+        return r8_load(v);
+    }
+    for (int i = 0; i < 8; i++)
+        v[i] = density_grid_raw(g, at[i]);
     return r8_div(r8_load(v), r8_set(density_grid_most(g)));
 }
 

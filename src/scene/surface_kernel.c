@@ -193,7 +193,8 @@ static void values(const struct pattern *p, const struct pattern_packet *packet,
 // ---- colours --------------------------------------------------------------------------
 
 struct level {
-    double p[3][8], v[8], f[8];
+    _Alignas(64) double p[3][8]; // so that no vector lies across two lines
+    double v[8], f[8];
     float c[5][8], low[5][8], high[5][8];
     uint32_t a[8], b[8]; // entries below and above the value
     unsigned live, found;

@@ -28,11 +28,11 @@ struct media_tapes {
 
 // Eight points and along what they are seen.
 struct media_places {
-    double at[3][8], ray_d[3][8];
+    _Alignas(64) double at[3][8], ray_d[3][8];
 };
 // What a media_point has, of eight.
 struct media_eight {
-    double extinction[3][8], emission[3][8], scattering[3][8];
+    _Alignas(64) double extinction[3][8], emission[3][8], scattering[3][8];
 };
 
 struct media_mix media_mix_of(const struct media *const *media, uint32_t count);
