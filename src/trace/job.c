@@ -13,6 +13,7 @@
 #include "trace/paint.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
+#include "trace/subsurface.h"
 
 static const struct lamp *lamp_of(struct job *job, const struct light *light)
 {
@@ -181,9 +182,10 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     spectrum_init(job);
     media_compile(job, a);
     job->shoots = photons_wanted(job);
-    job->subsurface = s->subsurface.on && job->atmosphere &&
-                      (settings->purpose == RENDER_PICTURE ||
-                       (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface));
+    if (s->subsurface.on && job->atmosphere &&
+        (settings->purpose == RENDER_PICTURE ||
+         (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface)))
+        job->subsurface = subsurface_plan_new(job, a);
     sky_init(job);
     bows_init(job, a);
     sky_compile(job, a);

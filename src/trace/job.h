@@ -53,7 +53,7 @@ struct job {
     // What a miss sees where that does not depend on the direction: [1] where the
     // background never shows as alpha.
     unsigned hidden_by[2]; // of rays: [1] once they were mirrored
-    bool has_air; // fog, rainbows or media: rays change on their way
+    bool has_air;          // fog, rainbows or media: rays change on their way
     const struct bow *bow; // its rainbows (trace/sky.h)
     bool even_sky;
     struct rgb sky[2];
@@ -64,9 +64,10 @@ struct job {
     uint32_t clear_count;
     bool lists_crossings; // shadow rays among them take trace/shadow_list.h
     // Photons (trace/photons.h).
-    bool shoots; // lamps shoot at targets
-    bool subsurface; // light goes on below surfaces (trace/subsurface.h)
-    const struct photons *photons; // NULL: not shot, or nothing to shoot at
+    bool shoots;                              // lamps shoot at targets
+    const struct subsurface_plan *subsurface; // trace/subsurface.h; NULL: no light goes
+                                              // on below surfaces
+    const struct photons *photons;            // NULL: not shot, or nothing to shoot at
     // Media (trace/media.h).
     bool has_media, has_air_media; // somewhere; filling the scene
     const struct media_threshold *media_threshold;
@@ -78,9 +79,9 @@ struct job {
     const struct pigment_tape *const *sky_tape;
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
-    double reach; // of rays with PATH_SHORT; 0: none has a limit
-    bool general;                        // for tests: no hit is shaded in lanes
-    bool quick_camera;                   // its rays are made eight at a time
+    double reach;       // of rays with PATH_SHORT; 0: none has a limit
+    bool general;       // for tests: no hit is shaded in lanes
+    bool quick_camera;  // its rays are made eight at a time
     bool asks_in_order; // light by way of others, in the order of the rays
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;

@@ -21,6 +21,7 @@ static struct ray_batch *endless_new(void)
     for (uint32_t i = 0; i < b->capacity; i++) {
         b->t_min[i] = 0;
         b->t_max[i] = INFINITY;
+        b->hidden_by[i] = 0;
     }
     return b;
 }
@@ -41,6 +42,10 @@ struct tracer *tracer_new(const struct job *job)
     if (job->settings.indirect.begin)
         t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
     media_init(t);
+    if (job->subsurface) {
+        t->wall_rays = endless_new();
+        t->wall_hit = hit_batch_new(BATCH_SIZE);
+    }
     if (job->photons)
         t->near_photons = photon_near_new(job->photons->gather.max);
     if (camera_has_one_eye(job->camera))
@@ -58,6 +63,7 @@ void tracer_free(struct tracer *t)
     arena_free(t->arena);
     arena_free(t->camera_arena);
     ray_batch_free(t->rays);
+    ray_batch_free(t->wall_rays);
     wave_frames_free(t->frame);
     path_queue_free(&t->camera_queue);
     shadow_end(t);
@@ -68,6 +74,7 @@ void tracer_free(struct tracer *t)
     free(t->eye_inside);
     paint_end(t);
     hit_batch_free(t->hit);
+    hit_batch_free(t->wall_hit);
     free(t->sum);
     free(t->power);
     free(t);

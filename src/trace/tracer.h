@@ -172,6 +172,8 @@ struct tracer {
     uint32_t power_count, power_capacity;
     struct photon_near *near_photons; // trace/photons.h; NULL: there are none
     struct media_scratch *media;      // trace/media.h; NULL: the scene has none
+    struct ray_batch *wall_rays;      // trace/subsurface.h; NULL: the scene has none
+    struct hit_batch *wall_hit;
     struct wave_frame *frame;
     struct path_queue camera_queue;
     struct inside_pushed last_push;
