@@ -144,12 +144,12 @@ static struct pattern variant(const struct pattern_ops *ops, unsigned turn)
         p.interior_factor = 0.7;
     }
     if (ops == &density_file_pattern_ops) {
-        static uint8_t sample[240];
+        static uint8_t file[6 + 240] = {0, 3, 0, 4, 0, 5};
         static struct density_grid grid[3];
-        for (size_t i = 0; i < sizeof sample; i++)
-            sample[i] = (uint8_t)(i * i * 37 + i);
+        for (size_t i = 6; i < sizeof file; i++)
+            file[i] = (uint8_t)(i * i * 37 + i);
         struct density_grid *g = &grid[turn / 4 % 3];
-        *g = (struct density_grid){{3, 4, 5}, 1u << turn / 4 % 3, sample};
+        assert_true(density_grid_init(g, file, 6 + (60u << turn / 4 % 3)));
         p.density = turn % 16 == 15 ? NULL : g;
         p.integer[0] = (int)(turn % 4 == 3 ? 1 : turn % 4);
     }
