@@ -272,9 +272,21 @@ static double emitters_sum(const struct radiosity *r, struct vec3 o, struct vec3
     return polygons;
 }
 
+// Those of `some` objects that may hide any of it, more closely.
+static uint64_t in_hulls(const struct radiosity *r, struct vec3 o, struct vec3 n,
+                         const double *up_to, uint64_t some)
+{
+    double before = 0;
+    uint64_t found = 0;
+    for (uint32_t i = 0; i < r->emitter_count && some & ~found; before = up_to[i++])
+        if (up_to[i] > before)
+            found |= hulls_hide(r->patches, o, n, &r->emitter[i].e, some & ~found);
+    return found;
+}
+
 // The objects (bits) that may hide any of it.
 static uint64_t in_between(const struct radiosity *r, uint32_t element, struct vec3 o,
-                           const double *up_to)
+                           struct vec3 n, const double *up_to)
 {
     const struct patches *p = r->patches;
     struct shaft at = {.centre = o};
@@ -293,7 +305,7 @@ static uint64_t in_between(const struct radiosity *r, uint32_t element, struct v
         found |= shafts_hide(p, &at, to, some & ~found);
         last = to;
     }
-    return found;
+    return in_hulls(r, o, n, up_to, found);
 }
 
 // All of it with its colour, where nothing hides any.
@@ -389,7 +401,7 @@ struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer 
     struct looks *const l = state;
     if (sum <= 0)
         return open;
-    const uint64_t some = r->shafts ? in_between(r, element, o, up_to) : 0;
+    const uint64_t some = r->shafts ? in_between(r, element, o, n, up_to) : 0;
     if (r->shafts && !some)
         return all_open(r, up_to);
     l->aims.o = o;

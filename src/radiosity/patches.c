@@ -412,7 +412,9 @@ void patches_connect(struct patches *p)
 {
     free(p->neighbours);
     free(p->shaft);
+    free(p->hulls);
     p->shaft = NULL;
+    p->hulls = NULL;
     patches_neighbours(p);
     patches_shafts(p);
 }
@@ -561,6 +563,7 @@ void patches_free(struct patches *p)
     free(p->neighbours);
     free(p->anchor);
     free(p->shaft);
+    free(p->hulls);
     free(p->room);
     free(p);
 }

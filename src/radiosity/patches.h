@@ -43,6 +43,13 @@ struct anchor {
     struct vec3 o[2], n[2];
 };
 
+// The hulls that hold an object together. None: it has no end.
+enum { HULLS_MOST = 4 };
+struct shaft_hulls {
+    uint32_t count;
+    struct shaft_hull hull[HULLS_MOST];
+};
+
 struct patches {
     const struct job *job;
     struct patch_settings settings;
@@ -60,9 +67,10 @@ struct patches {
     uint32_t *room; // objects in which light can be
     uint32_t room_count;
     const struct sight_kernels *sight;
-    struct shaft *shaft;      // NULL: too many objects
-    struct shaft_boxes boxes; // of the objects, where there are shafts
-    double size;              // of cells
+    struct shaft *shaft;       // NULL: too many objects
+    struct shaft_boxes boxes;  // of the objects, where there are shafts
+    struct shaft_hulls *hulls; // of the objects, where there are shafts
+    double size;               // of cells
     struct vec3 around[12]; // corners of all objects, and where rays of the camera start
     uint32_t around_count;  // 0: not known
     struct enclosure enclosure;
@@ -141,6 +149,11 @@ struct shaft patches_shaft(const struct patches *p, const struct element *e,
 // Which of `some` objects (bits) may hide part of one from the other.
 uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
                      const struct shaft *b, uint64_t some);
+// Those of `some` that may hide what of a flat polygon rises above the horizon of a point.
+uint64_t hulls_hide(const struct patches *p, struct vec3 o, struct vec3 n,
+                    const struct element *polygon, uint64_t some);
+// Of a world's objects; the caller frees them.
+struct shaft_hulls *hulls_of(const struct world *w);
 // Whether the boxes and the hollows are the same.
 bool shaft_equals(const struct shaft *a, const struct shaft *b);
 // Whether a point lies in the box, up to rounding.

@@ -6,11 +6,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { CLIPPED_MAX = 5 };
-
-// The part of the polygon, relative to p, on the side of the normal.
-static uint32_t clip_horizon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
-                             uint32_t count, struct vec3 out[CLIPPED_MAX])
+uint32_t polygon_risen(struct vec3 p, struct vec3 n, const struct vec3 *corner,
+                       uint32_t count, struct vec3 out[HORIZON_CORNERS])
 {
     struct vec3 r[4];
     double height[4];
@@ -23,11 +20,11 @@ static uint32_t clip_horizon(struct vec3 p, struct vec3 n, const struct vec3 *co
         const uint32_t j = i + 1 == count ? 0 : i + 1;
         if (height[i] >= 0)
             out[used++] = r[i];
-        if ((height[i] < 0) == (height[j] < 0) || used == CLIPPED_MAX)
+        if ((height[i] < 0) == (height[j] < 0) || used == HORIZON_CORNERS)
             continue;
         const double t = height[i] / (height[i] - height[j]);
         out[used++] = vec3_mad(r[i], t, vec3_sub(r[j], r[i]));
-        if (used == CLIPPED_MAX)
+        if (used == HORIZON_CORNERS)
             break;
     }
     return used;
@@ -44,8 +41,8 @@ static double factor_of_sum(double sum)
 double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
                        uint32_t count)
 {
-    struct vec3 r[CLIPPED_MAX];
-    const uint32_t used = clip_horizon(p, n, corner, count, r);
+    struct vec3 r[HORIZON_CORNERS];
+    const uint32_t used = polygon_risen(p, n, corner, count, r);
     double sum = 0;
     for (uint32_t i = 0; i < used; i++) {
         const struct vec3 a = r[i], b = r[i + 1 == used ? 0 : i + 1];

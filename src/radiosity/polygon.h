@@ -2,6 +2,7 @@
 #define RADIOSITY_POLYGON_H
 
 #include "radiosity/enclosure.h"
+#include "radiosity/sight_kernel.h"
 
 // Form factor from a point with a normal to a polygon without anything between, from 0
 // to 1: Lambert's sum over the edges (Baum, Rushmeier, Winget 1989, eq. 6) after the
@@ -13,6 +14,11 @@ double lambert_polygon(struct vec3 p, struct vec3 n, const struct vec3 *corner,
 // the corners.
 double lambert_of_edges(struct vec3 p, struct vec3 n, const struct vec3 *corner,
                         uint32_t count, const double *term, const double *height);
+
+// The part of a polygon of up to four corners that lies above the horizon of p, relative
+// to it. Returns the number of its corners.
+uint32_t polygon_risen(struct vec3 p, struct vec3 n, const struct vec3 *corner,
+                       uint32_t count, struct vec3 out[HORIZON_CORNERS]);
 
 enum { GAUSS_MAX = 8 };
 // Nodes and weights of Gauss-Legendre quadrature on [0, 1], 1 <= k <= GAUSS_MAX.

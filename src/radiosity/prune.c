@@ -15,7 +15,8 @@ enum {
     ELEMENT_RAYS = 16, // of each element
     GROUP_RAYS = 4096, // of a group before it is given up, and as many tries to see
     GROUP_RAYS_LEAST = 32,
-    TRIES_LEAST = 1 << 16, // of all groups; and as many as elements have sent before
+    TRIES = 1 << 16, // of all groups, up to TRIES_EACH of each element of the scene;
+    TRIES_EACH = 64, // and as many as elements have sent before
     CHUNK = 1 << 16,
     ASKED_RAYS = 64 // of an element that are worth looking what it faces
 };
@@ -190,6 +191,28 @@ static void look_from(struct groups *g, uint32_t *list, uint32_t count, uint32_t
     free(g->met);
 }
 
+// The elements not reached so far that are to send as many rays. Returns how many.
+static uint32_t list_left(const struct groups *g, const uint32_t *rays, uint32_t least,
+                          uint32_t *list)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < g->p->element_count; i++)
+        if ((!rays || rays[i] >= least) && !is_reached(g, i))
+            list[count++] = i;
+    return count;
+}
+
+// ELEMENT_RAYS of each element until it is known to be reached: most need few.
+static void look_first(struct groups *g)
+{
+    uint32_t *list = malloc((g->p->element_count + 1) * sizeof *list);
+    if (!list)
+        abort();
+    for (uint32_t first = 0, rays = 2; first < ELEMENT_RAYS; first += rays, rays = first)
+        look_from(g, list, list_left(g, NULL, 0, list), first, rays);
+    free(list);
+}
+
 // ---- what is small or far ----------------------------------------------------------
 // The k-th place that element i tries to see: in turn the camera, a lamp, a reached
 // element. False: there is none.
@@ -220,9 +243,10 @@ static void try_to_see(void *user, void *state, uint32_t begin, uint32_t end)
     struct looker *l = state;
     for (uint32_t i = begin; i < end; i++) {
         g->seen[i] = 0;
-        for (uint32_t k = 0; k < g->rays && !g->seen[i];) {
+        const uint32_t last = g->first + g->rays;
+        for (uint32_t k = g->first; k < last && !g->seen[i];) {
             l->rays->count = 0;
-            for (; k < g->rays && l->rays->count < EYE_RAYS; k++) {
+            for (; k < last && l->rays->count < EYE_RAYS; k++) {
                 struct element_point from;
                 struct vec3 to;
                 double x[4];
@@ -284,19 +308,19 @@ static bool faces_reached(const struct groups *g, uint32_t i)
     return false;
 }
 
-// Sends as many rays of the elements in the list as they have not sent before.
+// Sends rays [first, end) of the elements in the list that have not sent them before.
 static void look_once(struct groups *g, const uint32_t *list, uint32_t count,
-                      uint32_t rays)
+                      uint32_t first, uint32_t end)
 {
     uint32_t *fresh = malloc((count + 1) * sizeof *fresh), n = 0;
     if (!fresh)
         abort();
     for (uint32_t k = 0; k < count; k++)
-        if (g->sent[list[k]] < rays) {
-            g->sent[list[k]] = rays;
+        if (g->sent[list[k]] < end) {
+            g->sent[list[k]] = end;
             fresh[n++] = list[k];
         }
-    look_from(g, fresh, n, ELEMENT_RAYS, rays);
+    look_from(g, fresh, n, ELEMENT_RAYS + first, end - first);
     free(fresh);
 }
 
@@ -305,7 +329,7 @@ static void look_once(struct groups *g, const uint32_t *list, uint32_t count,
 static bool look_again(struct groups *g)
 {
     const uint32_t n = g->p->element_count;
-    uint32_t count = 0, left = 0;
+    uint32_t left = 0;
     uint32_t *list = malloc((n + 1) * sizeof *list);
     uint32_t *rays = malloc((n + 1) * sizeof *rays);
     g->reached = malloc((n + 1) * sizeof *g->reached);
@@ -319,28 +343,25 @@ static bool look_again(struct groups *g)
         else
             left += group_of(g, i) == i;
     }
-    const uint32_t share =
-        (uint32_t)((TRIES_LEAST + (uint64_t)ELEMENT_RAYS * n) / (left + 1));
+    const uint64_t tries =
+        g->p->settings.trial ? 0 : (uint64_t)fmin(TRIES, (double)TRIES_EACH * n);
+    const uint32_t share = (uint32_t)((tries + (uint64_t)ELEMENT_RAYS * n) / (left + 1));
     const uint32_t each = share < GROUP_RAYS_LEAST ? GROUP_RAYS_LEAST
                           : share < GROUP_RAYS     ? share
                                                    : GROUP_RAYS;
-    // The smaller a group, the more each of its elements does; alike ones go together.
+    // The smaller a group, the more each of its elements does.
     for (uint32_t i = 0; i < n; i++) {
         rays[i] = is_reached(g, i) ? 0 : each / g->size[group_of(g, i)] + 1;
         if (rays[i] >= ASKED_RAYS && !faces_reached(g, i))
             rays[i] = 0;
     }
     const uint32_t before = g->size[group_of(g, g->root)];
-    for (uint32_t step = 1; step <= each + 1; step *= 4) {
-        count = 0;
-        for (uint32_t i = 0; i < n; i++)
-            if (rays[i] >= step && rays[i] < 4 * step)
-                list[count++] = i;
-        if (!count)
-            continue;
-        look_once(g, list, count, step);
+    for (uint32_t done = 0, step = 1; step <= each + 1; done = step, step *= 4) {
+        const uint32_t count = list_left(g, rays, step, list);
+        look_once(g, list, count, done, step);
         g->list = list;
-        g->rays = step;
+        g->first = done;
+        g->rays = step - done;
         run(g, count, try_to_see);
         for (uint32_t i = 0; i < count; i++)
             if (g->seen[i] && !watch_cancelled(g->p->settings.watch))
@@ -395,29 +416,27 @@ void patches_prune(struct patches *p)
     enum { ROUNDS = 8 };
     const uint32_t n = p->element_count;
     struct groups g = {.p = p, .root = n};
-    uint32_t *all = malloc((n + 1) * sizeof *all);
     g.parent = malloc((n + 1) * sizeof *g.parent);
     g.size = malloc((n + 1) * sizeof *g.size);
     g.sent = calloc(n + 1, sizeof *g.sent);
-    if (!all || !g.parent || !g.size || !g.sent)
+    if (!g.parent || !g.size || !g.sent)
         abort();
     for (uint32_t i = 0; i <= n; i++) {
-        all[i] = g.parent[i] = i;
+        g.parent[i] = i;
         g.size[i] = 1;
     }
     look_around(&g, p->job->camera->location);
     for (uint32_t i = 0; i < p->job->lamp_count && i < EYES_MOST; i++)
         look_around(&g, p->job->lamp[i].light->location);
     unite_neighbours(&g);
-    look_from(&g, all, n, 0, ELEMENT_RAYS);
-    const int rounds = p->settings.trial ? 0 : ROUNDS;
+    look_first(&g);
+    const int rounds = p->settings.trial ? 1 : ROUNDS;
     for (int round = 0; round < rounds && g.size[group_of(&g, n)] <= n && look_again(&g);
          round++)
         ;
     // A camera that sees nothing of the scene's elements tells nothing.
     if (g.size[group_of(&g, n)] > 1)
         keep_groups(&g);
-    free(all);
     free(g.parent);
     free(g.size);
     free(g.sent);

@@ -98,6 +98,7 @@ void patches_shafts(struct patches *p)
     if (p->job->world->object_count > SHAFT_OBJECTS)
         return;
     find_boxes(p);
+    p->hulls = hulls_of(p->job->world);
     p->shaft = calloc(p->element_count + 1, sizeof *p->shaft);
     if (!p->shaft)
         abort();

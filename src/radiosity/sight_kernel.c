@@ -64,6 +64,47 @@ static uint64_t between(const struct shaft_boxes *boxes, const struct shaft *a,
     return found & some;
 }
 
+// ---- hulls -------------------------------------------------------------------------
+#define ROWS(x) v8_load((const double(*)[8])(x))
+static const double touching =
+    1e-9; // of the coordinates: what only touches does not hide
+
+// Whether points lie on the far side of a plane through the origin, a and b, as seen from
+// `inner`.
+static bool beyond(const struct vec8 *p, struct vec3 a, struct vec3 b, struct vec3 inner,
+                   double pad)
+{
+    struct vec3 n = vec3_cross(a, b);
+    const double height = vec3_dot(n, inner);
+    if (height < 0)
+        n = vec3_neg(n);
+    const double slack = pad * vec3_max_abs(n);
+    return height != 0 && m8_bits(r8_le(v8_dot(*p, V8_SET(n)), r8_set(slack))) == 255;
+}
+
+static bool apart(const struct shaft_hull *h, const struct horizon_polygon *to)
+{
+    const struct vec8 n = ROWS(h->n), p = v8_sub(ROWS(h->p), V8_SET(to->o));
+    const double pad = touching * (vec3_max_abs(to->o) + vec3_max_abs(to->corner[0]));
+    const struct real8 top =
+        r8_sub(r8_sub(r8_load(h->top), v8_dot(n, V8_SET(to->o))), r8_set(pad)); // above o
+    unsigned over = m8_bits(r8_le(top, r8_set(0)));
+    struct vec3 all = {0, 0, 0};
+    if (m8_bits(r8_le(v8_dot(p, V8_SET(to->n)), r8_set(pad))) == 255)
+        return true;
+    for (uint32_t i = 0; i < to->count; i++) {
+        over &= m8_bits(r8_le(top, v8_dot(n, V8_SET(to->corner[i]))));
+        all = vec3_add(all, to->corner[i]);
+    }
+    if (over)
+        return true;
+    for (uint32_t i = 0; i < to->count; i++)
+        if (beyond(&p, to->corner[i], to->corner[i + 1 < to->count ? i + 1 : 0], all,
+                   pad))
+            return true;
+    return false;
+}
+
 // ---- polygons ----------------------------------------------------------------------
 static void edges(const struct polygon_edges *e, struct vec3 o, struct vec3 n,
                   double *term, double *height)
@@ -121,7 +162,6 @@ static void load(const struct flat_emitter *const of[8], struct flat8 *out)
     }
 }
 
-#define ROWS(x) v8_load((const double(*)[8])(x))
 static void aim(struct emitter_aims *x)
 {
     const struct vec8 o = V8_SET(x->o), n = V8_SET(x->n);
@@ -150,4 +190,5 @@ static void aim(struct emitter_aims *x)
     }
 }
 
-const struct sight_kernels OF_ISA(sight_kernels_) = {ISA_TEXT, between, edges, aim};
+const struct sight_kernels OF_ISA(sight_kernels_) = {ISA_TEXT, between, apart, edges,
+                                                     aim};

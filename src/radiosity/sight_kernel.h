@@ -20,6 +20,21 @@ struct shaft {
     uint64_t hollow;
 };
 
+// Points in whose hull an object lies, and up to as many planes above which (n . p > top)
+// there is nothing of it. Both repeat what they have.
+enum { HULL_CORNERS = 8 };
+struct shaft_hull {
+    double p[3][HULL_CORNERS], n[3][HULL_CORNERS], top[HULL_CORNERS];
+};
+
+// What of a flat polygon rises above the horizon of a point o with unit normal n: corners
+// relative to o.
+enum { HORIZON_CORNERS = 5 };
+struct horizon_polygon {
+    struct vec3 o, n, corner[HORIZON_CORNERS];
+    uint32_t count;
+};
+
 // The edges of polygons, one after the other, from a to b. The count is padded to eights.
 struct polygon_edges {
     double *a[3], *b[3];
@@ -50,6 +65,9 @@ struct sight_kernels {
     // Which of `some` objects may come between two boxes; the hollows are not asked.
     uint64_t (*between)(const struct shaft_boxes *boxes, const struct shaft *a,
                         const struct shaft *b, uint64_t some);
+    // Whether a plane is known that parts an object from all ways to a polygon: the
+    // horizon, one through an edge of the polygon, or a face of the object's hull.
+    bool (*apart)(const struct shaft_hull *h, const struct horizon_polygon *to);
     // Of each edge what it adds to the sum of lambert_polygon(), and how high a is above
     // the horizon of n.
     void (*edges)(const struct polygon_edges *e, struct vec3 o, struct vec3 n,

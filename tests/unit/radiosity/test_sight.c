@@ -179,6 +179,84 @@ static void nothing_comes_between(void **state)
     assert_true(hidden > ROUNDS / 4 && clear > ROUNDS);
 }
 
+// Whether the way from `to->o` to a point of its polygon, a mean of corners with weights
+// at random, passes a triangle of the hull's points well inside.
+static bool meets(const struct shaft_hull *h, const struct horizon_polygon *to)
+{
+    static const double inside = 1e-6;
+    struct vec3 c[3], d = {0, 0, 0};
+    double sum = 0;
+    for (uint32_t i = 0; i < to->count; i++) {
+        const double weight = any(0, 1);
+        d = vec3_mad(d, weight, to->corner[i]);
+        sum += weight;
+    }
+    d = vec3_scale(1 / sum, d);
+    for (int i = 0; i < 3; i++) {
+        const int k = (int)any(0, HULL_CORNERS);
+        c[i] = vec3_sub(vec3(h->p[0][k], h->p[1][k], h->p[2][k]), to->o);
+    }
+    // d = a c0 + b c1 + c c2 by Cramer's rule; met at 1 / (a + b + c) of the way.
+    const double det = vec3_dot(c[0], vec3_cross(c[1], c[2]));
+    const double x = vec3_dot(d, vec3_cross(c[1], c[2])) / det,
+                 y = vec3_dot(c[0], vec3_cross(d, c[2])) / det,
+                 z = vec3_dot(c[0], vec3_cross(c[1], d)) / det;
+    return fabs(det) > inside && x > inside && y > inside && z > inside &&
+           x + y + z > 1 + inside;
+}
+
+// The hulls of meshes of one triangle and two, of turned boxes, and of products, by the
+// scene; polygons above the horizon and across it.
+static void hulls_hold_objects(void **state)
+{
+    (void)state;
+    enum { WAYS = 20 };
+    struct scene_run s = scene_load(
+        HEAD "camera { location <0, 1, -5> look_at 0 }\n"
+             "mesh { triangle { <-.5, -1, 0>, <.7, -.3, .4>, <0, .8, .1> } M(.5, 0) }\n"
+             "mesh { triangle { <0, 0, 0>, <1, 0, 0>, <1, .1, 1> }\n"
+             " triangle { <0, 0, 0>, <1, .1, 1>, <0, 0, 1> } M(.5, 0) }\n"
+             "box { -.3, .3 rotate <30, 40, 50> translate .2 M(.5, 0) }\n"
+             "intersection { box { -.4, .4 rotate 20*x } sphere { 0, 5 } M(.5, 0) }\n"
+             "sphere { <.1, .2, .3>, .4 M(.5, 0) } plane { y, -3 M(.5, 0) }\n");
+    const struct sight_kernels *kernels[3];
+    const uint32_t isas = present(kernels), count = s.job->world->object_count;
+    struct shaft_hulls *hulls = hulls_of(s.job->world);
+    int parted[8] = {0}, met = 0;
+    assert_int_equal(count, 6);
+    for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(hulls[i].count, i == 1 ? 2 : i < 5);
+    for (int round = 0; round < ROUNDS; round++) {
+        struct horizon_polygon to = {.o = some_point(2)};
+        to.n = vec3_normalize(some_point(1));
+        struct vec3 corner[4];
+        const struct vec3 at = some_point(2), a = some_point(.5), b = some_point(.5);
+        for (int k = 0; k < 4; k++)
+            corner[k] = vec3_mad(vec3_mad(at, k == 1 || k == 2, a), k > 1, b);
+        to.count = polygon_risen(to.o, to.n, corner, 4, to.corner);
+        if (to.count < 3)
+            continue;
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t k = 0; k < hulls[i].count; k++) {
+                const struct shaft_hull *h = &hulls[i].hull[k];
+                const bool apart = kernels[0]->apart(h, &to);
+                for (uint32_t isa = 1; isa < isas; isa++)
+                    assert_true(kernels[isa]->apart(h, &to) == apart);
+                parted[i] += apart;
+                for (int w = 0; w < WAYS; w++) {
+                    const bool meet = meets(h, &to);
+                    assert_false(apart && meet);
+                    met += meet;
+                }
+            }
+    }
+    assert_true(met > ROUNDS / 10);
+    for (uint32_t i = 0; i + 1 < count; i++)
+        assert_true(parted[i] > ROUNDS / 4);
+    free(hulls);
+    scene_free(&s);
+}
+
 // By all objects: what trace_occluded finds; by one of them: what it finds of it alone.
 static void occluded_by_some(void **state)
 {
@@ -225,9 +303,8 @@ static void occluded_by_some(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_are_lambert_polygon),
-        cmocka_unit_test(aims_are_points),
-        cmocka_unit_test(nothing_comes_between),
+        cmocka_unit_test(edges_are_lambert_polygon), cmocka_unit_test(aims_are_points),
+        cmocka_unit_test(nothing_comes_between),     cmocka_unit_test(hulls_hold_objects),
         cmocka_unit_test(occluded_by_some),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
