@@ -9,6 +9,7 @@
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/disc.h"
+#include "scene/shapes/mesh.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
@@ -204,6 +205,62 @@ LANES_INLINE void place_triangle(const struct triangle *s, const struct place_ra
     x->ns = v8_select(r8_lt(r8_set(0), v8_dot(n, n)), v8_normalize(n), x->ns);
 }
 
+LANES_INLINE void place_lane(double to[3][8], int lane, struct vec3 v)
+{
+    to[0][lane] = v.x;
+    to[1][lane] = v.y;
+    to[2][lane] = v.z;
+}
+
+// The face that a lane met; what met another leaf counts as face 0.
+LANES_INLINE uint32_t place_face(const struct mesh *m, const struct place_rays *r, int i)
+{
+    const double part = r->hit->part[r->ray[i]];
+    return part >= 0 && part < m->face_count ? (uint32_t)part : 0;
+}
+
+// Shading normals of the faces that have some.
+static void place_mesh_smooth(const struct mesh *m, const struct place_rays *r,
+                              struct place8 *x)
+{
+    double n[3][3][8] = {{{0}}}, at[2][8];
+    for (int i = 0; i < 8; i++) {
+        const uint32_t *normal = m->face_normal[place_face(m, r, i)];
+        at[0][i] = r->hit->u[r->ray[i]];
+        at[1][i] = r->hit->v[r->ray[i]];
+        for (int c = 0; c < 3 && normal[0] != UINT32_MAX; c++)
+            place_lane(n[c], i, m->normal[normal[c]]);
+    }
+    const struct real8 u = r8_load(at[0]), v = r8_load(at[1]);
+    const struct real8 w[3] = {r8_sub(r8_sub(r8_set(1), u), v), u, v};
+    struct vec8 sum = V8_SET(vec3(0, 0, 0));
+    for (int c = 0; c < 3; c++)
+        sum = v8_mad(sum, w[c], v8_load((const double(*)[8])n[c]));
+    x->ns = v8_select(r8_lt(r8_set(0), v8_dot(sum, sum)), v8_normalize(sum), x->ns);
+}
+
+// Sets the shading normal as well. Returns whether that is another one.
+static bool place_mesh(const struct mesh *m, const struct place_rays *r, struct place8 *x)
+{
+    double q[3][3][8];
+    for (int i = 0; i < 8; i++) {
+        struct vec3 p[3];
+        mesh_corners(m, place_face(m, r, i), p);
+        for (int c = 0; c < 3; c++)
+            place_lane(q[c], i, p[c]);
+    }
+    const struct vec8 o = v8_load((const double(*)[8])q[0]);
+    const struct vec8 a = v8_sub(v8_load((const double(*)[8])q[2]), o),
+                      b = v8_sub(v8_load((const double(*)[8])q[1]), o);
+    x->ng = x->ns =
+        v8_normalize((struct vec8){r8_sub(r8_mul(a.y, b.z), r8_mul(a.z, b.y)),
+                                   r8_sub(r8_mul(a.z, b.x), r8_mul(a.x, b.z)),
+                                   r8_sub(r8_mul(a.x, b.y), r8_mul(a.y, b.x))});
+    if (m->face_normal)
+        place_mesh_smooth(m, r, x);
+    return m->face_normal != NULL;
+}
+
 // In the space of the shape; false: it has no lanes. *smooth: ns is not ng.
 LANES_INLINE bool place_shape(const struct leaf *l, const struct place_rays *r,
                               struct place8 *x, bool *smooth)
@@ -231,6 +288,8 @@ LANES_INLINE bool place_shape(const struct leaf *l, const struct place_rays *r,
     } else if (ops == &triangle_ops || ops == &smooth_triangle_ops) {
         place_triangle(shape, r, x);
         *smooth = ((const struct triangle *)shape)->smooth;
+    } else if (ops == &mesh_ops || ops == &mesh2_ops) {
+        *smooth = place_mesh(shape, r, x);
     } else {
         return false;
     }
