@@ -55,7 +55,9 @@ static void jobs_init(struct irradiance_cache *c, const struct world *w,
     s.indirect.end = NULL;
     s.output_alpha = false;
     s.purpose = RENDER_SCOUT;
+    s.indirect.settled = gather_settled;
     job_init(&c->scout, c->arena, w, &s);
+    s.indirect.settled = NULL;
     s.purpose = RENDER_GATHER;
     job_init(&c->gather, c->arena, w, &s);
     s.indirect.data = NULL;

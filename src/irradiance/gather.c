@@ -373,23 +373,33 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
     return shown(c->settings, &mean);
 }
 
-unsigned gather_known(const void *cache, void *state, const struct indirect_eight *q,
-                      struct rgb out[8])
+// What the samples of all squares say of eight points.
+static void means_at(const struct irradiance_cache *c, struct gather_level *l,
+                     const struct indirect_eight *q, double enough_of,
+                     struct cache_means *mean)
 {
-    const struct irradiance_cache *c = cache;
-    const struct gather_level *l = state;
-    const double least = enough(l->owner, l->depth);
-    struct cache_points at = {
-        .lanes = q->lanes, .depth = l->depth, .smooth = l->owner->final && l->depth == 0};
-    struct cache_means mean = {0};
-    unsigned known = 0;
-    if (l->owner->fresh || !c->store.count)
-        return 0;
+    struct cache_points at = {.lanes = q->lanes,
+                              .depth = l->depth,
+                              .smooth = l->owner->final && l->depth == 0,
+                              .enough = enough_of};
     memcpy(at.p, q->p, sizeof at.p);
     memcpy(at.n, q->n, sizeof at.n);
     for (int i = 0; i < 8; i++)
         at.error_bound[i] = error_bound(l->owner, l->depth, q->weight[i]);
-    store_means(&c->store, &at, &mean);
+    store_means(&c->store, &at, &l->asked, mean);
+}
+
+unsigned gather_known(const void *cache, void *state, const struct indirect_eight *q,
+                      struct rgb out[8])
+{
+    const struct irradiance_cache *c = cache;
+    struct gather_level *l = state;
+    const double least = enough(l->owner, l->depth);
+    struct cache_means mean = {0};
+    unsigned known = 0;
+    if (l->owner->fresh || !c->store.count)
+        return 0;
+    means_at(c, l, q, INFINITY, &mean);
     for (unsigned lanes = q->lanes; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
         if (mean.weight[i] < least)
@@ -400,4 +410,21 @@ unsigned gather_known(const void *cache, void *state, const struct indirect_eigh
         known |= 1u << i;
     }
     return known;
+}
+
+unsigned gather_settled(const void *cache, void *state, const struct indirect_eight *q)
+{
+    const struct irradiance_cache *c = cache;
+    struct gather_level *l = state;
+    const double least = enough(l->owner, l->depth);
+    struct cache_means mean = {0};
+    unsigned settled = 0;
+    // A second number of nearest_count wants all weights.
+    if (!c->store.count || c->settings->nearest_adaptive > 0)
+        return 0;
+    means_at(c, l, q, least, &mean);
+    for (unsigned lanes = q->lanes; lanes; lanes &= lanes - 1)
+        if (mean.weight[__builtin_ctz(lanes)] >= least)
+            settled |= lanes & -lanes;
+    return settled;
 }

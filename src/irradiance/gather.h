@@ -66,6 +66,8 @@ void *gather_begin(const void *cache);
 void gather_end(void *state);
 unsigned gather_known(const void *cache, void *state, const struct indirect_eight *q,
                       struct rgb out[8]);
+// The same before the picture, of the camera's hits.
+unsigned gather_settled(const void *cache, void *state, const struct indirect_eight *q);
 struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                              const struct indirect_query *q);
 

@@ -165,12 +165,13 @@ static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
 
 // Far from the origin, places of small cells leave the range of integers: such cells all
 // lie at its end, which costs time only.
+enum { LAST_PLACE = 2000000000 };
+
 static int32_t place_of(double x, double cells_per_unit)
 {
-    static const double most = 2e9;
     const double p = x * cells_per_unit;
-    if (!(fabs(p) < most))
-        return p < 0 ? (int32_t)-most : (int32_t)most;
+    if (!(fabs(p) < LAST_PLACE))
+        return p < 0 ? -LAST_PLACE : LAST_PLACE;
     const int32_t towards_nought = (int32_t)p;
     return towards_nought - (p < towards_nought);
 }
@@ -178,8 +179,7 @@ static int32_t place_of(double x, double cells_per_unit)
 // The place of the same point in cells of twice the size.
 static int32_t place_doubled(int32_t place, double x, double cells_per_unit)
 {
-    static const int32_t most = 2000000000; // as place_of
-    if (place == most || place == -most)
+    if (abs(place) == LAST_PLACE)
         return place_of(x, cells_per_unit);
     return place < 0 ? -1 - (-1 - place) / 2 : place / 2;
 }
@@ -300,8 +300,8 @@ void store_mean(const struct store *s, const struct cache_point *at,
     }
 }
 
-// One of eight points.
-static void mean_alone(const struct store *s, const struct cache_cell *c,
+// One of eight points; false: that is enough.
+static bool mean_alone(const struct store *s, const struct cache_cell *c,
                        const struct cache_points *at, int i, struct cache_means *mean)
 {
     const struct cache_point point = {vec3(at->p[0][i], at->p[1][i], at->p[2][i]),
@@ -309,13 +309,15 @@ static void mean_alone(const struct store *s, const struct cache_cell *c,
                                       at->error_bound[i],
                                       at->depth,
                                       at->smooth,
-                                      INFINITY};
+                                      at->enough};
     struct cache_mean m = {mean->weight[i],
                            {mean->light[0][i], mean->light[1][i], mean->light[2][i]}};
-    s->kernels->mean(s->sample, s->filed + c->first, c->count, &point, &m);
+    const bool more =
+        s->kernels->mean(s->sample, s->filed + c->first, c->count, &point, &m);
     mean->weight[i] = m.weight;
     for (int k = 0; k < 3; k++)
         mean->light[k][i] = m.light[k];
+    return more;
 }
 
 // The lanes among `left` whose points are in the cell of lane i.
@@ -330,34 +332,77 @@ static unsigned lanes_in(int32_t (*place)[3], unsigned left, int i)
     return same;
 }
 
-void store_means(const struct store *s, const struct cache_points *at,
-                 struct cache_means *mean)
+// The places of the lanes in cells of the given size, or of twice the size they have.
+static void places_of(const struct cache_points *at, unsigned lanes, double scale,
+                      bool doubled, int32_t place[8][3])
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        for (int k = 0; k < 3; k++)
+            place[i][k] = doubled ? place_doubled(place[i][k], at->p[k][i], scale)
+                                  : place_of(at->p[k][i], scale);
+    }
+}
+
+static bool is_within(const int32_t place[3])
+{
+    return abs(place[0]) < LAST_PLACE && abs(place[1]) < LAST_PLACE &&
+           abs(place[2]) < LAST_PLACE;
+}
+
+static const struct cache_cell *
+cell_asked(const struct store *s, const struct cache_cell *key, struct store_memo *memo)
+{
+    const struct cache_cell *c = memo ? cell_remembered(key, memo) : NULL;
+    if (!c) {
+        c = cell_slot(s, key);
+        if (memo)
+            cell_remember(memo, key, c);
+    }
+    return c;
+}
+
+// What the lanes hear in the cell; returns those that have not enough.
+static unsigned means_in(const struct store *s, const struct cache_cell *c,
+                         const struct cache_points *at, unsigned lanes,
+                         struct cache_means *mean)
 {
     enum { FEW = 2 }; // points that are better off alone
-    double scale = ldexp(1, -s->size_low[at->depth]);
-    for (int size = s->size_low[at->depth]; size <= s->size_high[at->depth];
-         size++, scale /= 2) {
-        int32_t place[8][3];
-        for (int i = 0; i < 8; i++)
-            for (int k = 0; k < 3; k++)
-                place[i][k] = place_of(at->p[k][i], scale);
-        for (unsigned left = at->lanes, same; left; left &= ~same) {
-            const int i = __builtin_ctz(left);
-            same = lanes_in(place, left, i);
+    unsigned more = lanes;
+    if (!c->count)
+        return lanes;
+    if (__builtin_popcount(lanes) > FEW)
+        return s->kernels->means(s->sample, s->filed + c->first, c->count, at, lanes,
+                                 mean);
+    for (; lanes; lanes &= lanes - 1)
+        if (!mean_alone(s, c, at, __builtin_ctz(lanes), mean))
+            more &= ~(lanes & -lanes);
+    return more;
+}
+
+void store_means(const struct store *s, const struct cache_points *at,
+                 struct store_memo *memo, struct cache_means *mean)
+{
+    const int low = s->size_low[at->depth], high = s->size_high[at->depth];
+    double scale = ldexp(1, -low);
+    int32_t place[8][3];
+    unsigned lanes = at->lanes;
+    unsigned guide =
+        0; // the lane that stands for all, which are in one cell, and so in larger ones
+    if (memo)
+        memo_update(s, memo);
+    for (int size = low; lanes && size <= high; size++, scale /= 2) {
+        places_of(at, guide ? guide : lanes, scale, size > low, place);
+        for (unsigned left = lanes, same; left; left &= ~same) {
+            const int i = __builtin_ctz(guide ? guide : left);
+            same = guide ? left : lanes_in(place, left, i);
+            if (same == lanes && is_within(place[i]))
+                guide = 1u << i;
             const struct cache_cell key = {
                 .place = {place[i][0], place[i][1], place[i][2]},
                 .size = (int16_t)size,
                 .depth = (uint16_t)at->depth};
-            const struct cache_cell *c = cell_slot(s, &key);
-            if (!c->count)
-                continue;
-            if (__builtin_popcount(same) > FEW) {
-                s->kernels->means(s->sample, s->filed + c->first, c->count, at, same,
-                                  mean);
-                continue;
-            }
-            for (unsigned k = same; k; k &= k - 1)
-                mean_alone(s, c, at, __builtin_ctz(k), mean);
+            lanes &= ~same | means_in(s, cell_asked(s, &key, memo), at, same, mean);
         }
     }
 }

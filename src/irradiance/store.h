@@ -86,12 +86,13 @@ struct cache_points {
     unsigned lanes;
     uint32_t depth;
     bool smooth;
+    double enough; // of each, as in struct cache_point
 };
 struct cache_means {
     double weight[8], light[3][8];
 };
 void store_means(const struct store *s, const struct cache_points *at,
-                 struct cache_means *mean);
+                 struct store_memo *memo, struct cache_means *mean);
 // Weight of one sample; 0: it says nothing here. This is the rule that the kernels follow.
 double cache_weight(const struct cache_sample *s, const struct cache_point *at);
 

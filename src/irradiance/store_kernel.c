@@ -160,17 +160,17 @@ LANES_INLINE void set_row(const double *row, struct real8 r[4])
         r[i] = r8_set(row[i]);
 }
 
-static void means_of(const struct cache_sample *sample, const uint32_t *filed,
-                     uint32_t count, const struct cache_points *at, unsigned lanes,
-                     struct cache_means *mean)
+static unsigned means_of(const struct cache_sample *sample, const uint32_t *filed,
+                         uint32_t count, const struct cache_points *at, unsigned lanes,
+                         struct cache_means *mean)
 {
     const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
     const struct asked a = {v8_load(at->p), v8_load(at->n), bound, r8_mul(bound, bound),
                             at->smooth};
-    const struct mask8 wanted = m8_of(lanes);
+    const bool ends = at->enough < INFINITY;
     struct real8 weight = r8_load(mean->weight);
     struct vec8 light = v8_load((const double(*)[8])mean->light);
-    for (uint32_t i = count; i-- > 0;) {
+    for (uint32_t i = count; lanes && i-- > 0;) {
         const struct cache_sample *x = &sample[filed[i]];
         struct real8 r[4], q[4], s[4];
         set_row(x->row, r);
@@ -179,18 +179,21 @@ static void means_of(const struct cache_sample *sample, const uint32_t *filed,
         set_row(x->row + 4, q);
         set_row(x->row + 8, s);
         const struct real8 w = weights(&a, r, q, s);
-        const struct mask8 on = m8_and(wanted, r8_lt(nought, w));
+        const struct mask8 on = m8_and(m8_of(lanes), r8_lt(nought, w));
         const struct real8 c[3] = {r8_set((double)x->light.r), r8_set((double)x->light.g),
                                    r8_set((double)x->light.b)};
         weight = r8_select(on, r8_add(weight, w), weight);
         light.x = r8_select(on, r8_add(light.x, r8_mul(w, c[0])), light.x);
         light.y = r8_select(on, r8_add(light.y, r8_mul(w, c[1])), light.y);
         light.z = r8_select(on, r8_add(light.z, r8_mul(w, c[2])), light.z);
+        if (ends)
+            lanes &= m8_bits(r8_lt(weight, r8_set(at->enough)));
     }
     r8_store(mean->weight, weight);
     r8_store(mean->light[0], light.x);
     r8_store(mean->light[1], light.y);
     r8_store(mean->light[2], light.z);
+    return lanes;
 }
 
 const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, mean_of, means_of};

@@ -13,10 +13,10 @@ struct store_kernels {
     // Adds what `count` samples say, the last of `filed` first; false: that is enough.
     bool (*mean)(const struct cache_sample *sample, const uint32_t *filed, uint32_t count,
                  const struct cache_point *at, struct cache_mean *mean);
-    // The same for those of eight points that are `lanes`; nothing is ever enough.
-    void (*means)(const struct cache_sample *sample, const uint32_t *filed,
-                  uint32_t count, const struct cache_points *at, unsigned lanes,
-                  struct cache_means *mean);
+    // The same for those of eight points that are `lanes`; returns those that have not enough.
+    unsigned (*means)(const struct cache_sample *sample, const uint32_t *filed,
+                      uint32_t count, const struct cache_points *at, unsigned lanes,
+                      struct cache_means *mean);
 };
 
 extern const struct store_kernels store_kernels_base, store_kernels_avx2,

@@ -44,6 +44,9 @@ struct indirect {
     // answered. May be NULL.
     unsigned (*known)(const void *data, void *state, const struct indirect_eight *q,
                       struct rgb out[8]);
+    // Of hits whose light nobody looks at: those that would be answered without a ray. NULL: the
+    // light is wanted.
+    unsigned (*settled)(const void *data, void *state, const struct indirect_eight *q);
     float least;        // of a layer's matt share that is worth asking
     bool layer_normals; // ask with the normal of the first layer, not the surface's
     bool both_sides;    // ask for light from behind as well, where finishes use it

@@ -32,17 +32,13 @@ void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct ve
                        rgb_mul(matt, light)));
 }
 
-// Asks for the light of `lanes` that is known, with the normals n; returns those for which it
-// is.
-static unsigned known_light(struct tracer *t, const struct simple_group *g,
-                            unsigned lanes, const double n[3][8], bool back,
-                            struct rgb light[8])
+// What the lanes of a group ask, with the normals n.
+static struct indirect_eight question(const struct tracer *t,
+                                      const struct simple_group *g, unsigned lanes,
+                                      const double n[3][8], bool back)
 {
-    const struct indirect *indirect = &t->job->settings.indirect;
     const struct wavefront *w = &t->wave;
     struct indirect_eight q = {.lanes = lanes};
-    if (!lanes)
-        return 0;
     for (int i = 0; i < 8; i++) {
         q.weight[i] = w->path ? w->path[w->order[g->slot[i]]].weight : 1;
         for (int k = 0; k < 3; k++) {
@@ -50,7 +46,27 @@ static unsigned known_light(struct tracer *t, const struct simple_group *g,
             q.n[k][i] = back ? -n[k][i] : n[k][i];
         }
     }
+    return q;
+}
+
+// Asks for the light of `lanes` that is known; returns those for which it is.
+static unsigned known_light(struct tracer *t, const struct simple_group *g,
+                            unsigned lanes, const double n[3][8], bool back,
+                            struct rgb light[8])
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    if (!lanes)
+        return 0;
+    const struct indirect_eight q = question(t, g, lanes, n, back);
     return indirect->known(indirect->data, t->indirect, &q, light);
+}
+
+unsigned indirect_settled(struct tracer *t, const struct simple_group *g)
+{
+    const struct indirect *indirect = &t->job->settings.indirect;
+    const struct indirect_eight q =
+        question(t, g, g->live, (const double(*)[8])g->n, false);
+    return indirect->settled(indirect->data, t->indirect, &q);
 }
 
 unsigned indirect_known(struct tracer *t, const struct simple_group *g,

@@ -31,6 +31,8 @@ void indirect_side_light(struct tracer *t, const struct simple_group *g,
 // where it is known and queries ask with that normal; returns those lanes.
 unsigned indirect_known(struct tracer *t, const struct simple_group *g,
                         struct rgb light[8]);
+// The hits whose light nobody looks at that ask with that normal and would be answered without a ray.
+unsigned indirect_settled(struct tracer *t, const struct simple_group *g);
 // Adds the light of one hit, that of ray k of the batch; n: of the layer, NULL: the surface's own.
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back);

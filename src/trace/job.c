@@ -11,6 +11,7 @@
 #include "trace/media.h"
 #include "trace/packet.h"
 #include "trace/paint.h"
+#include "trace/scout.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
 #include "trace/subsurface.h"
@@ -191,5 +192,6 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     sky_compile(job, a);
     pass_init(job, a);
     simple_compile(job, a);
+    scout_compile(job, a);
     paint_compile(job, a);
 }

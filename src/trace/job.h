@@ -83,6 +83,7 @@ struct job {
     bool general;       // for tests: no hit is shaded in lanes
     bool quick_camera;  // its rays are made eight at a time
     bool asks_in_order; // light by way of others, in the order of the rays
+    const bool *quiet;  // per surface (trace/scout.h); NULL: none is
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;
     uint32_t simple_class_count;

@@ -429,8 +429,10 @@ void paint_shade(struct tracer *t)
             uint16_t ray[8];
             uint32_t count = 0;
             for (; count < 8 && k != END; k = s->link[k])
-                ray[count++] = k;
-            brush_paint(&b, ray, count);
+                if (!(t->settled && t->settled[k]))
+                    ray[count++] = k;
+            if (count)
+                brush_paint(&b, ray, count);
         }
         brush_flush(&b);
     }

@@ -39,6 +39,8 @@ struct tracer *tracer_new(const struct job *job)
     area_init(t);
     simple_init(t);
     paint_init(t);
+    if (job->quiet)
+        t->settled = must_calloc(BATCH_SIZE, sizeof *t->settled);
     if (job->settings.indirect.begin)
         t->indirect = job->settings.indirect.begin(job->settings.indirect.data);
     media_init(t);
@@ -72,6 +74,7 @@ void tracer_free(struct tracer *t)
     media_end(t);
     photon_near_free(t->near_photons);
     free(t->eye_inside);
+    free(t->settled);
     paint_end(t);
     hit_batch_free(t->hit);
     hit_batch_free(t->wall_hit);

@@ -177,6 +177,7 @@ struct tracer {
     struct wave_frame *frame;
     struct path_queue camera_queue;
     struct inside_pushed last_push;
+    bool *settled;           // by ray of the batch (trace/scout.h); NULL: none ever is
     void *indirect;          // what light by way of others keeps for this tracer
     struct first_hit *first; // by sample, of rays of level first_level; NULL: not wanted
     uint16_t first_level;

@@ -8,6 +8,7 @@
 #include "trace/area.h"
 #include "trace/coincident.h"
 #include "trace/paint.h"
+#include "trace/scout.h"
 #include "trace/shade_kernel.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
@@ -181,6 +182,39 @@ static unsigned fine_key(const struct path *p)
     return ray_key(p) * PARTS + spread[(int)(x * scale)] + 2u * spread[(int)(y * scale)];
 }
 
+// Where each of the rays stands that have these keys, below PATH_KEYS; equal ones keep their order.
+static void places_by_key(const uint16_t *key, uint32_t count, uint16_t *place)
+{
+    uint16_t begin[PATH_KEYS + 1] = {0};
+    for (uint32_t i = 0; i < count; i++)
+        begin[key[i] + 1]++;
+    for (unsigned i = 1; i < PATH_KEYS; i++)
+        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
+    for (uint32_t i = 0; i < count; i++)
+        place[i] = begin[key[i]]++;
+}
+
+// The same of keys below FINE_KEYS, by their lower digit and then by the upper: a sample may have
+// few rays.
+static void places_by_digits(const uint16_t *key, uint32_t count, uint16_t *place)
+{
+    enum { DIGIT = 32 };
+    _Static_assert(FINE_KEYS <= DIGIT * DIGIT, "two digits");
+    uint16_t low[DIGIT + 1] = {0}, high[DIGIT + 1] = {0}, order[BATCH_SIZE];
+    for (uint32_t i = 0; i < count; i++) {
+        low[key[i] % DIGIT + 1]++;
+        high[key[i] / DIGIT + 1]++;
+    }
+    for (int i = 1; i < DIGIT; i++) {
+        low[i] = (uint16_t)(low[i] + low[i - 1]);
+        high[i] = (uint16_t)(high[i] + high[i - 1]);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        order[low[key[i] % DIGIT]++] = (uint16_t)i;
+    for (uint32_t i = 0; i < count; i++)
+        place[order[i]] = high[key[order[i]] / DIGIT]++;
+}
+
 // Where each ray of the wave stands in the batch.
 static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
 {
@@ -189,19 +223,15 @@ static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
     // Elsewhere the order of hits counts, or rays come together.
     const bool fine =
         job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
-    const unsigned keys = fine ? FINE_KEYS : PATH_KEYS;
-    uint16_t begin[FINE_KEYS + 1];
     uint16_t key[BATCH_SIZE];
-    memset(begin, 0, (keys + 1) * sizeof *begin);
     for (uint32_t i = 0; i < w->count; i++) {
         const struct path *p = &w->path[w->order[i]];
         key[i] = (uint16_t)(fine ? fine_key(p) : p->key ? p->key : ray_key(p));
-        begin[key[i] + 1]++;
     }
-    for (unsigned i = 1; i < keys; i++)
-        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
-    for (uint32_t i = 0; i < w->count; i++)
-        place[i] = begin[key[i]]++;
+    if (fine)
+        places_by_digits(key, w->count, place);
+    else
+        places_by_key(key, w->count, place);
 }
 
 static void wave_put(struct tracer *t)
@@ -340,7 +370,7 @@ static void first_keep(struct tracer *t)
 static void shade_alone(struct tracer *t, uint32_t k, uint32_t end)
 {
     for (; k < end; k++) {
-        if (paint_take(t, k))
+        if (paint_take(t, k) || (t->settled && t->settled[k]))
             continue;
         t->slot = t->wave.slot[k];
         const struct path p = wave_path(t, t->slot);
@@ -381,6 +411,8 @@ static void wave_trace(struct tracer *t)
         first_keep(t);
     if (t->job->has_air)
         air_wave(t);
+    if (t->settled)
+        scout_settle(t);
     for (uint32_t k = 0, end; k < w->count; k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
