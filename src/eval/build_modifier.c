@@ -1,6 +1,10 @@
 #include "eval/build.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "scene/shapes/box.h"
+#include "scene/shapes/height_field.h"
 
 // Object modifiers (spec/language 4.5, spec/shapes 2).
 
@@ -86,6 +90,37 @@ struct pointer_list build_object_list(struct args *a)
     return l;
 }
 
+// The box from the bottom of a height field, y = 0 or the water level, to its top: the solid
+// itself, which reaches down to minus infinity, would clip nothing below. NULL: any other
+// object.
+static const struct object *field_box(struct args *a, const struct object *o)
+{
+    if (o->ops != &height_field_ops || o->flags & OBJECT_INVERSE)
+        return NULL;
+    const struct height_field *f = o->shape;
+    const struct aabb bounds = shape_surface_bounds(o->ops, o->shape);
+    struct box *box = arena_new_struct(a->b->arena, struct box);
+    *box = (struct box){bounds.min, bounds.max};
+    if (!f->under_water)
+        box->min.y = fmin(0, box->min.y);
+    struct object *x = object_new_shape(a->b->arena, &box_ops, box, o->where);
+    object_transform(a->b->arena, x, o->transform);
+    return x;
+}
+
+// Height fields that clip are followed by their boxes.
+static struct pointer_list with_boxes(struct args *a, struct pointer_list l)
+{
+    struct pointer_list all = {.count = 0};
+    for (uint32_t i = 0; i < l.count; i++) {
+        const struct object *box = field_box(a, l.at[i]);
+        pointer_list_add(a->b->arena, &all, l.at[i]);
+        if (box)
+            pointer_list_add(a->b->arena, &all, box);
+    }
+    return all;
+}
+
 static void clip_or_bound(struct args *a, struct object *o, bool clip)
 {
     const struct object *const **list = clip ? &o->clip : &o->bound;
@@ -107,6 +142,8 @@ static void clip_or_bound(struct args *a, struct object *o, bool clip)
             args_error(&in, args_span(&in), "an object is expected");
         return;
     }
+    if (clip)
+        more = with_boxes(a, more);
     const struct object **all =
         arena_new_array(a->b->arena, const struct object *, *count + more.count);
     for (uint32_t i = 0; i < *count; i++)

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "scene/shape.h"
+#include "trace/coplanar.h"
 #include "trace/packet.h"
 
 static bool is_flat(const struct world *w, const struct world_object *o)
@@ -30,10 +31,8 @@ static struct others others_near(const struct world *w, struct aabb box)
     return x;
 }
 
-void coincident_mark(struct world *w)
+static void mark_clear(struct world *w)
 {
-    if (!w->has_transparent)
-        return;
     for (uint32_t i = 0; i < w->object_count; i++)
         w->object[i].flat = is_flat(w, &w->object[i]);
     for (uint32_t i = 0; i < w->object_count; i++) {
@@ -44,9 +43,23 @@ void coincident_mark(struct world *w)
     }
 }
 
-static bool is_opaque(const struct world *w, uint32_t leaf)
+static void mark_opaque(struct world *w)
 {
-    return w->surface[w->leaf[leaf].surface].opaque;
+    if (!coplanar_mark(w))
+        return;
+    for (uint32_t i = 0; i < w->leaf_count; i++)
+        if (w->leaf[i].coplanar) {
+            struct world_object *o = &w->object[w->leaf[i].object];
+            o->flat = o->may_coincide = true;
+        }
+    w->has_coincident = true;
+}
+
+void coincident_mark(struct world *w)
+{
+    if (w->has_transparent)
+        mark_clear(w);
+    mark_opaque(w);
 }
 
 static struct aabb box_around(struct vec3 p, double reach)
@@ -55,15 +68,45 @@ static struct aabb box_around(struct vec3 p, double reach)
     return (struct aabb){vec3_sub(p, r), vec3_add(p, r)};
 }
 
+// Whether a face is seen instead of the leaf that was hit: a clear or a coplanar one.
+static bool takes(const struct world *w, const struct boundary *b, uint32_t leaf,
+                  double t, double dt)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    if (w->surface[l->surface].opaque)
+        return w->leaf[b->leaf].coplanar && w->leaf[b->leaf].object < l->object;
+    return fabs(b->t - t) <= b->dt + dt;
+}
+
+// Puts the face that is to be seen in place of hit i, between q's ends.
+static void look_for(const struct world *w, struct trace_scratch *s,
+                     const struct ray_query *q, double reach, uint32_t i,
+                     const struct hit_batch *hit)
+{
+    const double t = hit->t[i], dt = hit->dt[i];
+    const uint32_t own = w->leaf[hit->leaf[i]].object;
+    const struct others x = others_near(w, box_around(ray_at(&q->ray, t), reach));
+    for (uint32_t k = 0; k < x.count; k++) {
+        struct search f = search_of(w, s, q, SWEEP_CLOSEST);
+        if (x.object[k] != own && search_try_object(&f, x.object[k]) &&
+            takes(w, &f.b, hit->leaf[i], t, dt))
+            hit_batch_put(hit, i, &f.b);
+    }
+}
+
 void coincident_hits(const struct world *w, struct trace_scratch *s,
                      const struct ray_batch *rays, const struct hit_batch *hit)
 {
-    // Errors of the opaque face's distance that are looked for, in those of the clear one's.
-    static const double wide = 8;
+    // Errors of the hit's distance within which another face is looked for. Of opaque faces,
+    // which lie in one plane, it also covers the rounding of the ray's way into their spaces.
+    static const double wide = 32;
     for (uint32_t i = 0; i < rays->count; i++) {
         const double t = hit->t[i], dt = hit->dt[i];
-        if (!(t < INFINITY) || !w->object[w->leaf[hit->leaf[i]].object].may_coincide ||
-            is_opaque(w, hit->leaf[i]))
+        if (!(t < INFINITY))
+            continue;
+        const struct leaf *l = &w->leaf[hit->leaf[i]];
+        if (!w->object[l->object].may_coincide ||
+            (!l->coplanar && w->surface[l->surface].opaque))
             continue;
         const struct ray_query q = {
             .ray = {.o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
@@ -71,12 +114,6 @@ void coincident_hits(const struct world *w, struct trace_scratch *s,
                     .t_min = fmax(rays->t_min[i], t - wide * dt),
                     .t_max = fmin(rays->t_max[i], t + wide * dt)},
             .hidden_by = rays->hidden_by[i]};
-        const struct others x = others_near(
-            w, box_around(ray_at(&q.ray, t), wide * dt * vec3_max_abs(q.ray.d)));
-        struct search f = search_of(w, s, &q, SWEEP_CLOSEST);
-        for (uint32_t k = 0; k < x.count; k++)
-            search_try_object(&f, x.object[k]);
-        if (f.object != UINT32_MAX && fabs(f.t - t) <= f.b.dt + dt)
-            hit_batch_put(hit, i, &f.b);
+        look_for(w, s, &q, wide * dt * vec3_max_abs(q.ray.d), i, hit);
     }
 }

@@ -1,17 +1,21 @@
 #ifndef TRACE_COINCIDENT_H
 #define TRACE_COINCIDENT_H
 
-// Faces of two objects in one place, one clear and one opaque: a block of glass on a table.
-// Which of them a ray meets first is rounding, and behind the clear one it would start beyond
-// the other. Here it meets the opaque one.
+// Flat faces of two objects in one place. Which of them a ray meets first is rounding; here
+// it is a rule:
+// - of a clear one and an opaque one (a block of glass on a table) the opaque one is met:
+//   behind the clear one the ray would start beyond the other;
+// - of two opaque ones (coplanar.h) the one that comes first in the scene.
+// Curved faces in one place, two clear ones, and those of objects that are opaque in part,
+// are not looked for.
 #include "trace/intersect.h"
 
 // Says which objects that may concern (world_object.may_coincide): those with clear and flat
-// faces whose boxes touch those of wholly opaque ones with flat faces. Curved faces in one
-// place, and those of objects that are opaque in part, are not looked for.
+// faces whose boxes touch those of wholly opaque ones with flat faces, and those with
+// coplanar leaves.
 void coincident_mark(struct world *w);
-// Hits of clear faces of these objects become hits of the opaque ones that are no farther
-// from them than the bounds on both errors.
+// Hits of these objects become hits of the face that is to be seen, which are no farther from
+// them than rounding.
 void coincident_hits(const struct world *w, struct trace_scratch *s,
                      const struct ray_batch *rays, const struct hit_batch *hit);
 

@@ -48,6 +48,7 @@ struct leaf {
                    // intersections lie above it
     bool inverted;
     bool drawn; // false: a clip; its boundaries only change states
+    bool coplanar; // flat faces lie in those of another opaque object (coplanar.h)
 };
 
 // The rounding, in shape space, of a point o + t d with coordinates of these sizes on its
@@ -89,8 +90,9 @@ struct world_object {
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     bool mixed;                // some are, some are not
-    bool flat;                 // it may have flat faces; set where there are clear ones
-    bool may_coincide;         // clear faces may lie in others' opaque ones (coincident.h)
+    bool flat;                 // it may have flat faces, or has coplanar leaves
+    bool may_coincide;         // clear faces, or coplanar leaves, may lie in others'
+                               // opaque ones (coincident.h)
     unsigned flags;            // visibility of the whole
     const struct object *source;
     const struct user_bound *bound; // bounded_by, its own and those of unions around it

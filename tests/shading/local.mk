@@ -268,4 +268,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/371-old-finish.pov \
 	%D%/373-camera-mesh-edges.pov \
 	%D%/374-coincident-faces.pov \
-	%D%/375-coincident-infinite.pov
+	%D%/375-coincident-infinite.pov \
+	%D%/380-clipped-by-height-field.pov

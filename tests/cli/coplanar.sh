@@ -1,0 +1,52 @@
+#!/bin/sh
+# Flat faces of two opaque objects in one plane, placed by different arithmetic: the object
+# that comes first in the scene is seen everywhere, whichever that is.
+. "${top_srcdir:-.}/tests/cli/common.sh"
+
+first='texture { pigment { rgb <1, 0, 0> } finish { ambient 1 diffuse 0 } }'
+second='texture { pigment { rgb <0, 1, 0> } finish { ambient 1 diffuse 0 } }'
+
+# scene NAME OBJECT OBJECT: without the texture's end; makes NAME.pov.
+scene()
+{
+  cat >"$1.pov" <<EOF2
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <1.3, 4, -5> look_at <0, 1, 0> angle 25 }
+background { rgb <0, 0, 1> }
+$2 $first }
+$3 $second }
+EOF2
+}
+
+# seen NAME: the picture shows the first object and nothing of the second.
+seen()
+{
+  "$lambert" -q "$1.pov" -o "$1.ppm" +FP8 +W64 +H48 -A || return
+  tail -c $((64 * 48 * 3)) "$1.ppm" | od -An -v -tu1 -w3 |
+    awk '{ red += $1 > 128; green += $2 > 128 } END { exit !(red > 99 && !green) }'
+}
+
+# one NAME A B: what is seen of B lies in a face of A.
+one()
+{
+  scene "$1" "$2" "$3"
+  check "the first of two: $1" seen "$1"
+}
+
+# both NAME A B: they fill the same space.
+both()
+{
+  one "$1" "$2" "$3"
+  one "$1, the other way" "$3" "$2"
+}
+
+turn='rotate <9, 20, 4>'
+both "boxes" "box { <-1, 0, -1>, 1 $turn" "box { <-3, 0, -3>, 3 scale 1/3 rotate 20*z rotate -20*z $turn"
+one "a plane, a box" "plane { y, 1 $turn" "box { <-1, -1, -1>, 1 $turn"
+one "a box, a disc" "box { <-9, 0, -9>, <9, 1, 9> $turn" "disc { y, y, 1.2 $turn"
+both "a box cut by a plane" "box { <-2, 0, -2>, <2, 1, 2> $turn" "intersection { box { <-2, 0, -2>, <2, 3, 2> } plane { y, 1 } $turn"
+one "cylinders" "cylinder { 0, y, 1.2 rotate 13*z" "cylinder { -y*2, y*.5, 1 translate y/2 rotate 20*z rotate -7*z"
+both "triangles" "triangle { <-1, 1, -1>, <1, 1, -1>, <0, 1, 1> $turn" "triangle { <-3, 3, -3>, <3, 3, -3>, <0, 3, 3> rotate 33*z scale 1/3 rotate -33*z $turn"
+one "a box, a triangle" "box { <-2, 0, -2>, <2, 1, 2> $turn" "triangle { <-1, 1, -1>, <1, 1, -1>, <0, 1, 1> scale 3 scale 1/3 $turn"
+finish
