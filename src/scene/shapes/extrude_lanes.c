@@ -91,31 +91,89 @@ static void meet_walls(const struct sweep8 *e, const struct outline *o, unsigned
 
 // ---- where the rays are ------------------------------------------------------------------
 
-// Of each coordinate over the outline's sweep.
-LANES_INLINE void widen(const struct sweep8 *e, int axis, double min, double max,
-                        struct real8 *near, struct real8 *far)
+// Of a coordinate over an outline's sweep.
+struct extent {
+    double min, max, size;
+};
+
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double most(double a, double b) { return a > b ? a : b; }
+
+static inline struct extent extent_of(const struct extrude_solid *s, double min,
+                                      double max)
 {
-    const double size = fmax(fabs(min), fabs(max));
-    const struct real8 pad = r8_mul(r8_set(BOX_PAD), r8_add(e->o_size, r8_set(size)));
+    if (s->conic) {
+        const double low = least(s->low * min, least(s->low * max, s->high * min));
+        max = most(s->low * max, most(s->low * min, s->high * max));
+        min = low;
+    }
+    return (struct extent){min, max, most(fabs(min), fabs(max))};
+}
+
+// The stretch on which a crossing may be wanted.
+struct stretch8 {
+    struct real8 near, far;
+};
+
+LANES_INLINE struct stretch8 stretch_of(const struct sweep8 *e)
+{
+    return (struct stretch8){r8_max(e->t0, e->t_min), r8_min(e->t1, e->t_max)};
+}
+
+LANES_INLINE void narrow(const struct sweep8 *e, int axis, struct extent x,
+                         struct stretch8 *s)
+{
+    const struct real8 pad = r8_mul(r8_set(BOX_PAD), r8_add(e->o_size, r8_set(x.size)));
     const struct real8 inverse = e->inverse[axis];
-    const struct real8 a = r8_mul(r8_sub(r8_sub(r8_set(min), pad), e->o[axis]), inverse);
-    const struct real8 b = r8_mul(r8_sub(r8_add(r8_set(max), pad), e->o[axis]), inverse);
+    const struct real8 a =
+        r8_mul(r8_sub(r8_sub(r8_set(x.min), pad), e->o[axis]), inverse);
+    const struct real8 b =
+        r8_mul(r8_sub(r8_add(r8_set(x.max), pad), e->o[axis]), inverse);
     const struct mask8 back = r8_lt(inverse, r8_set(0));
-    *near =
-        r8_max(r8_select(back, b, a), *near); // NaN, of a ray in a face, changes nothing
-    *far = r8_min(r8_select(back, a, b), *far);
+    s->near = r8_max(r8_select(back, b, a),
+                     s->near); // NaN, of a ray in a face, changes nothing
+    s->far = r8_min(r8_select(back, a, b), s->far);
 }
 
 // The lanes that may meet the outline's box within the slab and their range.
 static unsigned in_box(const struct sweep8 *e, const struct outline *o)
 {
-    struct real8 near = r8_max(e->t0, e->t_min), far = r8_min(e->t1, e->t_max);
-    const double low = e->s->conic ? e->s->low : 1, high = e->s->conic ? e->s->high : 1;
-    widen(e, 0, fmin(low * o->min.u, fmin(low * o->max.u, high * o->min.u)),
-          fmax(low * o->max.u, fmax(low * o->min.u, high * o->max.u)), &near, &far);
-    widen(e, 1, fmin(low * o->min.v, fmin(low * o->max.v, high * o->min.v)),
-          fmax(low * o->max.v, fmax(low * o->min.v, high * o->max.v)), &near, &far);
-    return m8_bits(r8_le(near, far));
+    struct stretch8 s = stretch_of(e);
+    narrow(e, 0, extent_of(e->s, o->min.u, o->max.u), &s);
+    narrow(e, 1, extent_of(e->s, o->min.v, o->max.v), &s);
+    return m8_bits(r8_le(s.near, s.far));
+}
+
+// Where all stretches are along u, so that most of a text's letters need not be looked at.
+// What is not finite is everywhere.
+static struct extent reach_of(const struct sweep8 *e, unsigned lanes)
+{
+    const struct stretch8 s = stretch_of(e);
+    const struct real8 a = r8_add(e->o[0], r8_mul(s.near, e->d[0])),
+                       b = r8_add(e->o[0], r8_mul(s.far, e->d[0]));
+    struct extent x = {INFINITY, -INFINITY, 0};
+    double from[8], to[8], size[8];
+    r8_store(from, a);
+    r8_store(to, b);
+    r8_store(size, e->o_size);
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        if (!(fabs(from[i]) < INFINITY && fabs(to[i]) < INFINITY))
+            return (struct extent){-INFINITY, INFINITY, 0};
+        x.min = least(x.min, least(from[i], to[i]));
+        x.max = most(x.max, most(from[i], to[i]));
+        x.size = most(x.size, size[i]);
+    }
+    return x;
+}
+
+// Whether stretches that reach so far may come to the outline.
+static inline bool reached(const struct sweep8 *e, const struct extent *reach,
+                           const struct outline *o)
+{
+    const struct extent x = extent_of(e->s, o->min.u, o->max.u);
+    const double pad = BOX_PAD * (reach->size + x.size);
+    return reach->min <= x.max + pad && x.min - pad <= reach->max;
 }
 
 // As extrude_slab_of; returns the lanes that are somewhere in the slab.
@@ -280,8 +338,11 @@ static unsigned merge(const struct sweep8 *e, unsigned lanes, struct shape_hits 
 {
     unsigned met = 0, left = 0;
     struct shape_hits one;
+    const struct extent reach = reach_of(e, lanes);
     for (uint32_t i = 0; i < e->s->count; i++) {
         const struct outline *o = &e->s->outline[i];
+        if (!reached(e, &reach, o))
+            continue;
         const unsigned near = lanes & ~*odd & in_box(e, o);
         unsigned found = near ? first(e, o, near, i << 16, &one) : 0;
         for (; found; found &= found - 1) {
