@@ -124,7 +124,8 @@ static double slope(const struct cubic *f, double w)
 }
 
 // The root of f in (lo, hi), where `rising` says which way its sign changes: Newton
-// kept inside the bracket, which shrinks to neighbouring numbers at worst.
+// kept inside the bracket, which shrinks to neighbouring numbers at worst. A step too small to
+// change w ends it: w is an end of the bracket by then, whose other end may be far.
 static double root_between(const struct cubic *f, double lo, double hi, bool rising)
 {
     double w = 0.5 * (lo + hi);
@@ -137,9 +138,11 @@ static double root_between(const struct cubic *f, double lo, double hi, bool ris
         else
             lo = w;
         double next = w - v / slope(f, w);
+        if (next == w)
+            return w;
         if (!(next > lo && next < hi))
             next = 0.5 * (lo + hi);
-        if (next == w || next <= lo || next >= hi)
+        if (next <= lo || next >= hi)
             return next;
         w = next;
     }

@@ -90,12 +90,11 @@ LANES_INLINE struct real8 root_between8(const struct cubic8 *f, unsigned lanes,
         hi = r8_select(beyond, w, hi);
         lo = r8_select(beyond, lo, w);
         struct real8 next = r8_sub(w, r8_div(v, cubic8_slope(f, w)));
+        lanes &= ~m8_bits(r8_eq(next, w));
         next = r8_select(m8_and(r8_lt(lo, next), r8_lt(next, hi)), next,
                          r8_mul(half, r8_add(lo, hi)));
-        const struct mask8 end =
-            m8_or(r8_eq(next, w), m8_or(r8_le(next, lo), r8_le(hi, next)));
         w = r8_select(m8_of(lanes), next, w);
-        lanes &= ~m8_bits(end);
+        lanes &= ~m8_bits(m8_or(r8_le(next, lo), r8_le(hi, next)));
     }
     return w;
 }
