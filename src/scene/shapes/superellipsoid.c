@@ -126,9 +126,11 @@ static double root_between(const struct line *l, double outside, double inside, 
             inside = t;
         const double lo = fmin(outside, inside), hi = fmax(outside, inside);
         double next = t - v.f / v.slope;
+        if (next == t) // an end of the bracket by then, whose other end may be far
+            return t;
         if (!(next > lo && next < hi))
             next = 0.5 * (lo + hi);
-        if (next == t || next <= lo || next >= hi || fabs(next - t) < GAMMA(2))
+        if (next <= lo || next >= hi || fabs(next - t) < GAMMA(2))
             return next;
         t = next;
     }

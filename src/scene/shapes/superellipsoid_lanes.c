@@ -180,11 +180,12 @@ void OF_ISA(superellipsoid_roots8_)(const struct superellipsoid *s, unsigned lan
         const struct mask8 in = m8_and(r8_lt(lo, step), r8_lt(step, hi));
         const struct real8 next =
             r8_select(in, step, r8_mul(r8_set(0.5), r8_add(lo, hi)));
+        const struct mask8 still = r8_eq(step, t);
         const struct mask8 on =
             m8_without(m8_and(m8_and(r8_lt(lo, next), r8_lt(next, hi)),
                               r8_le(r8_set(GAMMA(2)), r8_abs(r8_sub(next, t)))),
-                       r8_eq(next, t));
-        t = r8_select(here, next, t);
+                       still);
+        t = r8_select(m8_without(here, still), next, t);
         lanes &= m8_bits(on);
     }
     r8_store(r->t, t);
