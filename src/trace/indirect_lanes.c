@@ -9,27 +9,61 @@ static void add(struct tracer *t, const struct simple_group *g, int i, struct rg
                rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
 }
 
-void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
-                  bool back)
+static struct ray ray_of(const struct tracer *t, uint32_t k)
 {
     const struct ray_batch *b = t->rays;
+    return (struct ray){vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
+                        vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
+}
+
+// With the interaction of the hit.
+static void ask(struct tracer *t, uint32_t k, const struct indirect_hit *hit,
+                struct rgb matt, bool back)
+{
     const struct wavefront *w = &t->wave;
     const uint32_t slot = w->slot[k];
-    const struct ray ray = {vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
-                            vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
-    const struct hit met = hit_batch_at(t->hit, k);
-    struct interaction at;
-    trace_interaction(t->job->world, &ray, &met, &at);
     struct path path = wave_path(t, slot);
     if (!(path.flags & PATH_CONTINUED))
         path.level++;
-    const struct vec3 own = vec3_dot(at.ns, ray.d) > 0 ? vec3_neg(at.ns) : at.ns;
-    const struct indirect_hit hit = {&ray, &met, &at, n ? *n : own, &path};
-    const struct rgb light = indirect_light(t, &hit, back);
+    struct indirect_hit whole = *hit;
+    whole.path = &path;
+    const struct rgb light = indirect_light(t, &whole, back);
     t->slot = slot;
     tracer_add(t,
                rgb_mul(rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]),
                        rgb_mul(matt, light)));
+}
+
+void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
+                  bool back)
+{
+    const struct ray ray = ray_of(t, k);
+    const struct hit met = hit_batch_at(t->hit, k);
+    struct interaction at;
+    trace_interaction(t->job->world, &ray, &met, &at);
+    const struct vec3 own = vec3_dot(at.ns, ray.d) > 0 ? vec3_neg(at.ns) : at.ns;
+    const struct indirect_hit hit = {&ray, &met, &at, n ? *n : own, NULL};
+    ask(t, k, &hit, matt, back);
+}
+
+// Lane i of a group, whose n is the surface's own.
+static void ask_lane(struct tracer *t, const struct simple_group *g, int i,
+                     const struct indirect_side *side, struct vec3 n)
+{
+    const struct world *w = t->job->world;
+    const uint32_t k = g->ray[i];
+    const struct ray ray = ray_of(t, k);
+    const struct hit met = hit_batch_at(t->hit, k);
+    const struct leaf *l = &w->leaf[met.b.leaf];
+    // As trace_interaction; what only textures look at is left out.
+    const struct interaction at = {.p = vec3(g->p[0][i], g->p[1][i], g->p[2][i]),
+                                   .error = g->error[i],
+                                   .ng = vec3(g->ng[0][i], g->ng[1][i], g->ng[2][i]),
+                                   .ns = vec3(g->n[0][i], g->n[1][i], g->n[2][i]),
+                                   .leaf = l,
+                                   .surface = &w->surface[l->surface]};
+    const struct indirect_hit hit = {&ray, &met, &at, n, NULL};
+    ask(t, k, &hit, side->matt[i], side->back);
 }
 
 // What the lanes of a group ask, with the normals n.
@@ -105,6 +139,9 @@ void indirect_side_light(struct tracer *t, const struct simple_group *g,
     for (; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
         const struct vec3 n = {side->n[0][i], side->n[1][i], side->n[2][i]};
-        indirect_ask(t, g->ray[i], side->matt[i], &n, side->back);
+        if ((side->perturbed >> i) & 1)
+            indirect_ask(t, g->ray[i], side->matt[i], &n, side->back);
+        else
+            ask_lane(t, g, i, side, n);
     }
 }
