@@ -97,9 +97,13 @@ static void find_shafts(struct radiosity *r)
         return;
     r->between = solver_alloc(p->element_count, sizeof *r->between);
     for (uint32_t k = 0; k < p->element_count; k++)
-        for (uint32_t i = 0; i < r->emitter_count; i++)
-            r->between[k] |=
+        for (uint32_t i = 0; i < r->emitter_count; i++) {
+            uint64_t some =
                 shafts_hide(p, &p->shaft[k], &r->emitter[i].shaft, ~r->between[k]);
+            if (some && patch_is_flat(p, &p->element[k]))
+                some = hulls_hide_all(p, &p->element[k], &r->emitter[i].e, some);
+            r->between[k] |= some;
+        }
 }
 
 // Edges of those that are polygons, for lanes.

@@ -161,6 +161,33 @@ struct shaft_hulls *hulls_of(const struct world *w)
     return hulls;
 }
 
+static bool beside(const struct patches *p, const struct shaft_hulls *h,
+                   const struct facing_polygons *x)
+{
+    for (uint32_t i = 0; i < h->count; i++)
+        if (!p->sight->beside(&h->hull[i], x))
+            return false;
+    return h->count > 0;
+}
+
+uint64_t hulls_hide_all(const struct patches *p, const struct element *a,
+                        const struct element *b, uint64_t some)
+{
+    const struct element *const of[2] = {a, b};
+    struct facing_polygons x;
+    uint64_t found = some;
+    for (int s = 0; s < 2; s++) {
+        x.n[s] = of[s]->normal;
+        x.count[s] = of[s]->corner_count;
+        for (uint32_t i = 0; i < x.count[s]; i++)
+            x.corner[s][i] = of[s]->corner[i];
+    }
+    for (uint64_t left = some; left; left &= left - 1)
+        if (beside(p, &p->hulls[__builtin_ctzll(left)], &x))
+            found &= ~(left & -left);
+    return found;
+}
+
 static bool apart(const struct patches *p, const struct shaft_hulls *h,
                   const struct horizon_polygon *to)
 {

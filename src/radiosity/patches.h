@@ -142,6 +142,8 @@ void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit
 void patches_enclosure(struct patches *p);
 void patches_neighbours(struct patches *p);
 void patches_shafts(struct patches *p);
+// Whether the corners of an element bound all of it.
+bool patch_is_flat(const struct patches *p, const struct element *e);
 bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b);
 // The same for what is no element of the list; not beyond SHAFT_OBJECTS objects.
 struct shaft patches_shaft(const struct patches *p, const struct element *e,
@@ -152,6 +154,9 @@ uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
 // Those of `some` that may hide what of a flat polygon rises above the horizon of a point.
 uint64_t hulls_hide(const struct patches *p, struct vec3 o, struct vec3 n,
                     const struct element *polygon, uint64_t some);
+// The same of one flat element from another.
+uint64_t hulls_hide_all(const struct patches *p, const struct element *a,
+                        const struct element *b, uint64_t some);
 // Of a world's objects; the caller frees them.
 struct shaft_hulls *hulls_of(const struct world *w);
 // Whether the boxes and the hollows are the same.

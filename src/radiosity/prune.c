@@ -282,27 +282,20 @@ static bool any_above(const struct element *e, const struct element *other)
     return false;
 }
 
-// Whether the corners of an element bound all of it.
-static bool is_flat(const struct patches *p, uint32_t i)
-{
-    const enum chart_kind kind = p->chart[p->element[i].surface / 2].kind;
-    return kind == CHART_FLAT || kind == CHART_TRIANGLE;
-}
-
 // Whether a way from an element to the camera, a lamp or what is reached can be: both
 // ends of it lie above the plane of the other.
 static bool faces_reached(const struct groups *g, uint32_t i)
 {
     const struct job *job = g->p->job;
     const struct element *e = &g->p->element[i];
-    if (!is_flat(g->p, i) || above(e, job->camera->location))
+    if (!patch_is_flat(g->p, e) || above(e, job->camera->location))
         return true;
     for (uint32_t k = 0; k < job->lamp_count; k++)
         if (above(e, job->lamp[k].light->location))
             return true;
     for (uint32_t k = 0; k < g->reached_count; k++) {
         const struct element *other = &g->p->element[g->reached[k]];
-        if (!is_flat(g->p, g->reached[k]) || (any_above(e, other) && any_above(other, e)))
+        if (!patch_is_flat(g->p, other) || (any_above(e, other) && any_above(other, e)))
             return true;
     }
     return false;

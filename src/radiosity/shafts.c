@@ -116,9 +116,20 @@ uint64_t shafts_hide(const struct patches *p, const struct shaft *a,
     return p->sight->between(&p->boxes, a, b, some & ~(a->hollow & b->hollow));
 }
 
+bool patch_is_flat(const struct patches *p, const struct element *e)
+{
+    const enum chart_kind kind = p->chart[e->surface / 2].kind;
+    return kind == CHART_FLAT || kind == CHART_TRIANGLE;
+}
+
 bool patches_may_hide(const struct patches *p, uint32_t a, uint32_t b)
 {
-    return !p->shaft || shafts_hide(p, &p->shaft[a], &p->shaft[b], UINT64_MAX);
+    if (!p->shaft)
+        return true;
+    const uint64_t some = shafts_hide(p, &p->shaft[a], &p->shaft[b], UINT64_MAX);
+    const struct element *const x = &p->element[a], *const y = &p->element[b];
+    return some && (!patch_is_flat(p, x) || !patch_is_flat(p, y) ||
+                    hulls_hide_all(p, x, y, some));
 }
 
 static bool same(struct vec3 a, struct vec3 b)

@@ -105,6 +105,59 @@ static bool apart(const struct shaft_hull *h, const struct horizon_polygon *to)
     return false;
 }
 
+// Whether all corners lie on the side of the normal of a plane through a point, or in it.
+static bool all_over(const struct facing_polygons *x, struct vec3 at, struct vec3 n,
+                     double slack)
+{
+    for (int s = 0; s < 2; s++)
+        for (uint32_t i = 0; i < x->count[s]; i++)
+            if (vec3_dot(vec3_sub(x->corner[s][i], at), n) < -slack)
+                return false;
+    return true;
+}
+
+// Whether a plane through an edge of polygon s and a corner of the other parts them from
+// the points.
+static bool tangent_parts(const struct facing_polygons *x, int s, const struct vec8 *p,
+                          double pad)
+{
+    const struct vec3 *a = x->corner[s], *b = x->corner[1 - s];
+    for (uint32_t i = 0; i < x->count[s]; i++) {
+        const struct vec3 along = vec3_sub(a[i + 1 < x->count[s] ? i + 1 : 0], a[i]);
+        for (uint32_t k = 0; k < x->count[1 - s]; k++) {
+            struct vec3 n = vec3_cross(along, vec3_sub(b[k], a[i]));
+            const double most = vec3_max_abs(n), slack = pad * most;
+            if (!all_over(x, a[i], n, slack)) {
+                n = vec3_neg(n);
+                if (!all_over(x, a[i], n, slack))
+                    continue;
+            }
+            const struct real8 over = v8_dot(v8_sub(*p, V8_SET(a[i])), V8_SET(n));
+            if (most > 0 && m8_bits(r8_le(over, r8_set(slack))) == 255)
+                return true;
+        }
+    }
+    return false;
+}
+
+static bool beside(const struct shaft_hull *h, const struct facing_polygons *x)
+{
+    const struct vec8 n = ROWS(h->n), p = ROWS(h->p);
+    const double pad =
+        touching * (vec3_max_abs(x->corner[0][0]) + vec3_max_abs(x->corner[1][0]));
+    const struct real8 top = r8_sub(r8_load(h->top), r8_set(pad));
+    unsigned over = 255;
+    for (int s = 0; s < 2; s++) {
+        const struct real8 above =
+            v8_dot(v8_sub(p, V8_SET(x->corner[s][0])), V8_SET(x->n[s]));
+        if (m8_bits(r8_le(above, r8_set(pad))) == 255)
+            return true;
+        for (uint32_t i = 0; i < x->count[s]; i++)
+            over &= m8_bits(r8_le(top, v8_dot(n, V8_SET(x->corner[s][i]))));
+    }
+    return over || tangent_parts(x, 0, &p, pad) || tangent_parts(x, 1, &p, pad);
+}
+
 // ---- polygons ----------------------------------------------------------------------
 static void edges(const struct polygon_edges *e, struct vec3 o, struct vec3 n,
                   double *term, double *height)
@@ -190,5 +243,5 @@ static void aim(struct emitter_aims *x)
     }
 }
 
-const struct sight_kernels OF_ISA(sight_kernels_) = {ISA_TEXT, between, apart, edges,
-                                                     aim};
+const struct sight_kernels OF_ISA(sight_kernels_) = {ISA_TEXT, between, apart,
+                                                     beside,   edges,   aim};

@@ -35,6 +35,12 @@ struct horizon_polygon {
     uint32_t count;
 };
 
+// Two flat polygons that face each other, with their unit normals.
+struct facing_polygons {
+    struct vec3 corner[2][4], n[2];
+    uint32_t count[2];
+};
+
 // The edges of polygons, one after the other, from a to b. The count is padded to eights.
 struct polygon_edges {
     double *a[3], *b[3];
@@ -68,6 +74,9 @@ struct sight_kernels {
     // Whether a plane is known that parts an object from all ways to a polygon: the
     // horizon, one through an edge of the polygon, or a face of the object's hull.
     bool (*apart)(const struct shaft_hull *h, const struct horizon_polygon *to);
+    // The same for all ways from one polygon to another: by the plane of either, one through
+    // an edge of either and a corner of the other, or a face of the hull.
+    bool (*beside)(const struct shaft_hull *h, const struct facing_polygons *x);
     // Of each edge what it adds to the sum of lambert_polygon(), and how high a is above
     // the horizon of n.
     void (*edges)(const struct polygon_edges *e, struct vec3 o, struct vec3 n,

@@ -179,30 +179,65 @@ static void nothing_comes_between(void **state)
     assert_true(hidden > ROUNDS / 4 && clear > ROUNDS);
 }
 
-// Whether the way from `to->o` to a point of its polygon, a mean of corners with weights
-// at random, passes a triangle of the hull's points well inside.
-static bool meets(const struct shaft_hull *h, const struct horizon_polygon *to)
+// A mean of corners with weights at random.
+static struct vec3 point_of(const struct vec3 *corner, uint32_t count)
 {
-    static const double inside = 1e-6;
-    struct vec3 c[3], d = {0, 0, 0};
+    struct vec3 d = {0, 0, 0};
     double sum = 0;
-    for (uint32_t i = 0; i < to->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const double weight = any(0, 1);
-        d = vec3_mad(d, weight, to->corner[i]);
+        d = vec3_mad(d, weight, corner[i]);
         sum += weight;
     }
-    d = vec3_scale(1 / sum, d);
+    return vec3_scale(1 / sum, d);
+}
+
+// Whether the way from o along d, up to its end, passes a triangle of the hull's points
+// well inside.
+static bool meets(const struct shaft_hull *h, struct vec3 o, struct vec3 d)
+{
+    static const double inside = 1e-6;
+    struct vec3 c[3];
     for (int i = 0; i < 3; i++) {
         const int k = (int)any(0, HULL_CORNERS);
-        c[i] = vec3_sub(vec3(h->p[0][k], h->p[1][k], h->p[2][k]), to->o);
+        c[i] = vec3_sub(vec3(h->p[0][k], h->p[1][k], h->p[2][k]), o);
     }
-    // d = a c0 + b c1 + c c2 by Cramer's rule; met at 1 / (a + b + c) of the way.
+    // d = x c0 + y c1 + z c2 by Cramer's rule; met at 1 / (x + y + z) of the way.
     const double det = vec3_dot(c[0], vec3_cross(c[1], c[2]));
     const double x = vec3_dot(d, vec3_cross(c[1], c[2])) / det,
                  y = vec3_dot(c[0], vec3_cross(d, c[2])) / det,
                  z = vec3_dot(c[0], vec3_cross(c[1], d)) / det;
     return fabs(det) > inside && x > inside && y > inside && z > inside &&
            x + y + z > 1 + inside;
+}
+
+// Four corners in a plane, counter-clockwise about the normal.
+static void some_polygon(struct vec3 corner[4], struct vec3 *n)
+{
+    const struct vec3 at = some_point(2), a = some_point(.5), b = some_point(.5);
+    for (int k = 0; k < 4; k++)
+        corner[k] = vec3_mad(vec3_mad(at, k == 1 || k == 2, a), k > 1, b);
+    *n = vec3_normalize(vec3_cross(a, b));
+}
+
+// Ways between two polygons that face each other.
+static void check_beside(const struct sight_kernels *const *kernels, uint32_t isas,
+                         const struct shaft_hull *h, int *parted)
+{
+    enum { WAYS = 20 };
+    struct facing_polygons x = {.count = {4, 4}};
+    some_polygon(x.corner[0], &x.n[0]);
+    some_polygon(x.corner[1], &x.n[1]);
+    const bool beside = kernels[0]->beside(h, &x);
+    for (uint32_t isa = 1; isa < isas; isa++)
+        assert_true(kernels[isa]->beside(h, &x) == beside);
+    *parted += beside;
+    for (int w = 0; w < WAYS && beside; w++) {
+        const struct vec3 o = point_of(x.corner[0], 4);
+        const struct vec3 d = vec3_sub(point_of(x.corner[1], 4), o);
+        if (vec3_dot(d, x.n[0]) > 0 && vec3_dot(d, x.n[1]) < 0)
+            assert_false(meets(h, o, d));
+    }
 }
 
 // The hulls of meshes of one triangle and two, of turned boxes, and of products, by the
@@ -222,17 +257,15 @@ static void hulls_hold_objects(void **state)
     const struct sight_kernels *kernels[3];
     const uint32_t isas = present(kernels), count = s.job->world->object_count;
     struct shaft_hulls *hulls = hulls_of(s.job->world);
-    int parted[8] = {0}, met = 0;
+    int parted[8] = {0}, beside[8] = {0}, met = 0;
     assert_int_equal(count, 6);
     for (uint32_t i = 0; i < count; i++)
         assert_int_equal(hulls[i].count, i == 1 ? 2 : i < 5);
     for (int round = 0; round < ROUNDS; round++) {
         struct horizon_polygon to = {.o = some_point(2)};
-        to.n = vec3_normalize(some_point(1));
         struct vec3 corner[4];
-        const struct vec3 at = some_point(2), a = some_point(.5), b = some_point(.5);
-        for (int k = 0; k < 4; k++)
-            corner[k] = vec3_mad(vec3_mad(at, k == 1 || k == 2, a), k > 1, b);
+        some_polygon(corner, &to.n);
+        to.n = vec3_normalize(some_point(1));
         to.count = polygon_risen(to.o, to.n, corner, 4, to.corner);
         if (to.count < 3)
             continue;
@@ -243,8 +276,9 @@ static void hulls_hold_objects(void **state)
                 for (uint32_t isa = 1; isa < isas; isa++)
                     assert_true(kernels[isa]->apart(h, &to) == apart);
                 parted[i] += apart;
+                check_beside(kernels, isas, h, &beside[i]);
                 for (int w = 0; w < WAYS; w++) {
-                    const bool meet = meets(h, &to);
+                    const bool meet = meets(h, to.o, point_of(to.corner, to.count));
                     assert_false(apart && meet);
                     met += meet;
                 }
@@ -252,7 +286,7 @@ static void hulls_hold_objects(void **state)
     }
     assert_true(met > ROUNDS / 10);
     for (uint32_t i = 0; i + 1 < count; i++)
-        assert_true(parted[i] > ROUNDS / 4);
+        assert_true(parted[i] > ROUNDS / 4 && beside[i] > ROUNDS / 4);
     free(hulls);
     scene_free(&s);
 }
