@@ -457,9 +457,9 @@ void trace_interaction(const struct world *w, const struct ray *ray,
     const struct leaf *l = &w->leaf[hit->b.leaf];
     const struct vec3 p = ray_at(ray, hit->b.t);
     struct surface_point s = {.p = p, .want_uv = w->surface[l->surface].wants_uv};
-    *out = (struct interaction){.leaf = l, .surface = &w->surface[l->surface]};
-    if (out->surface->parts)
-        out->b = hit->b;
+    out->leaf = l;
+    out->surface = &w->surface[l->surface];
+    out->b = hit->b;
     if (l->transform->identity) {
         l->ops->surface(l->shape, &hit->b, p, &s);
         out->p = s.p;

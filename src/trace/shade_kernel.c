@@ -76,13 +76,12 @@ LANES_INLINE void group_points(struct tracer *t, const struct leaf *const leaf[8
     struct place8 x; // not set to zero: it is large
     x.p = v8_mad(o, at, d);
     if (uv) {
-        place_each(t, g, 255, &x);
+        place_each(t, g, &x);
         memcpy(g->uv, x.uv, sizeof g->uv);
     } else if (!differ) {
-        if (!place_leaf(leaf[0], &r, &x))
-            place_each(t, g, 255, &x);
+        place_leaf(leaf[0], &r, g->live, &x);
     } else if (!place_spheres(leaf, &r, &x)) {
-        place_mixed(t, leaf, g, &r, &x);
+        place_mixed(leaf, &r, g->live, &x);
     }
     v8_store(g->d, d);
     v8_store(g->p, x.p);

@@ -261,9 +261,35 @@ static bool place_mesh(const struct mesh *m, const struct place_rays *r, struct 
     return m->face_normal != NULL;
 }
 
-// In the space of the shape; false: it has no lanes. *smooth: ns is not ng.
-LANES_INLINE bool place_shape(const struct leaf *l, const struct place_rays *r,
-                              struct place8 *x, bool *smooth)
+// By the shape's own rule, one of the lanes after the other; all others become the first.
+static void place_alone(const struct leaf *l, const struct place_rays *r, unsigned lanes,
+                        struct place8 *x)
+{
+    const int first = __builtin_ctz(lanes);
+    double from[3][8], p[3][8], ng[3][8], ns[3][8];
+    v8_store(from, x->p);
+    for (int i = first; i < 8; i++) {
+        if (!(lanes >> i & 1))
+            continue;
+        const struct hit hit = hit_batch_at(r->hit, r->ray[i]);
+        const struct vec3 at = {from[0][i], from[1][i], from[2][i]};
+        struct surface_point s = {.p = at};
+        l->ops->surface(l->shape, &hit.b, at, &s);
+        const unsigned to = i == first ? 255 & ~(lanes & (lanes - 1)) : 1u << i;
+        for (unsigned m = to; m; m &= m - 1) {
+            place_lane(p, __builtin_ctz(m), s.p);
+            place_lane(ng, __builtin_ctz(m), s.ng);
+            place_lane(ns, __builtin_ctz(m), s.ns);
+        }
+    }
+    x->p = v8_load((const double(*)[8])p);
+    x->ng = v8_load((const double(*)[8])ng);
+    x->ns = v8_load((const double(*)[8])ns);
+}
+
+// In the space of the shape, which has no more to say of lanes left out; *smooth: ns is not ng.
+LANES_INLINE void place_shape(const struct leaf *l, const struct place_rays *r,
+                              unsigned lanes, struct place8 *x, bool *smooth)
 {
     const struct shape_ops *ops = l->ops;
     const void *shape = l->shape;
@@ -291,9 +317,9 @@ LANES_INLINE bool place_shape(const struct leaf *l, const struct place_rays *r,
     } else if (ops == &mesh_ops || ops == &mesh2_ops) {
         *smooth = place_mesh(shape, r, x);
     } else {
-        return false;
+        place_alone(l, r, lanes, x);
+        *smooth = true;
     }
-    return true;
 }
 
 LANES_INLINE struct real8 place_error_of(const struct leaf *l, const struct place_rays *r,
@@ -302,16 +328,16 @@ LANES_INLINE struct real8 place_error_of(const struct leaf *l, const struct plac
     return r8_add(r8_mul(r->dt, r8_abs(v8_dot(r->d, ng))), place_error(l, r->size));
 }
 
-// All lanes hit this leaf; false: its shape has no lanes.
-static bool place_leaf(const struct leaf *l, const struct place_rays *r, struct place8 *x)
+// The lanes hit this leaf.
+static void place_leaf(const struct leaf *l, const struct place_rays *r, unsigned lanes,
+                       struct place8 *x)
 {
     const bool moved = !l->transform->identity;
     const struct transform *m = l->transform;
     bool smooth;
     if (moved)
         x->p = v8_row_times(v8_sub(x->p, V8_SET(m->offset)), &m->inverse);
-    if (!place_shape(l, r, x, &smooth))
-        return false;
+    place_shape(l, r, lanes, x, &smooth);
     if (moved) {
         x->p = v8_add(v8_row_times(x->p, &m->linear), V8_SET(m->offset));
         x->ng = v8_normalize(v8_times_column(&m->inverse, x->ng));
@@ -326,7 +352,6 @@ static bool place_leaf(const struct leaf *l, const struct place_rays *r, struct 
     if (!smooth)
         x->ns = x->ng;
     x->error = place_error_of(l, r, x->ng);
-    return true;
 }
 
 // All lanes hit spheres that stand where they are written.
@@ -351,13 +376,11 @@ LANES_INLINE bool place_spheres(const struct leaf *const leaf[8],
     return true;
 }
 
-// The lanes of `bits`, one after the other.
-static void place_each(struct tracer *t, const struct simple_group *g, unsigned bits,
-                       struct place8 *x)
+// Lane by lane, with what uv_mapping sees.
+static void place_each(struct tracer *t, const struct simple_group *g, struct place8 *x)
 {
-    double p[3][8] = {{0}}, ng[3][8] = {{0}}, ns[3][8] = {{0}}, error[8] = {0};
-    for (unsigned m = bits; m; m &= m - 1) {
-        const int i = __builtin_ctz(m);
+    double p[3][8], ng[3][8], ns[3][8], error[8];
+    for (int i = 0; i < 8; i++) {
         const uint32_t k = g->ray[i];
         const struct ray_batch *b = t->rays;
         const struct ray ray = {{b->o[0][k], b->o[1][k], b->o[2][k]},
@@ -381,9 +404,8 @@ static void place_each(struct tracer *t, const struct simple_group *g, unsigned 
 }
 
 // Leaf by leaf.
-static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
-                        const struct simple_group *g, const struct place_rays *r,
-                        struct place8 *x)
+static void place_mixed(const struct leaf *const leaf[8], const struct place_rays *r,
+                        unsigned live, struct place8 *x)
 {
     const struct vec8 p = x->p;
     for (unsigned left = 255; left;) {
@@ -393,8 +415,7 @@ static void place_mixed(struct tracer *t, const struct leaf *const leaf[8],
         unsigned bits = 0;
         for (unsigned i = 0; i < 8; i++)
             bits |= (unsigned)(leaf[i] == l) << i;
-        if (!place_leaf(l, r, &y))
-            place_each(t, g, bits, &y);
+        place_leaf(l, r, bits & live, &y); // the lanes left out are copies of the first
         const struct mask8 m = m8_of(bits);
         const bool first = left == 255;
         x->p = first ? y.p : v8_select(m, y.p, x->p);
