@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 bool text_same(const char *a, const char *b, size_t n)
@@ -45,12 +46,35 @@ static void warn_of_declare(struct cmd *c, const char *text)
                  text, value);
 }
 
+// Anything but one of these is off, as in POV-Ray.
+static bool is_switch(const char *text)
+{
+    static const char *const words[] = {"on",  "true",  "yes", "1",
+                                        "off", "false", "no",  "0"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(text) >= strlen(words[i]) &&
+            text_same(text, words[i], strlen(words[i])))
+            return true;
+    return false;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat st;
+    return stat(path, &st) == 0 && S_ISDIR(st.st_mode);
+}
+
 int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
 {
     if (lambert_option_set(c->ctx, o->name, value) != LAMBERT_OK)
         return cmd_fail(CMD_USAGE, "%s", lambert_error(c->ctx));
     if (strcmp(o->name, "declare") == 0)
         warn_of_declare(c, value);
+    if (o->kind == LAMBERT_OPTION_FLAG && !is_switch(value))
+        cmd_warn(c, "'%s' is no value for %s, which is on or off; it is taken as off",
+                 value, o->keyword ? o->keyword : o->name);
+    if (strcmp(o->name, "library-path") == 0 && !is_folder(value))
+        cmd_warn(c, "the library path '%s' is no folder that exists", value);
     return CMD_OK;
 }
 
@@ -253,6 +277,7 @@ void cmdline_free(struct cmd *c)
     for (size_t i = 0; i < c->file_count; i++)
         free(c->file[i]);
     free(c->file);
+    free(c->held);
 }
 
 static int unknown_long(const char *name, size_t len)

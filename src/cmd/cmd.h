@@ -71,6 +71,8 @@ struct cmd {
     bool keeps; // finished tiles, to continue
     unsigned warnings;
     FILE *stream[STREAM_COUNT]; // NULL: none
+    bool streams_open;
+    char *held; // warnings from before the streams were open
     struct progress progress;
     struct command_place place; // what commands are told
     pthread_t watch;            // the thread that waits for signals
@@ -102,10 +104,12 @@ int completion_print(FILE *out);
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
 char *scene_base(const char *scene); // without folder and extension, to be freed
 char *text_format(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+char *text_format_list(const char *fmt, va_list ap) __attribute__((format(printf, 1, 0)));
 
 // streams.c
 int streams_open(struct cmd *c);
 void streams_write(struct cmd *c, const struct lambert_message *m);
+void streams_warn(struct cmd *c, const char *line); // of the command itself
 int streams_close(struct cmd *c);
 int settings_write(struct cmd *c); // Create_Ini
 

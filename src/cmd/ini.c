@@ -13,6 +13,8 @@ struct ini {
     int depth;
     unsigned line;
     bool skipping; // in a section nobody asked for
+    bool found;    // the section that was asked for
+    char *others;  // the names of the other sections
 };
 
 static const char *skip_blanks(const char *s) { return s + strspn(s, " \t\r\n"); }
@@ -86,9 +88,16 @@ static int take_option(struct ini *in, const char *s, const char **end)
 
 static void enter_section(struct ini *in, const char *s)
 {
-    size_t n = strcspn(s + 1, "]");
+    const size_t n = strcspn(s + 1, "]\r\n");
     in->skipping =
         !in->section || strlen(in->section) != n || !text_same(in->section, s + 1, n);
+    in->found |= !in->skipping;
+    if (!in->section || in->found)
+        return;
+    char *more = text_format("%s%s[%.*s]", in->others ? in->others : "",
+                             in->others ? ", " : "", (int)n, s + 1);
+    free(in->others);
+    in->others = more;
 }
 
 static int take_line(struct ini *in, const char *s)
@@ -118,7 +127,7 @@ static int take_line(struct ini *in, const char *s)
 
 int ini_read(struct cmd *c, const char *path, const char *section, int depth)
 {
-    struct ini in = {c, path, section, depth, 0, false};
+    struct ini in = {.cmd = c, .path = path, .section = section, .depth = depth};
     if (depth > INI_DEPTH_MAX)
         return cmd_fail(CMD_USAGE, "%s: INI files include each other too deep", path);
     FILE *f = fopen(path, "r");
@@ -137,5 +146,9 @@ int ini_read(struct cmd *c, const char *path, const char *section, int depth)
     }
     free(line);
     fclose(f);
+    if (!code && section && !in.found)
+        cmd_warn(c, "%s has no section [%s]%s%s", path, section,
+                 in.others ? "; it has " : "", in.others ? in.others : "");
+    free(in.others);
     return code;
 }

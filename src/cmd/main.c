@@ -25,10 +25,13 @@ void cmd_warn(struct cmd *c, const char *fmt, ...)
 {
     va_list ap;
     va_start(ap, fmt);
-    fputs("lambert: warning: ", stderr);
-    vfprintf(stderr, fmt, ap);
-    fputc('\n', stderr);
+    char *text = text_format_list(fmt, ap);
     va_end(ap);
+    char *line = text_format("lambert: warning: %s\n", text);
+    fputs(line, stderr);
+    streams_warn(c, line);
+    free(line);
+    free(text);
     c->warnings++;
 }
 

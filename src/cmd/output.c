@@ -7,18 +7,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-char *text_format(const char *fmt, ...)
+char *text_format_list(const char *fmt, va_list ap)
 {
-    va_list ap, again;
-    va_start(ap, fmt);
+    va_list again;
     va_copy(again, ap);
     int n = vsnprintf(NULL, 0, fmt, ap);
-    va_end(ap);
     char *text = malloc((size_t)n + 1);
     if (!text)
         abort();
     vsnprintf(text, (size_t)n + 1, fmt, again);
     va_end(again);
+    return text;
+}
+
+char *text_format(const char *fmt, ...)
+{
+    va_list ap;
+    va_start(ap, fmt);
+    char *text = text_format_list(fmt, ap);
+    va_end(ap);
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "cmd/cmd.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const stream_options[STREAM_COUNT] = {
@@ -9,6 +10,14 @@ static const char *const stream_options[STREAM_COUNT] = {
     [STREAM_WARNING] = "file-warning", [STREAM_FATAL] = "file-fatal",
     [STREAM_RENDER] = "file-render",   [STREAM_STATISTIC] = "file-statistic",
 };
+
+static void put(struct cmd *c, enum stream own, const char *text)
+{
+    if (c->stream[own])
+        fputs(text, c->stream[own]);
+    if (c->stream[STREAM_ALL])
+        fputs(text, c->stream[STREAM_ALL]);
+}
 
 int streams_open(struct cmd *c)
 {
@@ -19,7 +28,21 @@ int streams_open(struct cmd *c)
             return cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path,
                             strerror(errno));
     }
+    c->streams_open = true;
+    if (c->held)
+        put(c, STREAM_WARNING, c->held);
     return CMD_OK;
+}
+
+void streams_warn(struct cmd *c, const char *line)
+{
+    if (c->streams_open) {
+        put(c, STREAM_WARNING, line);
+        return;
+    }
+    char *all = text_format("%s%s", c->held ? c->held : "", line);
+    free(c->held);
+    c->held = all;
 }
 
 void streams_write(struct cmd *c, const struct lambert_message *m)
@@ -28,11 +51,7 @@ void streams_write(struct cmd *c, const struct lambert_message *m)
                                      [LAMBERT_WARNING] = STREAM_WARNING,
                                      [LAMBERT_ERROR] = STREAM_FATAL,
                                      [LAMBERT_SCENE_TEXT] = STREAM_DEBUG};
-    FILE *own = c->stream[of[m->kind]];
-    if (own)
-        fputs(m->rendered, own);
-    if (c->stream[STREAM_ALL])
-        fputs(m->rendered, c->stream[STREAM_ALL]);
+    put(c, of[m->kind], m->rendered);
 }
 
 int streams_close(struct cmd *c)

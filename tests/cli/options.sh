@@ -76,6 +76,12 @@ want='20 10' check "an INI file" size t.ini
 want='200 10' check "a section of it" size 't.ini[BIG]'
 want='30 10' check "the line after the INI file wins" size t.ini +W30
 want='20 11' check "the INI file after the line wins" size +W30 t.ini +H11
+no_section() { exits 0 "$lambert" sphere.pov 't.ini[huge]' +W4 +H3 -q -o a.png +GWwarned && has err "t.ini has no section \[huge\]; it has \[big\], \[tiny\]" && cmp err warned; }
+check "a section that is not there is named, with those that are" no_section
+no_switch() { exits 0 "$lambert" sphere.pov Antialias=maybe +W4 +H3 -o a.png +GAall && has err "'maybe' is no value for Antialias" && has all "'maybe' is no value"; }
+check "a value that is neither on nor off is told" no_switch
+no_folder() { exits 0 "$lambert" sphere.pov +Lnowhere +W4 +H3 -o a.png +GWwarned && has err "library path 'nowhere'" && has warned "library path 'nowhere'"; }
+check "a library path that is not there is told, in the file for warnings, too" no_folder
 povini() { POVINI=t.ini size "$@"; }
 want='20 10' check "POVINI" povini
 echo 'Widht=3' >bad.ini
