@@ -10,15 +10,48 @@
 // The readers that shapes use (scene/args.h). Numbers and vectors written out are
 // taken straight from the AST: a mesh has millions of them.
 
+// A sign that was meant to begin the value that is missing is taken for a sum with the one
+// before: y -1.
+static const char *joined_hint(const struct args *a)
+{
+    if (!a->last)
+        return NULL;
+    const struct span where = a->last->where;
+    const char *text = a->b->e->sources->file[where.file]->text;
+    int depth = 0;
+    for (uint32_t i = where.begin; i + 1 < where.end; i++) {
+        depth += text[i] == '<' || text[i] == '(';
+        depth -= text[i] == '>' || text[i] == ')';
+        if (depth == 0 && i > where.begin && (text[i] == '-' || text[i] == '+') &&
+            text[i - 1] == ' ' && text[i + 1] != ' ')
+            return "a ',' before a sign keeps what is in front of it apart";
+    }
+    return NULL;
+}
+
+// Names of types of picture files that only their extensions have, and all other names.
+static const char *name_hint(struct args *a, const struct ast *n)
+{
+    if (strncmp(a->name, "image", 5) == 0 && n->len == 3 &&
+        memcmp(n->text, "jpg", 3) == 0)
+        return "did you mean 'jpeg'?";
+    if (strncmp(a->name, "image", 5) == 0 && n->len == 3 &&
+        memcmp(n->text, "tif", 3) == 0)
+        return "did you mean 'tiff'?";
+    return undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL);
+}
+
 bool args_expected(struct args *a, const char *role, const char *type)
 {
     const struct ast *n = a->at;
-    if (n && n->kind == AST_UNDECLARED)
-        diag_hint(args_diags(a), DIAG_UNKNOWN_NAME, args_span(a),
-                  undeclared_hint(a->b->e, n->text, n->len, UNDECLARED_VALUE, NULL),
+    if (n && n->kind == AST_VALUE && !n->value)
+        args_next(a); // already reported
+    else if (n && n->kind == AST_UNDECLARED)
+        diag_hint(args_diags(a), DIAG_UNKNOWN_NAME, args_span(a), name_hint(a, n),
                   arena_strndup(a->b->e->parse, n->text, n->len), a->name);
     else
-        diag_at(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), a->name, role, type);
+        diag_hint(args_diags(a), DIAG_EXPECTED_ARG, args_span(a), joined_hint(a), a->name,
+                  role, type);
     args_fail(a);
     return false;
 }
@@ -286,11 +319,16 @@ bool args_find_file(struct args *a, const char *role, const char *name,
         return true;
     if (extension && (!dot || (slash && dot < slash))) {
         const char *sign = extension[0] == '.' ? "" : ".";
-        if (find_name(a, arena_printf(a->b->arena, "%s%s%s", name, sign, extension), path))
+        if (find_name(a, arena_printf(a->b->arena, "%s%s%s", name, sign, extension),
+                      path))
             return true;
     }
-    diag_hint(args_diags(a), DIAG_NO_FILE, a->owner->where, file_hint(a->b->e), a->name,
-              role, name);
+    const struct ast *at = a->owner->list;
+    while (at && !(at->kind == AST_STRING && at->len == strlen(name) &&
+                   memcmp(at->text, name, at->len) == 0))
+        at = at->next;
+    diag_hint(args_diags(a), DIAG_NO_FILE, (at ? at : a->owner)->where,
+              file_hint(a->b->e), a->name, role, name);
     args_fail(a);
     return false;
 }

@@ -57,6 +57,7 @@ struct args {
     const char *name;        // its keyword, for messages
     struct args *parent;     // whose `failed` is set too
     bool failed;
+    const struct ast *last; // the item taken before `at`; NULL: none
 };
 
 struct args args_of(struct builder *b, const struct ast *block, struct args *parent);

@@ -9,7 +9,8 @@
 struct args args_list(struct builder *b, const struct ast *items, const struct ast *owner,
                       const char *name, struct args *parent)
 {
-    return (struct args){b, items, owner, name, parent, false};
+    return (struct args){
+        .b = b, .at = items, .owner = owner, .name = name, .parent = parent};
 }
 
 struct args args_of(struct builder *b, const struct ast *block, struct args *parent)
@@ -49,8 +50,10 @@ enum word args_at_block(const struct args *a)
 const struct ast *args_next(struct args *a)
 {
     const struct ast *n = a->at;
-    if (n)
+    if (n) {
         a->at = n->next;
+        a->last = n;
+    }
     return n;
 }
 
@@ -118,9 +121,23 @@ static const char *item_name(struct args *a, const struct ast *n)
     return NULL;
 }
 
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t n = strlen(text), m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
 // What was likely meant by an item that has no place; NULL: nobody knows.
 static const char *misplaced_hint(const struct args *a, const struct ast *n)
 {
+    if (n->kind == AST_VALUE && n->value && n->value->kind != VALUE_NUMBER)
+        return arena_printf(a->b->e->parse, "it is a %s", value_kind_name(n->value));
+    if (ends_with(a->name, "_map") && n->kind == AST_NUMBER)
+        return "entries stand in brackets, as in [0.5 rgb 1]";
+    if (n->kind == AST_WORD && n->word == WORD_contained_by)
+        return "a '{' is missing after it";
+    if (n->kind == AST_WORD && n->word == WORD_type && strcmp(a->name, "fog") == 0)
+        return "did you mean 'fog_type'?";
     const bool pigment = strcmp(a->name, "pigment") == 0,
                texture = strcmp(a->name, "texture") == 0;
     if (n->kind == AST_CONSTANT &&
@@ -159,6 +176,8 @@ void args_unknown(struct args *a, const enum word *known, size_t count)
                   a->name);
     } else {
         diag_hint(args_diags(a), DIAG_EXTRA_ARG, n->where, misplaced_hint(a, n), a->name);
+        if (ends_with(a->name, "_map")) // of which nothing is in brackets
+            a->at = NULL;
     }
     args_fail(a);
     args_skip(a);

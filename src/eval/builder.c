@@ -288,6 +288,23 @@ static bool sky(struct builder *b, struct args *a, const struct ast *n)
     return b->e->scene->sky;
 }
 
+// Where a block belongs that stands alone.
+static const char *statement_hint(struct builder *b, int word, const char *text)
+{
+    switch (word) {
+    case WORD_texture:
+    case WORD_pigment:
+    case WORD_normal:
+    case WORD_finish:
+    case WORD_interior:
+    case WORD_material:
+        return arena_printf(
+            b->e->parse, "it belongs in an object, or has a name: #declare NAME = %s { }",
+            text);
+    default: return NULL;
+    }
+}
+
 static bool block_statement(struct builder *b, struct args *a, const struct ast *n)
 {
     switch (n->word) {
@@ -303,8 +320,9 @@ static bool block_statement(struct builder *b, struct args *a, const struct ast 
     case WORD_max_intersections: return build_old_setting(a);
     default: break;
     }
-    diag_at(b->e->diags, DIAG_UNKNOWN_ITEM, n->where, word_text((enum word)n->word),
-            "scene");
+    const char *word = word_text((enum word)n->word);
+    diag_hint(b->e->diags, DIAG_UNKNOWN_STATEMENT, n->where,
+              statement_hint(b, n->word, word), word);
     return false;
 }
 

@@ -427,7 +427,9 @@ bool ast_is_number(const struct ast *n)
         return n->op == OP_FAILED || (n->value && n->value->kind == VALUE_NUMBER);
     case AST_CALL: return !word_is_string_function(n->word);
     case AST_INDEX:
-        return n->value->kind == VALUE_ARRAY && n->value->array->kind == VALUE_NUMBER;
+        return n->value->kind == VALUE_ARRAY &&
+               (n->value->array->kind == VALUE_NUMBER ||
+                n->value->array->kind == VALUE_NONE); // whose evaluation says so
     default: return false;
     }
 }

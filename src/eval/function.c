@@ -623,8 +623,9 @@ bool eval_apply(struct eval *e, const struct ast *n, double out[5], int *width)
     const struct tape *f = function_tape(e, n->value);
     int count = count_list(n->list), i = 0;
     if (count != tape_arguments(f)) {
-        diag_at(e->diags, DIAG_CALL_ARGUMENTS, n->where,
-                arena_printf(e->parse, "%.*s", (int)n->len, n->text), count);
+        diag_hint(e->diags, DIAG_CALL_ARGUMENTS, n->where,
+                  arena_printf(e->parse, "it takes %d", tape_arguments(f)),
+                  arena_printf(e->parse, "%.*s", (int)n->len, n->text), count);
         return false;
     }
     for (const struct ast *a = n->list; a; a = a->next)

@@ -369,9 +369,14 @@ static enum word unknown(struct stream *s, struct token word)
         "range", "read", "render", "statistics", "switch", "undef", "version", "warning",
         "while", "write"};
     const char *near = NULL;
-    if (word.len == 2 && memcmp(word.text, "fi", 2) == 0) // of shells, not a slip for #if
-        near = "end";
-    else if (word.len)
+    static const char *const foreign[][2] = { // not slips for what is closest to them
+        {"fi", "end"}, {"endif", "end"}, {"elif", "elseif"},
+        {"set", "declare"}, {"define", "declare"}, {"import", "include"}};
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        if (word.len == strlen(foreign[i][0]) &&
+            memcmp(word.text, foreign[i][0], word.len) == 0)
+            near = foreign[i][1];
+    if (!near && word.len)
         near = diag_closest(word.text, word.len, names, sizeof names / sizeof *names);
     const char *hint = near ? arena_printf(s->nodes, "did you mean '#%s'?", near) : NULL;
     diag_hint(s->diags, DIAG_UNKNOWN_DIRECTIVE, word.where, hint, (int)word.len, word.text);

@@ -1,4 +1,5 @@
 // What the grammar finds wrong, in words, and what may have been meant.
+#include <ctype.h>
 #include <string.h>
 
 #include "lang/parse.h"
@@ -58,13 +59,13 @@ void parse_unknown_word(struct stream *s, const struct token *t, bool call)
 static const char *token_text(struct parse *p, const struct token *t)
 {
     switch (t->kind) {
-    case TOK_END: return "the end of the file";
-    case TOK_NUMBER: return "a number";
-    case TOK_STRING: return "a string";
+    case TOK_END: return "end of the file";
+    case TOK_NUMBER: return "number";
+    case TOK_STRING: return "string";
     case TOK_BULK: return "vectors";
     case TOK_NAME:
         if (!t->len)
-            return "an expression";
+            return "expression";
         // fallthrough
     default: return arena_printf(p->arena, "'%.*s'", (int)t->len, t->text);
     }
@@ -104,17 +105,86 @@ static void expected_text(char *out, size_t size, const int *kinds, int count)
                                 found[i]);
 }
 
+static bool among(int kind, const int *expected, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (expected[i] == kind)
+            return true;
+    return false;
+}
+
 // What people used to other languages write; NULL: something else.
-static const char *habit_hint(int kind, int last)
+static const char *habit_hint(int kind, int last, const int *expected, int count)
 {
     if (kind == '=' && last == '=')
         return "equality is written with one '='";
     if ((kind == '&' || kind == '|') && last == kind)
         return "'and' is one '&', 'or' is one '|'";
+    if (kind == '=' && (last == TOK_WORD))
+        return "a setting's value follows its name, without a '='";
+    if (kind == ';' && among('}', expected, count))
+        return "items in braces have no ';' between them";
+    if (kind == ',' && among(')', expected, count))
+        return "the parts of a vector are written in < >";
+    if ((kind == TOK_NAME || kind == TOK_WORD) && among(TOK_STRING, expected, count) &&
+        !among(TOK_NUMBER, expected, count))
+        return "strings, as names of files, are written in double quotes";
+    if (kind == TOK_STRING && last == '+')
+        return "concat() joins strings";
     if (kind == '+' && (last == TOK_STRING || last == TOK_STRING_NAME))
         return "concat() joins strings";
     if (kind == '[' && last == TOK_NAME)
         return "what stands before it is no array";
+    return NULL;
+}
+
+// Whether a line begins with an object or another block that stands for itself.
+static bool begins_statement(const char *line, size_t n)
+{
+    static const enum word words[] = {
+        WORD_background, WORD_blob,           WORD_box,          WORD_camera,
+        WORD_cone,       WORD_cylinder,       WORD_difference,   WORD_disc,
+        WORD_fog,        WORD_height_field,   WORD_intersection, WORD_isosurface,
+        WORD_lathe,      WORD_light_source,   WORD_mesh,         WORD_mesh2,
+        WORD_object,     WORD_plane,          WORD_prism,        WORD_sky_sphere,
+        WORD_sphere,     WORD_text,           WORD_torus,        WORD_triangle,
+        WORD_union,      WORD_global_settings};
+    size_t len = 0;
+    while (len < n && (isalnum((unsigned char)line[len]) || line[len] == '_'))
+        len++;
+    size_t brace = len;
+    while (brace < n && line[brace] == ' ')
+        brace++;
+    const enum word w = word_find(line, len);
+    for (size_t i = 0;
+         brace < n && line[brace] == '{' && i < sizeof words / sizeof *words; i++)
+        if (w == words[i])
+            return true;
+    return false;
+}
+
+static size_t indentation(const char *line, size_t n)
+{
+    size_t k = 0;
+    while (k < n && (line[k] == ' ' || line[k] == '\t'))
+        k++;
+    return k;
+}
+
+// Of a block that the file ends in: the line of a statement within it that is indented no
+// deeper, before which the brace may be missing; NULL: none is.
+static const char *brace_hint(struct stream *s, const struct parse_block *b)
+{
+    struct source_file *f = s->sources->file[b->where.file];
+    struct source_line l = source_line(f, b->where.begin);
+    const size_t own = indentation(f->text + l.begin, l.end - l.begin);
+    while (l.end + 1 < f->len) {
+        l = source_line(f, l.end + 1);
+        const char *line = f->text + l.begin;
+        const size_t n = l.end - l.begin, in = indentation(line, n);
+        if (in <= own && begins_statement(line + in, n - in))
+            return arena_printf(s->nodes, "perhaps before line %u", l.number);
+    }
     return NULL;
 }
 
@@ -151,12 +221,15 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
     }
     if (t->kind == TOK_END && p->block_count) {
         const struct parse_block *b = &p->blocks[p->block_count - 1];
-        diag_report(s->diags, DIAG_UNCLOSED, t->where, &b->where, NULL,
+        diag_report(s->diags, DIAG_UNCLOSED, t->where, &b->where,
+                    b->entry ? NULL : brace_hint(s, b),
                     b->entry ? "[" : word_text(b->word), b->entry ? "]" : "}");
         return;
     }
+    if (t->kind == TOK_END && s->diags->errors)
+        return; // a string that has no end has taken the rest
     char text[256];
     expected_text(text, sizeof text, expected, count);
-    diag_hint(s->diags, DIAG_UNEXPECTED, t->where, habit_hint(t->kind, last->kind),
-              token_text(p, t), text);
+    diag_hint(s->diags, DIAG_UNEXPECTED, t->where,
+              habit_hint(t->kind, last->kind, expected, count), token_text(p, t), text);
 }
