@@ -2,6 +2,8 @@
 // first, and what is found waits unsorted until there is too much of it: then the nearest
 // are told from the others by bisecting the distance. All instruction sets find the same
 // photons in the same order.
+#include <float.h>
+
 #include "math/isa.h"
 #include "math/lanes_vec.h"
 #include "trace/photon_search.h"
@@ -161,65 +163,112 @@ static void leaf(struct photon_search *s, uint32_t at)
         nearest(s);
 }
 
-// No photon of a box is nearer than this.
-LANES_INLINE struct real8 box_distance2(const struct photon_search *s,
-                                        const struct photon_node *b)
+// What tests of boxes read of a search: single precision, which errs on the near side.
+struct box_search {
+    struct float8 p[3], slack[3]; // of coordinates, for the rounding of p
+    struct float8 n[3], across[3];
+    struct float8 off; // what is lost of distances off the plane, of p's rounding
+    bool flat;
+};
+
+// More than the operations on floats here lose, of what they are made of.
+static const float box_rounding = 0x1p-20f;
+
+LANES_INLINE struct box_search box_search_of(const struct photon_search *s)
 {
-    static const double rounding = 0x1p-40; // more than the operations here lose
-    const struct real8 zero = r8_set(0), half = r8_set(.5);
-    struct real8 d2 = zero, middle = zero, across = zero, size = zero;
+    struct box_search b = {.flat = s->flat};
+    float off = 0;
     for (int a = 0; a < 3; a++) {
-        const struct real8 p = r8_set(s->p[a]);
-        const struct real8 low = r8_sub(load(b->low[a]), p),
-                           high = r8_sub(load(b->high[a]), p);
-        // Rounding keeps order: without a normal this needs no slack.
-        const struct real8 out = r8_max(low, r8_max(r8_neg(high), zero));
-        d2 = r8_add(d2, r8_mul(out, out));
+        const float p = (float)s->p[a], n = (float)s->n[a];
+        const float slack = box_rounding * fabsf(p);
+        b.p[a] = f8_set(p);
+        b.slack[a] = f8_set(slack);
+        b.n[a] = f8_set(0.5f * n);
+        b.across[a] = f8_set(0.5f * fabsf(n));
+        off += slack;
+    }
+    b.off = f8_set(off);
+    return b;
+}
+
+// No photon of a box is nearer than this.
+LANES_INLINE struct float8 box_distance2(const struct box_search *s,
+                                         const struct photon_node *b)
+{
+    const struct float8 zero = f8_set(0), one = f8_set(1);
+    struct float8 d2 = zero, middle = zero, across = zero, size = zero;
+    for (int a = 0; a < 3; a++) {
+        const struct float8 low = f8_sub(f8_load(b->low[a]), s->p[a]),
+                            high = f8_sub(f8_load(b->high[a]), s->p[a]),
+                            under = f8_sub(zero, high);
+        const struct float8 far = f8_max(low, under);
+        const struct float8 out = f8_max(f8_sub(far, s->slack[a]), zero);
+        d2 = f8_add(d2, f8_mul(out, out));
         if (s->flat) {
-            const struct real8 n = r8_set(s->n[a]), m = r8_abs(n);
-            middle = r8_add(middle, r8_mul(r8_mul(n, r8_add(low, high)), half));
-            across = r8_add(across, r8_mul(r8_mul(m, r8_sub(high, low)), half));
-            size = r8_add(size, r8_mul(m, r8_max(r8_abs(low), r8_abs(high))));
+            middle = f8_add(middle, f8_mul(s->n[a], f8_add(low, high)));
+            across = f8_add(across, f8_mul(s->across[a], f8_sub(high, low)));
+            size = f8_add(size, f8_max(far, f8_max(high, f8_sub(zero, low))));
         }
     }
+    d2 = f8_mul(d2, f8_set(1 - box_rounding));
     if (!s->flat)
         return d2;
-    const struct real8 off =
-        r8_sub(r8_sub(r8_abs(middle), across), r8_mul(r8_set(rounding), size));
-    return r8_mul(
-        r8_mul(d2, r8_add(r8_set(1), r8_mul(r8_set(flatness), r8_max(off, zero)))),
-        r8_set(1 - rounding));
+    const struct float8 lost = f8_add(f8_mul(f8_set(box_rounding), size), s->off);
+    const struct float8 off =
+        f8_sub(f8_sub(f8_max(middle, f8_sub(zero, middle)), across), lost);
+    return f8_mul(d2, f8_add(one, f8_mul(f8_set((float)flatness), f8_max(off, zero))));
 }
 
 struct entry {
-    double d2;
+    float d2;
     uint32_t level, at; // a leaf's is UINT32_MAX
 };
 
-// Puts the children of a node on the stack, the nearest on top.
-static int children(const struct photon_search *s, struct entry e, struct entry *stack,
-                    int top)
+// Where what lies behind an entry begins.
+LANES_INLINE void fetch(const struct photon_tree *t, uint32_t level, uint32_t at)
 {
-    const struct real8 d2 = box_distance2(s, &s->tree->level[e.level][e.at]);
-    unsigned in = m8_bits(r8_le(d2, r8_set(s->limit2)));
-    double d[8];
-    r8_store(d, d2);
-    const unsigned all = in;
-    for (; in; in &= in - 1) {
+    const char *p = level == UINT32_MAX ? (const char *)&t->leaf[at]
+                                        : (const char *)&t->level[level][at];
+    __builtin_prefetch(p);
+    __builtin_prefetch(p + 64);
+}
+
+// The children of a node that may hold photons within the limit. Numbers beyond floats are
+// taken as the largest: what is near is left to doubles.
+LANES_INLINE unsigned in_limit(const struct photon_search *s, const struct photon_node *n,
+                               struct float8 d2)
+{
+    static const double slack = 1 + 0x1p-20, most = FLT_MAX;
+    const double limit = s->limit2 * slack + (double)FLT_MIN;
+    const unsigned any = f8_le(f8_load(n->low[0]), f8_load(n->high[0]));
+    return limit < most ? f8_le(d2, f8_set((float)limit)) & any : any;
+}
+
+// Puts the children of a node on the stack, the nearest on top.
+static int children(const struct photon_search *s, const struct box_search *b,
+                    struct entry e, struct entry *stack, int top)
+{
+    const struct photon_node *n = &s->tree->level[e.level][e.at];
+    const struct float8 d2 = box_distance2(b, n);
+    const unsigned all = in_limit(s, n, d2);
+    float d[8];
+    f8_store(d, f8_min(d2, f8_set(FLT_MAX)));
+    for (unsigned in = all; in; in &= in - 1) {
         // Below it are those that are farther, and of those as far the ones before it.
         const int i = __builtin_ctz(in);
-        const struct real8 own = r8_set(d[i]);
-        const unsigned below = (m8_bits(r8_lt(own, d2)) & all) |
-                               (m8_bits(r8_eq(own, d2)) & all & ((1u << i) - 1));
-        stack[top + __builtin_popcount(below)] =
-            (struct entry){d[i], e.level - 1, 8 * e.at + (uint32_t)i};
+        const struct float8 own = f8_set(d[i]);
+        const unsigned far = f8_le(own, d2), farther = ~f8_le(d2, own);
+        const unsigned below = ((far & farther) | (far & ((1u << i) - 1))) & all;
+        const uint32_t at = 8 * e.at + (uint32_t)i;
+        stack[top + __builtin_popcount(below)] = (struct entry){d[i], e.level - 1, at};
+        fetch(s->tree, e.level - 1, at);
     }
-    top += __builtin_popcount(all);
-    return top;
+    return top + __builtin_popcount(all);
 }
 
 void OF_ISA(photon_search_)(struct photon_search *s)
 {
+    const struct box_search b = box_search_of(s);
     struct entry stack[8 * PHOTON_LEVELS];
     int top = 0;
     s->count = 0;
@@ -227,12 +276,12 @@ void OF_ISA(photon_search_)(struct photon_search *s)
         stack[top++] = (struct entry){0, s->tree->levels - 1, 0};
     while (top) {
         const struct entry e = stack[--top];
-        if (e.d2 > s->limit2)
+        if ((double)e.d2 > s->limit2)
             continue;
         if (e.level == UINT32_MAX)
             leaf(s, e.at);
         else
-            top = children(s, e, stack, top);
+            top = children(s, &b, e, stack, top);
     }
     if (s->count > s->most)
         nearest(s);

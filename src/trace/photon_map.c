@@ -233,10 +233,19 @@ uint32_t photons_near(const struct photon_map *m, struct vec3 p, struct vec3 nor
                               .most = near->most,
                               .distance2 = near->distance2,
                               .photon = near->photon};
+    static const double more = 1.3; // than where the last place had enough
+    const double limit2 = s.limit2;
     *reach = radius;
     if (!near->most)
         return 0;
+    if (near->likely2 > 0 && near->likely2 < limit2)
+        s.limit2 = near->likely2;
     m->search(&s);
+    if (s.count < near->most && s.limit2 < limit2) {
+        s.limit2 = limit2;
+        m->search(&s);
+    }
+    near->likely2 = s.count == near->most ? more * s.limit2 : 0;
     if (s.count == near->most)
         *reach = sqrt(s.limit2);
     return s.count;

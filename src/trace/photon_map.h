@@ -34,6 +34,7 @@ struct photon_map {
 struct photon_near {
     uint32_t most, *photon;
     double *distance2;
+    double likely2; // within which, squared, as many as wanted are likely; 0: not known
     bool sparse; // the radius held too few last time: the grown one is searched at once
 };
 
