@@ -181,6 +181,7 @@ static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
 %token STRAY STOP
 %token LE "<=" GE ">=" NE "!=" LESS GREATER
 %token MORE                     // a ']' with '[' after it
+%token PLUS MINUS               // signs that begin a value (language 1.0)
 %token <size_t> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
 %token <size_t> FUNCTION ARRAY
 %token LITERAL                  // a whole block (lang/literal.h)
@@ -433,6 +434,8 @@ arith:
 unary:
     '-' unary                { $$ = unary(p, @$, '-', $2); }
   | '+' unary                { $$ = unary(p, @$, '+', $2); }
+  | MINUS unary              { $$ = unary(p, @$, '-', $2); }
+  | PLUS unary               { $$ = unary(p, @$, '+', $2); }
   | '!' unary                { $$ = unary(p, @$, '!', $2); }
   | primary
   ;

@@ -42,7 +42,7 @@ struct builder {
     struct camera_state camera;            // the one in force
     struct camera_state camera_default;
     struct pattern_defaults *pattern_defaults; // filled when parsing ends
-    struct pointer_list objects, fogs, rainbows, medias;
+    struct pointer_list objects, fogs, rainbows, medias, past_defaults;
     struct pointer_list cameras; // if one of them is to be chosen
     bool gamma_set, noise_set;
     struct image_file *images; // read so far

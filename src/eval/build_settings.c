@@ -182,8 +182,6 @@ void settings_finish(struct builder *b)
     struct settings *s = &b->e->scene->settings;
     struct span nowhere = {0};
     s->version = b->e->version_seen ? b->e->version : 362;
-    if (s->version < 350)
-        s->version = 350;
     settings_noise(b);
     if (!b->gamma_set) {
         s->gamma_mode = s->version >= 370 ? GAMMA_POWER : GAMMA_NONE;

@@ -223,6 +223,7 @@ const struct texture *build_layer(struct args *a, struct span where,
         arena_new_array(a->b->arena, struct texture_layer, n + m);
     memcpy(layer, bottom->layer, n * sizeof *layer);
     memcpy(layer + n, top->layer, m * sizeof *layer);
+    layer[n].covers = true;
     *x = *bottom;
     x->layer = layer;
     x->layer_count = n + m;

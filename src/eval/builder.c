@@ -377,8 +377,14 @@ static bool default_block(struct builder *b, struct args *a, struct texture_laye
     }
 }
 
+static struct attached_texture unmoved(const struct texture *x)
+{
+    return (struct attached_texture){x, &transform_identity};
+}
+
 bool builder_defaults(struct builder *b, const struct ast *items)
 {
+    const struct past_default past = {b->objects.count, unmoved(b->default_texture)};
     static const enum word known[] = {WORD_texture, WORD_pigment,   WORD_normal,
                                       WORD_finish,  WORD_radiosity, WORD_camera};
     struct args a = args_list(b, items, NULL, "default", NULL);
@@ -393,6 +399,8 @@ bool builder_defaults(struct builder *b, const struct ast *items)
         x->layer = copied(b, &top, sizeof top);
         b->default_texture = x;
     }
+    if (b->default_texture != past.texture.texture && past.until > 0)
+        pointer_list_add(b->arena, &b->past_defaults, copied(b, &past, sizeof past));
     return !a.failed;
 }
 
@@ -414,8 +422,9 @@ bool builder_finish(struct builder *b)
     s->rainbow_count = b->rainbows.count;
     s->media = (const struct media *const *)b->medias.at;
     s->media_count = b->medias.count;
-    s->default_texture =
-        (struct attached_texture){b->default_texture, &transform_identity};
+    s->default_texture = unmoved(b->default_texture);
+    s->past_default = (const struct past_default *const *)b->past_defaults.at;
+    s->past_default_count = b->past_defaults.count;
     // The rules of the old and the new language for what shows through the sky.
     if (!s->has_background)
         s->background.transmit = 1;

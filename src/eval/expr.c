@@ -105,6 +105,12 @@ static bool vector(struct eval *e, const struct ast *n, double *out, int *width)
         if (!eval_float(e, c, &out[count++]))
             return false;
     }
+    if (count == 1) {
+        diag_hint(e->diags, DIAG_WIDTH, n->where,
+                  "write commas between them: `1 -2` is a difference",
+                  "a vector has at least 2 components");
+        return false;
+    }
     *width = count;
     return true;
 }

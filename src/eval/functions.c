@@ -9,7 +9,9 @@
 #include "base/arena.h"
 #include "eval/array.h"
 #include "eval/symbol.h"
+#include "image/texels.h"
 #include "math/elementary.h"
+#include "scene/image_map.h"
 #include "scene/noise.h"
 #include "scene/object.h"
 
@@ -294,14 +296,25 @@ static double extent(double v)
     return v > far ? far : v < -far ? -far : v + 0.0; // no -0
 }
 
+// The size in pixels of a pigment's image; of other pigments 0.
+static struct vec3 image_size(const struct pigment *p)
+{
+    if (p->kind != PIGMENT_IMAGE)
+        return vec3(0, 0, 0);
+    return vec3(p->image->texels->width, p->image->texels->height, 0);
+}
+
 static bool give_extent(struct call *c, bool max)
 {
+    const struct value *v = c->arg[0].o;
+    if (max && v && v->kind == VALUE_PIGMENT)
+        return give_vector(c, image_size(v->data));
     const struct object *o = object_argument(c);
     if (!o)
         return give_vector(c, vec3(0, 0, 0));
     struct aabb b = object_bounds(o);
-    struct vec3 v = max ? b.max : b.min;
-    return give_vector(c, vec3(extent(v.x), extent(v.y), extent(v.z)));
+    struct vec3 corner = max ? b.max : b.min;
+    return give_vector(c, vec3(extent(corner.x), extent(corner.y), extent(corner.z)));
 }
 
 // trace(OBJ, from, direction, NORMAL): NORMAL is a name that holds a vector.

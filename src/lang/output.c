@@ -104,7 +104,7 @@ void directive_version(struct stream *s, struct token word)
     if (!ok)
         return;
     if (!ended)
-        diag_at(s->diags, DIAG_OLD_SEMICOLON, word.where, 0);
+        parse_old_semicolon(s, word.where);
     s->version = v;
     s->host.version(s->host.user, word.where, v);
 }

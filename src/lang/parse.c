@@ -8,6 +8,8 @@
 #include "lang/stream_state.h"
 #include "parser.h"
 
+static const double SUM_VERSION = 1.5; // of the language, the first with sums
+
 // Whether a directive may stand in the middle of a right side after a complete
 // operand: only branches; anything else ends it (language 3.1).
 static bool directive_continues(struct stream *s)
@@ -46,6 +48,7 @@ static void note_brackets(struct parse *p, int kind)
         p->vectors++;
     else if (p->nest == 0 && kind == '>')
         p->vectors--;
+    p->parens += (kind == '(') - (kind == ')');
     p->braces += (kind == '{') - (kind == '}');
 }
 
@@ -188,6 +191,14 @@ static void take_undeclared(struct parse *p, struct token *t)
     t->len = 0; // reported
 }
 
+// Before version 1.5 there were no sums: `<1 -2 3>` has three components.
+static int sign(const struct parse *p, int kind)
+{
+    if (p->in->version >= SUM_VERSION || !p->operand || p->parens > 0)
+        return kind;
+    return kind == '-' ? TOK_MINUS : kind == '+' ? TOK_PLUS : kind;
+}
+
 int parse_token(struct parse *p, struct span *where)
 {
     if (p->now->kind < 0) { // the first: what to read
@@ -200,6 +211,7 @@ int parse_token(struct parse *p, struct span *where)
     take_next(p, t);
     if (t->kind == TOK_NAME && !t->value && t->len && !p->function)
         take_undeclared(p, t);
+    t->kind = sign(p, t->kind);
     if (t->kind != TOK_STOP) {
         note_brackets(p, t->kind);
         p->operand = completes(p, t->kind);
@@ -337,6 +349,13 @@ void parse_check_first(struct parse *p, const struct ast *n)
     }
 }
 
+void parse_old_semicolon(struct stream *s, struct span where)
+{
+    if (!s->old_semicolon)
+        diag_at(s->diags, DIAG_OLD_SEMICOLON, where, 0);
+    s->old_semicolon = true;
+}
+
 // `#declare A = 5` without the ';'. Names and array elements of other types than
 // numbers need none, which only eval can tell.
 void parse_missing_semicolon(struct parse *p, const struct ast *value)
@@ -348,8 +367,10 @@ void parse_missing_semicolon(struct parse *p, const struct ast *value)
     where.begin = where.end > where.begin ? where.end - 1 : where.end;
     bool compares = p->now->where.file == p->last->where.file && raw_kind(p->in) == '<';
     const char *hint = compares ? "a comparison here needs parentheses around it" : NULL;
-    enum diag_code code = p->in->version < 3.5 ? DIAG_OLD_SEMICOLON : DIAG_SEMICOLON;
-    diag_hint(p->in->diags, code, where, hint, 0);
+    if (p->in->version < 3.5)
+        parse_old_semicolon(p->in, where);
+    else
+        diag_hint(p->in->diags, DIAG_SEMICOLON, where, hint, 0);
     while (compares && raw_kind(p->in) != TOK_END && raw_kind(p->in) != '#' &&
            raw_kind(p->in) != '}')
         if (raw_take(p->in).kind == ';')

@@ -25,6 +25,7 @@ struct parse {
     bool after_period;
     bool failed;
     int nest;           // open ( [ {
+    int parens;         // open (
     int braces;         // open {
     int vectors;        // open < outside all of them
     struct token *last; // the token before the one looked at
@@ -58,6 +59,8 @@ struct ast *parse_finish(struct parse *p, struct ast *node);
 // After a value: it may not begin with a bare `t`, which POV-Ray takes for no value there.
 void parse_check_first(struct parse *p, const struct ast *value);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
+// A ';' that only version 3.5 and later ask for; said of the first.
+void parse_old_semicolon(struct stream *s, struct span where);
 // The kind and place of the next token, which is *p->now then.
 int parse_token(struct parse *p, struct span *where);
 

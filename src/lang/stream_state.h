@@ -83,6 +83,7 @@ struct stream {
     int runs; // of the grammar, inside each other
     double version;
     bool old_macro; // a macro below version 3.1 was reported
+    bool old_semicolon; // and a missing ';' below 3.5
     uint64_t steps; // tokens taken, those of loops and macros each time anew
     bool stopped;
 };

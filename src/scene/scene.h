@@ -54,6 +54,12 @@ struct settings {
     struct subsurface_settings subsurface;
 };
 
+// What #default named before it named something else.
+struct past_default {
+    uint32_t until; // of scene.object: its texture is that of the objects before
+    struct attached_texture texture;
+};
+
 // Everything the language described; const while rendering.
 struct scene {
     struct camera camera;
@@ -70,7 +76,9 @@ struct scene {
     uint32_t media_count;
     const struct object *const *object; // top level, in written order, lights too
     uint32_t object_count;
-    struct attached_texture default_texture;
+    struct attached_texture default_texture; // of objects that have none
+    const struct past_default *const *past_default; // in written order
+    uint32_t past_default_count;
 };
 
 #endif

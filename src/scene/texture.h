@@ -106,6 +106,7 @@ struct texture_layer {
     const struct pigment *pigment; // never NULL
     const struct normal *normal;   // NULL: none
     const struct finish *finish;   // never NULL
+    bool covers;                   // another layer
 };
 
 enum texture_kind {

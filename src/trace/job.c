@@ -157,6 +157,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .max_level = s->max_trace_level,
         .adc_bailout = s->adc_bailout,
         .old_opacity = s->version < 370,
+        .old_layers = s->version < 350,
         .see_through = settings->output_alpha,
         .ambient_light =
             settings->indirect.no_ambient ? rgb(0, 0, 0) : s->ambient_light,

@@ -45,6 +45,7 @@ struct job {
     int max_level;
     float adc_bailout;
     bool old_opacity; // the rules before 3.7
+    bool old_layers;  // and before 3.5
     bool see_through; // the background may show as alpha
     struct rgb ambient_light, irid_wavelength;
     // switched by the quality level (spec/lighting.md 14)

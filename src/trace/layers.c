@@ -120,8 +120,13 @@ void texture_walk(struct tracer *t, const struct surface_view *v, plain_function
         walk_from(&w, v->texture, v->transform, 1);
 }
 
-static void layer_color(const struct tracer *t, struct rgbft c, struct layer *out)
+static void layer_color(const struct tracer *t, const struct texture_layer *layer,
+                        struct rgbft c, struct layer *out)
 {
+    if (layer->covers && t->job->old_layers) { // what it filters is just let through
+        c.transmit += c.filter;
+        c.filter = 0;
+    }
     out->color = rgbft_rgb(c);
     out->pass = rgbft_pass(c);
     out->att = t->job->old_opacity ? 1 - (c.filter * rgb_max(out->color) + c.transmit)
@@ -160,7 +165,7 @@ void layer_eval(const struct tracer *t, const struct surface_view *v,
         c = pigment->quick_color;
     else if (pigment->kind != PIGMENT_SOLID)
         out->found = pigment_color(pigment, &here, &c);
-    layer_color(t, c, out);
+    layer_color(t, layer, c, out);
 }
 
 void layer_painted(const struct tracer *t, const struct texture_layer *layer,
@@ -169,5 +174,5 @@ void layer_painted(const struct tracer *t, const struct texture_layer *layer,
     out->finish = layer->finish;
     out->n = painted->n;
     out->found = painted->found;
-    layer_color(t, painted->color, out);
+    layer_color(t, layer, painted->color, out);
 }

@@ -39,6 +39,10 @@ static unsigned sheet_pass(const struct job *job, struct paint_sheet *s,
     const struct float8 trans = f8_load(coat->trans);
     float weight[8];
     r8_store_floats(weight, r8_load(coat->weight));
+    if (s->layer->covers && job->old_layers) {
+        f8_store(s->color[4], f8_add(f8_load(s->color[4]), f8_load(s->color[3])));
+        f8_store(s->color[3], f8_set(0));
+    }
     f8_store(s->att, opacity8(s, job->old_opacity));
     f8_store(s->trans, trans);
     memcpy(s->filter, coat->filter, sizeof s->filter);

@@ -173,8 +173,14 @@ struct world *world_build(struct arena *a, const struct scene *scene)
     b.group_parent.size = sizeof(uint32_t);
     b.pending.size = sizeof(struct pending);
     const struct context top = {.world = transform_identity, .drawn = true};
-    for (uint32_t i = 0; i < scene->object_count; i++)
+    for (uint32_t i = 0, past = 0; i < scene->object_count; i++) {
+        while (past < scene->past_default_count && scene->past_default[past]->until <= i)
+            past++;
+        b.default_texture = past < scene->past_default_count
+                                ? &scene->past_default[past]->texture
+                                : &scene->default_texture;
         world_build_top(&b, scene->object[i], &top);
+    }
     world_build_join_groups(&b);
 
     struct world *w = arena_new_struct(a, struct world);

@@ -133,7 +133,7 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                             const struct context *c)
 {
     const struct placed_texture unnamed =
-        attach(&b->scene->default_texture, &c->texture, &transform_identity);
+        attach(b->default_texture, &c->texture, &transform_identity);
     const struct placed_texture *t = c->texture.texture ? &c->texture : &unnamed;
     struct surface s = {.texture = t->texture,
                         .texture_transform = t->transform,

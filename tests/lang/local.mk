@@ -214,6 +214,10 @@ lang_scenes = \
 	%D%/337-isosurface-jump.scn \
 	%D%/338-isosurface-pattern-jump.scn \
 	%D%/339-error-undeclared-once.scn \
-	%D%/340-message-misplaced.scn
+	%D%/340-message-misplaced.scn \
+	%D%/360-image-extent.scn \
+	%D%/361-version-1-signs.scn \
+	%D%/362-error-vector-one.scn \
+	%D%/363-warning-semicolons.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

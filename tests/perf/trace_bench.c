@@ -15,7 +15,7 @@ enum { BATCH = 1024, OBJECTS_MAX = 200000 };
 
 static const struct pigment grey = {.kind = PIGMENT_SOLID, .color = {.r = .5f}};
 static const struct finish matt = {.diffuse = .6f, .old_ior = -1};
-static const struct texture_layer layer = {&grey, NULL, &matt};
+static const struct texture_layer layer = {.pigment = &grey, .finish = &matt};
 static const struct texture texture = {.layer = &layer, .layer_count = 1};
 
 struct maker {

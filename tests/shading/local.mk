@@ -269,4 +269,8 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/373-camera-mesh-edges.pov \
 	%D%/374-coincident-faces.pov \
 	%D%/375-coincident-infinite.pov \
-	%D%/380-clipped-by-height-field.pov
+	%D%/380-clipped-by-height-field.pov \
+	%D%/380-defaults-between.pov \
+	%D%/381-layers-old.pov \
+	%D%/382-mesh-normals-zero.pov \
+	%D%/383-version-1-sums.pov

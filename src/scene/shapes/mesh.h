@@ -24,6 +24,7 @@ struct mesh {
     const struct texture **texture;
     uint32_t texture_count;
     uint32_t vertex_count, normal_count, uv_count, face_count;
+    uint32_t zero_normals; // that were read and replaced
     bool solid;                 // inside_vector was given
     struct vec3 inside_vector;
     struct aabb bounds;

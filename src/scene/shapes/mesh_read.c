@@ -1,5 +1,6 @@
 // mesh { triangle {} smooth_triangle {} ... } and mesh2 { vertex_vectors {} ... }
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -20,11 +21,29 @@ static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacit
     return p;
 }
 
+// Exporters write <0, 0, 0> where faces around a vertex cancel out. As in POV-Ray that is x;
+// how many there were is said once.
+static const double zero_normal_within = 1e-10;
+
+static struct vec3 normal_read(struct mesh *m, struct vec3 n)
+{
+    if (vec3_max_abs(n) >= zero_normal_within)
+        return vec3_normalize(n);
+    m->zero_normals++;
+    return vec3(1, 0, 0);
+}
+
 static bool finish(struct mesh *m, struct args *args)
 {
     if (m->face_count == 0) {
         args_reject(args, "there are no triangles");
         return false;
+    }
+    if (m->zero_normals) {
+        char text[80];
+        snprintf(text, sizeof text, "normals without length: %u; <1, 0, 0> is taken for each",
+                 m->zero_normals);
+        args_warn(args, text);
     }
     mesh_finish(m, args_arena(args));
     return true;
@@ -121,7 +140,7 @@ static bool read_triangle(struct soup *s, struct args *block, bool smooth)
             m->normal = grown(s->arena, m->normal, m->normal_count, &s->normal_capacity,
                               sizeof *m->normal);
             m->face_normal[f][i] = m->normal_count;
-            m->normal[m->normal_count++] = vec3_normalize(n[i]);
+            m->normal[m->normal_count++] = normal_read(m, n[i]);
         }
     }
     m->face_texture = grown(s->arena, m->face_texture, f, &s->face_textures_capacity,
@@ -368,7 +387,7 @@ static bool build_mesh2(void *shape, struct args *args)
             return false;
     }
     for (uint32_t i = 0; i < m->normal_count; i++)
-        m->normal[i] = vec3_normalize(m->normal[i]);
+        m->normal[i] = normal_read(m, m->normal[i]);
     return default_indices(m, args, false, uvs, &m->face_uv) &&
            default_indices(m, args, true, normals, &m->face_normal) && finish(m, args);
 }

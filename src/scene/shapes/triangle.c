@@ -95,10 +95,13 @@ static void finish(struct triangle *s)
     s->degenerate = vec3_dot(s->face, s->face) == 0;
     if (!s->smooth)
         return;
-    int above = 0;
-    for (int i = 0; i < 3; i++)
-        above += vec3_dot(s->n[i], s->face) > 0;
-    s->degenerate |= above != 0 && above != 3;
+    int above = 0, below = 0;
+    for (int i = 0; i < 3; i++) {
+        const double d = vec3_dot(s->n[i], s->face);
+        above += d > 0;
+        below += d < 0;
+    }
+    s->degenerate |= above != 3 && below != 3;
 }
 
 static bool build(void *shape, struct args *args)
