@@ -10,6 +10,7 @@
 // long: all that the sweep takes for a surface passes. The first that passes is what the sweep
 // finds, if no other crossing lies within `slack`: then what may be is, and its batch holds
 // nothing else. The other lanes are left to the sweep.
+#include "scene/shapes/superellipsoid.h"
 #include "trace/packet_carve.h"
 
 enum {
@@ -239,6 +240,44 @@ static bool lane_spans_add(struct lane_spans *x, int lane, bool inverted,
     return true;
 }
 
+// Crossings of a convex superellipsoid, which are found in lanes.
+struct lane_ends {
+    struct superellipsoid_ends ends;
+    bool made;
+    unsigned met;
+};
+
+static void lane_ends_find(struct lane_ends *x, const struct eight *e,
+                           const struct leaf *l, unsigned lanes)
+{
+    x->made = l->ops == &superellipsoid_ops && superellipsoid_is_convex(l->shape) &&
+              (lanes & (lanes - 1));
+    if (!x->made)
+        return;
+    struct shape_rays rays;
+    struct ray8 own;
+    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    v8_store(rays.o, ray->o);
+    v8_store(rays.d, ray->d);
+    r8_store(rays.t_min, e->t_min);
+    r8_store(rays.t_max, e->t_max);
+    x->met = OF_ISA(superellipsoid_ends8_)(l->shape, &rays, lanes, &x->ends);
+}
+
+// leaf_crossings_in_csg of a lane.
+static void lane_crossings(const struct lane_ends *x, const struct packet *p,
+                           uint32_t leaf, const struct ray *ray, int lane)
+{
+    const uint32_t from = p->s->crossings.count;
+    if (!x->made) {
+        leaf_crossings_in_csg(p->w, p->s, leaf, ray);
+    } else if (x->met >> lane & 1) {
+        const double slope[2] = {x->ends.slope[0][lane], x->ends.slope[1][lane]};
+        superellipsoid_add_ends(&x->ends, lane, &p->s->crossings);
+        leaf_crossings_made(p->w, p->s, leaf, ray, from, slope);
+    }
+}
+
 // Any solid, in the lanes that meet its box.
 static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
 {
@@ -246,13 +285,15 @@ static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
     const uint32_t leaf = v->o->first_leaf + i;
     const struct leaf *l = &p->w->leaf[leaf];
     struct lane_spans x;
+    struct lane_ends ends;
+    lane_ends_find(&ends, v->e, l, lanes);
     for (int k = 0; k < LEAF_SPANS; k++)
         x.met[k] = x.in_drawn[k] = x.out_drawn[k] = 0;
     for (; lanes; lanes &= lanes - 1) {
         const int lane = __builtin_ctz(lanes);
         const struct ray ray = ray_of_lane(p, lane);
         const uint32_t from = p->s->crossings.count;
-        leaf_crossings_in_csg(p->w, p->s, leaf, &ray);
+        lane_crossings(&ends, p, leaf, &ray, lane);
         p->s->stats.leaf_tests++;
         if (!lane_spans_add(&x, lane, l->inverted, &p->s->crossings, from))
             v->unsure |= 1u << lane;

@@ -8,6 +8,20 @@
 #include "trace/accel.h"
 #include "trace/scratch.h"
 
+// The leaf owns the crossings from `from` on.
+static void take_crossings(const struct world *w, uint32_t leaf, uint32_t from,
+                           struct boundary_list *out)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    for (uint32_t i = from; i < out->count; i++) {
+        struct boundary *b = &out->at[i];
+        b->leaf = leaf;
+        b->drawn = b->drawn && l->drawn;
+        if (l->inverted && b->crossing != CROSS_TOUCH)
+            b->crossing = b->crossing == CROSS_ENTER ? CROSS_EXIT : CROSS_ENTER;
+    }
+}
+
 void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
                     struct boundary_list *out)
 {
@@ -19,13 +33,7 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
         const struct ray local = transform_inverse_ray(l->transform, ray);
         l->ops->intersect(l->shape, &local, out);
     }
-    for (uint32_t i = from; i < out->count; i++) {
-        struct boundary *b = &out->at[i];
-        b->leaf = leaf;
-        b->drawn = b->drawn && l->drawn;
-        if (l->inverted && b->crossing != CROSS_TOUCH)
-            b->crossing = b->crossing == CROSS_ENTER ? CROSS_EXIT : CROSS_ENTER;
-    }
+    take_crossings(w, leaf, from, out);
 }
 
 // Where a bound in proportion to dt is no more than this many dt, none closer is sought.
@@ -37,12 +45,14 @@ static const double MOVED_ENOUGH = 64;
 // coincide but for that are met at t that differ by it over the slope. The dt of a shape
 // with a kernel for products allows for a place that is off by GAMMA(8) of the origin's
 // size; in proportion to that, which the lanes use (packet_objects.h), is enough as well.
+// known: the slope, |normal . direction|; NULL: it is not known.
 static double moved_error(const struct world *w, const struct ray *ray,
-                          const struct ray *local, const struct boundary *b)
+                          const struct ray *local, const struct boundary *b,
+                          const double *known)
 {
     const struct leaf *l = &w->leaf[b->leaf];
-    const double error = leaf_position_error(l, vec3_max_abs(ray->o), b->t,
-                                             vec3_max_abs(ray->d));
+    const double error =
+        leaf_position_error(l, vec3_max_abs(ray->o), b->t, vec3_max_abs(ray->d));
     double most = HUGE_VAL;
     if (packet_is_product_shape(w->accel->leaf_shape[b->leaf])) {
         const double share = error / (GAMMA(8) * vec3_max_abs(local->o));
@@ -51,10 +61,11 @@ static double moved_error(const struct world *w, const struct ray *ray,
             return most;
     }
     struct surface_point at = {.p = ray_at(local, b->t)};
-    l->ops->surface(l->shape, b, at.p, &at);
+    if (!known)
+        l->ops->surface(l->shape, b, at.p, &at);
     // The direction is off by `turned` too, which counts |t| times in `error`. A crossing far away
     // comes no nearer than where the ray that turns towards it has it.
-    const double slope = fabs(vec3_dot(at.ng, local->d)),
+    const double slope = known ? *known : fabs(vec3_dot(at.ng, local->d)),
                  turned = GAMMA(32) * vec3_max_abs(ray->d) * l->stretch;
     const double dt =
         fmin(most, error / (fmax(slope, GAMMA(12) * vec3_max_abs(local->d)) + turned));
@@ -83,21 +94,36 @@ struct boundary boundary_as_shape_has_it(const struct trace_scratch *s,
     return own;
 }
 
-void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
-                           const struct ray *ray)
+// The errors of crossings from `from` on cover the rounding of the leaf's transform, too.
+static void widen_crossings(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                            const struct ray *ray, uint32_t from, const double *slope)
 {
     const struct leaf *l = &w->leaf[leaf];
     struct boundary_list *out = &s->crossings;
-    const uint32_t from = out->count;
-    leaf_crossings(w, leaf, ray, out);
     if (l->transform->identity || out->count == from)
         return;
     const struct ray local = transform_inverse_ray(l->transform, ray);
     for (uint32_t i = from; i < out->count; i++) {
-        const double moved = moved_error(w, ray, &local, &out->at[i]);
+        const double moved =
+            moved_error(w, ray, &local, &out->at[i], slope ? &slope[i - from] : NULL);
         keep_own_dt(s, &out->at[i]);
         out->at[i].dt += moved;
     }
+}
+
+void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                           const struct ray *ray)
+{
+    const uint32_t from = s->crossings.count;
+    leaf_crossings(w, leaf, ray, &s->crossings);
+    widen_crossings(w, s, leaf, ray, from, NULL);
+}
+
+void leaf_crossings_made(const struct world *w, struct trace_scratch *s, uint32_t leaf,
+                         const struct ray *ray, uint32_t from, const double *slope)
+{
+    take_crossings(w, leaf, from, &s->crossings);
+    widen_crossings(w, s, leaf, ray, from, slope);
 }
 
 // ---- collecting ---------------------------------------------------------------------
@@ -365,8 +391,8 @@ bool sweep_object(const struct world *w, struct trace_scratch *s, uint32_t objec
         double reach = l->at[i].t + l->at[i].dt;
         s->batch++;
         // A shape of infinite size may give a t that is no number: it ends a batch.
-        for (end = i; end < l->count &&
-                      (end == i || l->at[end].t - l->at[end].dt <= reach);
+        for (end = i;
+             end < l->count && (end == i || l->at[end].t - l->at[end].dt <= reach);
              end++) {
             const struct boundary *b = &l->at[end];
             reach = b->t + b->dt > reach ? b->t + b->dt : reach;

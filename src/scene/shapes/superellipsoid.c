@@ -38,9 +38,9 @@ static double norm2(double a, double b, const struct exponent *p, double *da, do
     const double big = turned ? b : a, small = turned ? a : b;
     double c = 1, by_big = 1, by_small = 0;
     if (small > 0x1p-1000 * big) {
-        const double q = small / big, w = power(q, p);
-        c = root(1 + w, p);
-        by_big = c / (1 + w);
+        const double q = small / big, w = power(q, p), sum = 1 + w;
+        c = sum > 1 ? root(sum, p) : 1;
+        by_big = c / sum;
         by_small = by_big * w / q;
     }
     *da = turned ? by_small : by_big;
@@ -171,9 +171,20 @@ static void convex(const struct line *l, double a, double b, struct boundary_lis
     add(l, last, slope_b, CROSS_EXIT, out);
 }
 
-static bool is_convex(const struct superellipsoid *s)
+bool superellipsoid_is_convex(const struct superellipsoid *s)
 {
     return s->p.p >= 1 && s->q.p >= 1;
+}
+
+void superellipsoid_add_ends(const struct superellipsoid_ends *e, int lane,
+                             struct boundary_list *out)
+{
+    for (int k = 0; k < 2; k++)
+        *boundary_list_add(out, 0, 0, CROSS_TOUCH, 0) =
+            (struct boundary){.t = e->t[k][lane],
+                              .dt = e->dt[k][lane],
+                              .crossing = k ? CROSS_EXIT : CROSS_ENTER,
+                              .drawn = 1};
 }
 
 static bool is_concave(const struct superellipsoid *s)
@@ -411,7 +422,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     const struct ray whole = {ray->o, ray->d, -HUGE_VAL, HUGE_VAL};
     struct walk w;
     struct bracket x;
-    if (is_convex(shape)) {
+    if (superellipsoid_is_convex(shape)) {
         const struct line l = line_of(shape, ray);
         double a, b;
         if (in_cube(&l, &a, &b))
@@ -520,7 +531,7 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          const struct shape_rays *rays, unsigned lanes, bool any,
                          struct shape_hits *out)
 {
-    if (is_convex(shape))
+    if (superellipsoid_is_convex(shape))
         return k->superellipsoid(shape, rays, lanes, any, out);
     return closest_sampled(k, shape, rays, lanes, any, out);
 }

@@ -24,6 +24,27 @@ SUPERELLIPSOID_CLOSEST8(avx2)
 SUPERELLIPSOID_CLOSEST8(avx512)
 #undef SUPERELLIPSOID_CLOSEST8
 
+// Whether a line has at most two crossings.
+bool superellipsoid_is_convex(const struct superellipsoid *s);
+
+// Where eight lines enter such a one, k = 0, and leave it: as `intersect` has it, and |cosine| of
+// the normal to the line there, times the length of d.
+struct superellipsoid_ends {
+    double t[2][8], dt[2][8], slope[2][8];
+};
+// Returns those of `lanes` that cross it.
+#define SUPERELLIPSOID_ENDS8(isa)                                                        \
+    unsigned superellipsoid_ends8_##isa(const struct superellipsoid *s,                  \
+                                        const struct shape_rays *rays, unsigned lanes,   \
+                                        struct superellipsoid_ends *out);
+SUPERELLIPSOID_ENDS8(base)
+SUPERELLIPSOID_ENDS8(avx2)
+SUPERELLIPSOID_ENDS8(avx512)
+#undef SUPERELLIPSOID_ENDS8
+// Appends the two crossings of a lane.
+void superellipsoid_add_ends(const struct superellipsoid_ends *e, int lane,
+                             struct boundary_list *out);
+
 // As shape_kernels.superellipsoid_samples.
 #define SUPERELLIPSOID_SAMPLES8(isa)                                                     \
     void superellipsoid_samples8_##isa(const struct superellipsoid *s, struct vec3 o,    \

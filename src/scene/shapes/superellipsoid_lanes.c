@@ -52,15 +52,22 @@ struct samples8 {
     struct real8 f, slope;
 };
 
+// F + 1 and its gradient.
+LANES_INLINE struct vec8 gradient(const struct superellipsoid *s, struct vec8 p,
+                                  struct real8 *f)
+{
+    struct real8 dx, dy, da, dz;
+    const struct real8 a = norm2(r8_abs(p.x), r8_abs(p.y), &s->p, &dx, &dy);
+    *f = norm2(a, r8_abs(p.z), &s->q, &da, &dz);
+    return (struct vec8){r8_copysign(r8_mul(da, dx), p.x),
+                         r8_copysign(r8_mul(da, dy), p.y), r8_copysign(dz, p.z)};
+}
+
 static struct samples8 at(const struct superellipsoid *s, const struct lines8 *l,
                           struct real8 t)
 {
-    const struct vec8 p = v8_mad(l->o, t, l->u);
-    struct real8 dx, dy, da, dz;
-    const struct real8 a = norm2(r8_abs(p.x), r8_abs(p.y), &s->p, &dx, &dy);
-    const struct real8 f = norm2(a, r8_abs(p.z), &s->q, &da, &dz);
-    const struct vec8 g = {r8_copysign(r8_mul(da, dx), p.x),
-                           r8_copysign(r8_mul(da, dy), p.y), r8_copysign(dz, p.z)};
+    struct real8 f;
+    const struct vec8 g = gradient(s, v8_mad(l->o, t, l->u), &f);
     return (struct samples8){r8_sub(f, r8_set(1)), v8_dot(g, l->u)};
 }
 
@@ -100,14 +107,31 @@ static unsigned approach(const struct superellipsoid *s, const struct lines8 *l,
     return found | lanes; // a graze, where steps only halve
 }
 
+// The error of t on a line where F has that slope.
+LANES_INLINE struct real8 error_of(const struct lines8 *l, struct real8 t,
+                                   struct real8 slope)
+{
+    return r8_add(r8_div(r8_set(2 * noise), r8_max(r8_abs(slope), r8_set(0x1p-26))),
+                  r8_mul(r8_set(GAMMA(4)), r8_add(r8_abs(l->shift), r8_abs(t))));
+}
+
 LANES_INLINE unsigned put(const struct lines8 *l, const struct shape_rays *rays,
                           unsigned lanes, struct real8 t, struct real8 slope, bool exits,
                           struct shape_hits *out)
 {
-    const struct real8 dt =
-        r8_add(r8_div(r8_set(2 * noise), r8_max(r8_abs(slope), r8_set(0x1p-26))),
-               r8_mul(r8_set(GAMMA(4)), r8_add(r8_abs(l->shift), r8_abs(t))));
-    return lines8_hits(l, rays, lanes, t, dt, exits ? 255 : 0, out);
+    return lines8_hits(l, rays, lanes, t, error_of(l, t, slope), exits ? 255 : 0, out);
+}
+
+// The stretches of the lines in the cube, of the lanes that are returned.
+LANES_INLINE unsigned in_cube(const struct lines8 *l, struct real8 *a, struct real8 *b)
+{
+    struct mask8 beside = m8_of(0);
+    *a = r8_set(-2 * edge);
+    *b = r8_set(2 * edge);
+    slab(l->o.x, l->u.x, a, b, &beside);
+    slab(l->o.y, l->u.y, a, b, &beside);
+    slab(l->o.z, l->u.z, a, b, &beside);
+    return m8_bits(m8_without(r8_lt(*a, *b), beside));
 }
 
 static unsigned closest(const struct superellipsoid *s, const struct shape_rays *rays,
@@ -115,12 +139,9 @@ static unsigned closest(const struct superellipsoid *s, const struct shape_rays 
 {
     const struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
     const struct real8 zero = r8_set(0);
-    struct real8 a = r8_set(-2 * edge), b = r8_set(2 * edge);
-    struct mask8 beside = m8_of(0);
-    slab(l.o.x, l.u.x, &a, &b, &beside);
-    slab(l.o.y, l.u.y, &a, &b, &beside);
-    slab(l.o.z, l.u.z, &a, &b, &beside);
-    lanes &= m8_bits(m8_without(m8_and(r8_lt(a, b), r8_lt(l.lo, b)), beside));
+    struct real8 a, b;
+    lanes &= in_cube(&l, &a, &b);
+    lanes &= m8_bits(r8_lt(l.lo, b));
     const unsigned late = lanes & m8_bits(r8_lt(a, l.lo));
     if (late) { // a convex F that rises from above zero has no root ahead
         const struct samples8 here = at(s, &l, l.lo);
@@ -148,6 +169,39 @@ unsigned OF_ISA(superellipsoid_closest8_)(const struct superellipsoid *s,
 {
     (void)any;
     return closest(s, rays, lanes, out);
+}
+
+static void end_put(const struct superellipsoid *s, const struct lines8 *l,
+                    const struct shape_rays *rays, struct real8 t, struct real8 slope,
+                    struct superellipsoid_ends *out, int k)
+{
+    const struct vec8 d = v8_load(rays->d);
+    const struct real8 at = r8_div(r8_add(t, l->shift), l->length);
+    struct real8 f;
+    const struct vec8 n = v8_normalize(gradient(s, v8_mad(v8_load(rays->o), at, d), &f));
+    r8_store(out->t[k], at);
+    r8_store(out->dt[k], r8_div(error_of(l, t, slope), l->length));
+    r8_store(out->slope[k], r8_abs(v8_dot(n, d)));
+}
+
+// As convex of superellipsoid.c.
+unsigned OF_ISA(superellipsoid_ends8_)(const struct superellipsoid *s,
+                                       const struct shape_rays *rays, unsigned lanes,
+                                       struct superellipsoid_ends *out)
+{
+    const struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
+    struct shape_hits none = {.cancel = NULL};
+    struct real8 a, b, slope[2] = {r8_set(1), r8_set(1)};
+    lanes &= in_cube(&l, &a, &b);
+    struct real8 first = a, last = b;
+    lanes = approach(s, &l, a, b, 1, lanes, &first, &slope[0], &none);
+    if (!lanes)
+        return 0;
+    const unsigned two = approach(s, &l, b, first, -1, lanes, &last, &slope[1], &none);
+    last = r8_select(m8_of(two), last, first);
+    end_put(s, &l, rays, first, slope[0], out, 0);
+    end_put(s, &l, rays, last, slope[1], out, 1);
+    return lanes;
 }
 
 void OF_ISA(superellipsoid_samples8_)(const struct superellipsoid *s, struct vec3 o,
