@@ -7,10 +7,10 @@
 #include "scene/mesh_camera.h"
 #include "scene/pigment_tape.h"
 #include "trace/accel.h"
-#include "trace/photons.h"
 #include "trace/media.h"
 #include "trace/packet.h"
 #include "trace/paint.h"
+#include "trace/photons.h"
 #include "trace/scout.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
@@ -83,8 +83,8 @@ static void spectrum_init(struct job *job)
 static void sky_init(struct job *job)
 {
     const struct scene *s = job->scene;
-    job->has_air =
-        job->atmosphere && (s->fog_count || s->rainbow_count || job->has_media);
+    job->has_air = job->atmosphere && job->settings.purpose != RENDER_SCOUT &&
+                   (s->fog_count || s->rainbow_count || job->has_media);
     job->even_sky = !s->sky;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
@@ -121,9 +121,9 @@ static void clear_init(struct job *job, struct arena *a)
 static struct even_pass even_pass(const struct job *job, const struct surface *s)
 {
     const struct texture *x = s->texture;
-    if (s->parts || s->interior_texture || s->interior->caustics != 0 || x->kind != TEXTURE_PLAIN ||
-        x->layer_count != 1 || x->layer[0].pigment->kind != PIGMENT_SOLID ||
-        !job->pigments)
+    if (s->parts || s->interior_texture || s->interior->caustics != 0 ||
+        x->kind != TEXTURE_PLAIN || x->layer_count != 1 ||
+        x->layer[0].pigment->kind != PIGMENT_SOLID || !job->pigments)
         return (struct even_pass){false, {0, 0, 0}};
     return (struct even_pass){true, rgbft_pass(x->layer[0].pigment->color)};
 }
@@ -159,8 +159,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .old_opacity = s->version < 370,
         .old_layers = s->version < 350,
         .see_through = settings->output_alpha,
-        .ambient_light =
-            settings->indirect.no_ambient ? rgb(0, 0, 0) : s->ambient_light,
+        .ambient_light = settings->indirect.no_ambient ? rgb(0, 0, 0) : s->ambient_light,
         .irid_wavelength = s->irid_wavelength,
         .lights = q >= 2,
         .shadows = q >= 4,

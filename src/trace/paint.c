@@ -5,6 +5,7 @@
 
 #include "scene/image_map.h"
 #include "scene/pigment_tape.h"
+#include "scene/shapes/mesh.h"
 #include "trace/indirect_lanes.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
@@ -46,9 +47,14 @@ bool paint_take(struct tracer *t, uint32_t k)
     struct paint_scratch *s = t->paint;
     if (!job->paint)
         return false;
-    const uint32_t surface = job->world->leaf[t->hit->leaf[k]].surface;
+    const struct leaf *l = &job->world->leaf[t->hit->leaf[k]];
+    const uint32_t surface = l->surface;
     const struct paint_surface *p = &job->paint[surface];
     if (!p->top)
+        return false;
+    // Where samples are taken depends on the order in which hits ask; those of meshes with
+    // textures of their own ask in the order of the rays.
+    if (job->settings.purpose == RENDER_SCOUT && mesh_whole_texture(l->ops, l->shape))
         return false;
     if (s->head[p->number] == END) {
         s->seen[s->seen_count++] = surface;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "scene/shapes/mesh.h"
 #include "trace/world_build.h"
 
 // ---- inheritance -----------------------------------------------------------------
@@ -146,10 +147,15 @@ static uint32_t add_surface(struct build *b, const struct object *o,
                         .importance = c->importance};
     if (!(s.importance > 0))
         s.importance = (float)b->scene->settings.radiosity_settings.importance;
+    const struct texture *whole = mesh_whole_texture(o->ops, o->shape);
     s.parts = o->ops->texture && o->ops->texture(o->shape, 0);
     if (!c->texture.texture && c->flags & OBJECT_CUTAWAY) {
         s.parts = true;
         s.cutaway = cutaway_of(b);
+    } else if (whole) { // as if it were the object's, in the shape's own space
+        s.parts = false;
+        s.texture = whole;
+        s.texture_transform = c->world;
     }
     s.opaque = texture_is_opaque(s.texture) &&
                (!s.interior_texture || texture_is_opaque(s.interior_texture));

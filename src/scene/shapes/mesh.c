@@ -198,6 +198,12 @@ const struct texture *mesh_texture(const void *shape, uint32_t i)
     return m->face_texture && i < m->texture_count ? m->texture[i] : NULL;
 }
 
+const struct texture *mesh_whole_texture(const struct shape_ops *ops, const void *shape)
+{
+    return ops->textures_at == mesh_textures_at ? ((const struct mesh *)shape)->whole
+                                                : NULL;
+}
+
 void mesh_textures_at(const void *shape, const struct boundary *b, struct vec3 p,
                       shape_texture_visit *visit, void *user)
 {

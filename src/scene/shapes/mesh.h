@@ -18,11 +18,12 @@ struct mesh {
     struct vec3 *normal; // unit
     struct vec2 *uv;
     uint32_t (*face)[3];
-    uint32_t (*face_normal)[3]; // NULL, or face_normal[f][0] == UINT32_MAX: flat
-    uint32_t (*face_uv)[3];     // NULL: none
+    uint32_t (*face_normal)[3];  // NULL, or face_normal[f][0] == UINT32_MAX: flat
+    uint32_t (*face_uv)[3];      // NULL: none
     uint32_t (*face_texture)[3]; // NULL, or of each corner; UINT32_MAX: the object's
     const struct texture **texture;
     uint32_t texture_count;
+    const struct texture *whole; // that of all faces; NULL: they have not one and the same
     uint32_t vertex_count, normal_count, uv_count, face_count;
     uint32_t zero_normals; // that were read and replaced
     bool solid;                 // inside_vector was given
@@ -48,6 +49,8 @@ void mesh_intersect(const void *shape, const struct ray *ray, struct boundary_li
 bool mesh_closest(const void *shape, const struct ray *ray, struct boundary *out);
 void mesh_surface(const void *shape, const struct boundary *b, struct vec3 p,
                   struct surface_point *out);
+// The texture of all faces; NULL: they have not one and the same. Any shape may be asked.
+const struct texture *mesh_whole_texture(const struct shape_ops *ops, const void *shape);
 const struct texture *mesh_texture(const void *shape, uint32_t i);
 void mesh_textures_at(const void *shape, const struct boundary *b, struct vec3 p,
                       shape_texture_visit *visit, void *user);

@@ -33,6 +33,17 @@ static struct vec3 normal_read(struct mesh *m, struct vec3 n)
     return vec3(1, 0, 0);
 }
 
+static const struct texture *whole_texture(const struct mesh *m)
+{
+    const uint32_t first = m->face_texture ? m->face_texture[0][0] : UINT32_MAX;
+    bool same = first != UINT32_MAX;
+    for (uint32_t i = 0; i < m->face_count && same; i++) {
+        const uint32_t *t = m->face_texture[i];
+        same = t[0] == first && t[1] == first && t[2] == first;
+    }
+    return same ? m->texture[first] : NULL;
+}
+
 static bool finish(struct mesh *m, struct args *args)
 {
     if (m->face_count == 0) {
@@ -45,6 +56,7 @@ static bool finish(struct mesh *m, struct args *args)
                  m->zero_normals);
         args_warn(args, text);
     }
+    m->whole = whole_texture(m);
     mesh_finish(m, args_arena(args));
     return true;
 }
