@@ -226,7 +226,8 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/315-camera-mesh-width.pov \
 	%D%/316-camera-mesh-uv.pov \
 	%D%/317-camera-mesh-distance.pov \
-	%D%/318-shapes-lanes.pov %D%/376-meshes-lanes.pov %D%/319-layers-lit.pov %D%/319-pigment-functions.pov \
+	%D%/318-shapes-lanes.pov %D%/376-meshes-lanes.pov \
+	%D%/377-mesh-one-texture.pov %D%/319-layers-lit.pov %D%/319-pigment-functions.pov \
 	%D%/320-texture-sides.pov \
 	%D%/320-media-intervals-unlit.pov \
 	%D%/321-media-spot-cylinder.pov \
