@@ -21,7 +21,7 @@ echo 'sphere { 0, 1 normal { bump_map { png "text.png" } } }' >>bad.pov
 echo "bad.pov:$line:39: error: bump_map: the image 'text.png' cannot be read: " >>wanted
 line=$((line + 1))
 echo 'height_field { png "nothing.png" }' >>bad.pov
-echo "bad.pov:$line:1: error: height_field: the image file 'nothing.png' was not found" >>wanted
+echo "bad.pov:$line:20: error: height_field: the image file 'nothing.png' was not found" >>wanted
 told() { exits 1 "$lambert" check bad.pov --diagnostics=gcc; }
 check "images that cannot be read are errors" told
 each()
