@@ -39,7 +39,7 @@ static void on_message(void *user, const struct lambert_message *m)
 {
     struct cmd *c = user;
     streams_write(c, m);
-    if (m->kind == LAMBERT_SCENE_TEXT && c->quiet)
+    if (c->quiet && (m->kind == LAMBERT_SCENE_TEXT || m->kind == LAMBERT_NOTE))
         return;
     progress_end(c);
     fputs(m->rendered, stderr);

@@ -82,7 +82,9 @@ static bool write_into(const char *path, const struct byte_buffer *b,
     int fd = standard ? STDOUT_FILENO : open(path, O_WRONLY | O_CLOEXEC);
     bool ok = fd >= 0 && write_all(fd, b);
     if (!ok)
-        codec_fail(e, "cannot write '%s': %s", path, strerror(errno));
+        codec_fail(e, "cannot write %s%s%s: %s", standard ? "" : "'",
+                   standard ? "standard output" : path, standard ? "" : "'",
+                   strerror(errno));
     if (fd >= 0 && !standard)
         close(fd);
     return ok;
@@ -183,14 +185,14 @@ bool file_bytes(const char *path, struct byte_buffer *b, struct codec_error e)
 {
     FILE *f = fopen(path, "rb");
     if (!f)
-        return codec_fail(e, "cannot read '%s': %s", path, strerror(errno));
+        return codec_fail(e, "%s", strerror(errno));
     char chunk[65536];
     size_t n;
     while ((n = fread(chunk, 1, sizeof chunk, f)) > 0)
         byte_buffer_append(b, chunk, n);
     bool ok = !ferror(f) && !b->failed;
     fclose(f);
-    return ok || codec_fail(e, "cannot read '%s'", path);
+    return ok || codec_fail(e, "%s", strerror(EIO));
 }
 
 // By the first bytes: names lie.

@@ -40,7 +40,10 @@ check "equal pictures" same
 differ() { exits 1 "$lambert" compare a.png c.png --out heat && test -s heat/heat.png; }
 check "different pictures, with a heat map" differ
 check "tolerance" exits 0 "$lambert" compare a.png c.png --tolerance 100
-check "a picture that is missing" exits 66 "$lambert" compare a.png nowhere.png
+gone() { exits 66 "$lambert" compare a.png nowhere.png && test "$(cat err)" = "lambert: cannot read 'nowhere.png': No such file or directory"; }
+check "a picture that is missing" gone
+full() { "$lambert" -q sphere.pov +W9 +H6 -o - >/dev/full 2>err; test $? = 74 && has err 'cannot write standard output: No space left'; }
+check "standard output that is full" full
 # Every type by its letter, its name and from the name; the light of HDR is the same picture.
 types()
 {

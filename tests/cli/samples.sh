@@ -18,6 +18,8 @@ render() { exits 0 "$lambert" room.pov +W64 +H48 +FP "$@"; }
 # taken COUNT: samples of the last picture.
 taken() { grep -q "^irradiance cache: $1 samples" err || { sed 's/^/# /' err; return 1; }; }
 check "samples are taken" render -o taken.ppm
+silent() { render -o quiet.ppm -q && ! test -s err && cmp taken.ppm quiet.ppm; }
+check "-q says nothing of them" silent
 saved() { render -o saved.ppm +RFlight.rca +RFO +WT1 && cmp taken.ppm saved.ppm && test -s light.rca; }
 check "and written" saved
 loaded() { render -o loaded.ppm +RFlight.rca +RFI +WT3 && cmp taken.ppm loaded.ppm && taken 0; }
