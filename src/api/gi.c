@@ -9,6 +9,8 @@
 #include "base/arena.h"
 #include "irradiance/cache.h"
 #include "radiosity/radiosity.h"
+#include "scene/effects.h"
+#include "scene/texture.h"
 #include "trace/photons.h"
 
 struct gi {
@@ -219,6 +221,54 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
     return LAMBERT_OK;
 }
 
+static bool scatters(const struct media *const *media, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (media[i]->scattering_type && rgb_max(media[i]->scattering) > 0)
+            return true;
+    return false;
+}
+
+static bool has_subsurface(const struct texture *x)
+{
+    for (uint32_t i = 0; x->kind == TEXTURE_PLAIN && i < x->layer_count; i++)
+        if (x->layer[i].finish->has_subsurface)
+            return true;
+    for (uint32_t i = 0; x->kind != TEXTURE_PLAIN && i < x->map->count; i++)
+        if (has_subsurface(x->map->entry[i]))
+            return true;
+    return false;
+}
+
+// Patches light surfaces: says, once each, what of the scene they do not light.
+static void warn_unlit(struct lambert_context *ctx)
+{
+    const struct world *w = ctx->world;
+    const struct scene *scene = w->scene;
+    bool media = scatters(scene->media, scene->media_count), below = false;
+    struct span at_media = {0}, at_below = {0};
+    for (uint32_t i = 0; i < w->leaf_count; i++) {
+        const struct surface *s = &w->surface[w->leaf[i].surface];
+        const struct span where = w->object[w->leaf[i].object].source->where;
+        if (!media && scatters(s->interior->media, s->interior->media_count)) {
+            media = true;
+            at_media = where;
+        }
+        if (!below && scene->settings.subsurface.on && has_subsurface(s->texture)) {
+            below = true;
+            at_below = where;
+        }
+    }
+    if (media)
+        diag_at(&ctx->diags, DIAG_BLOCK_WARNING, at_media, "media",
+                "with --gi=radiosity light_sources alone light media, not what glows or "
+                "reflects; nor do media dim light between patches");
+    if (below)
+        diag_at(&ctx->diags, DIAG_BLOCK_WARNING, at_below, "subsurface",
+                "with --gi=radiosity the light of light_sources alone goes below "
+                "surfaces; that of patches is reflected as by a matt surface");
+}
+
 static enum lambert_status patches_prepare(struct lambert_context *ctx,
                                            struct render_settings *settings,
                                            struct gi **out)
@@ -275,6 +325,8 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
           settings->quality >= BEST_QUALITY))
         return LAMBERT_OK;
     warn_missing(ctx);
+    if (patches)
+        warn_unlit(ctx);
     return patches ? patches_prepare(ctx, settings, out)
                    : cache_prepare(ctx, settings, out);
 }

@@ -30,13 +30,14 @@ static struct rgb mesh_light(const struct radiosity *r, struct tracer *t,
 static struct rgb gathered_light(const struct radiosity *r, struct tracer *t,
                                  struct vec3 o, struct vec3 n, uint32_t hash)
 {
+    const struct world *w = r->patches->job->world; // as patches see it
     double sum[3] = {0, 0, 0};
     for (uint32_t k = 0; k < r->settings.gather; k++) {
         double s[4], own[3];
         sobol_point(k, hash, s);
         const struct vec3 d = cosine_direction(n, s[0], s[1]);
         const struct ray_query q = {{o, d, 0, INFINITY}, OBJECT_NO_RADIOSITY};
-        const struct hit hit = trace_closest_1(t->job->world, t->scratch, &q);
+        const struct hit hit = trace_closest_1(w, t->scratch, &q);
         if (!(hit.b.t < INFINITY))
             continue;
         const uint32_t e = patch_of_hit(r->patches, t->scratch, &q.ray, &hit);

@@ -70,8 +70,9 @@ static const char *solver_for(const struct radiosity_options *s, uint32_t n)
 {
     if (strcmp(s->solver.solver, "auto") != 0)
         return s->solver.solver;
-    return n <= DENSE_MOST && factors_bytes(n) <= memory_limit(s) ? "gauss-seidel"
-                                                                  : "stochastic";
+    // A number of rays means the solver that sends them.
+    const bool dense = !s->solver.rays && n <= DENSE_MOST;
+    return dense && factors_bytes(n) <= memory_limit(s) ? "gauss-seidel" : "stochastic";
 }
 
 // Bytes a solver takes besides the elements.
@@ -223,6 +224,7 @@ struct radiosity *radiosity_new(const struct job *job,
     r->settings.patches.watch = r->settings.factors.watch = r->settings.solver.watch =
         settings->watch;
     r->report.error = -1;
+    job = clear_left_out(job, &r->clear);
     const bool ok = settings->error > 0 && !saved
                         ? radiosity_to_error(r, job, error, error_size)
                         : single_level(r, job, saved, error, error_size);
@@ -244,6 +246,7 @@ void radiosity_free(struct radiosity *r)
     if (!r)
         return;
     radiosity_level_free(r);
+    clear_world_free(r->clear);
     free(r->emitter);
     free(r->between);
     free(r->edges.a[0]);

@@ -50,7 +50,19 @@ struct emitter {
     uint32_t first_edge;      // of radiosity.edges, of a polygon
 };
 
+// A job whose patches do not see what is clear all over.
+struct clear_world {
+    struct job job;
+    struct world world;
+    struct accel *accel;
+    struct world_object *object;
+};
+// *out, for clear_world_free, is NULL where nothing is clear and the job itself will do.
+const struct job *clear_left_out(const struct job *job, struct clear_world **out);
+void clear_world_free(struct clear_world *c);
+
 struct radiosity {
+    struct clear_world *clear; // NULL, or of the patches' job
     struct patches *patches;
     struct radiosity_solution solution;
     double (*lamps)[3];

@@ -46,6 +46,24 @@ quickly() { render balls.pov -o quick.ppm +W40 +H30 -q --gi=radiosity --gi-patch
 check "eight hits at a time give the bits of one at a time" quickly
 check "also with a last gathering" quickly --gi-gather=16
 
+cat room.pov - >clear.pov <<'END'
+box { .1, <.9, .9, .45> pigment { rgbt 1 } hollow }
+sphere { <.5, .5, .8>, .15 pigment { gradient x color_map { [0 rgbf 1] [1 rgbf <.2, .3, .4, 1>] } } finish { reflection 0 } hollow }
+END
+clear() { render clear.pov -o clear.ppm --gi=radiosity --gi-patches=400 "$@" && has err 'radiosity: .* patches' &&
+  value=$(first clear.ppm) && test "$value" -gt 32440 && test "$value" -lt 33096; }
+check "what is clear does not stop light" clear
+check "nor in a last gathering" clear --gi-gather=64
+cat room.pov - >unlit.pov <<'END'
+global_settings { mm_per_unit 10 subsurface { samples 10, 10 } }
+sphere { <.5, .5, .8>, .1 pigment { rgbt 1 } hollow interior { media { scattering { 1, .1 } } } }
+sphere { <.2, .5, .8>, .1 pigment { rgb 1 } finish { subsurface { translucency .1 } } }
+END
+unlit() { render unlit.pov -o unlit.ppm --gi=radiosity --gi-patches=24 && has err 'unlit.pov:7:1: warning: media: with --gi=radiosity' &&
+  has err 'unlit.pov:8:1: warning: subsurface: with --gi=radiosity' && test "$(grep -c 'with --gi=radiosity' err)" = 2 &&
+  render unlit.pov -o unlit.ppm --gi=none && ! has err 'with --gi=radiosity'; }
+check "what patches do not light is said, and where" unlit
+
 save() { render asks.pov -o saved.ppm --gi-save=room.rad && cmp -s lit.ppm saved.ppm; }
 check "a solution is saved" save
 load() { render asks.pov -o loaded.ppm --gi-load=room.rad && has err 'read from a file' && cmp -s lit.ppm loaded.ppm; }
