@@ -63,6 +63,19 @@ struct pattern_packet {
     const double (*uv)[8]; // NULL: all 0
 };
 
+// Those that are a few operations, which scene/plain_lanes.h has at eight points.
+enum pattern_plain {
+    PLAIN_NONE,
+    PLAIN_GRADIENT,
+    PLAIN_CHECKER,
+    PLAIN_BRICK,
+    PLAIN_ONION,
+    PLAIN_SPHERICAL,
+    PLAIN_CYLINDRICAL,
+    PLAIN_PLANAR,
+    PLAIN_BOXED,
+};
+
 // A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists
 // it. value is the raw value of spec/textures 5.1, before frequency, phase, wave.
 struct pattern_ops {
@@ -74,7 +87,8 @@ struct pattern_ops {
     void (*init)(struct pattern *p); // defaults of its parameters; NULL: all zero
     double (*value)(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c);
-    // The same at eight points, to the bit. NULL: by value, one after the other.
+    enum pattern_plain plain;
+    // The same at eight points, to the bit. NULL: as `plain`, or by value, one after the other.
     void (*values)(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8]);
     // The value as steps of a tape, for bounds (scene/pattern_formula.h). NULL: nothing

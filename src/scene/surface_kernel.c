@@ -10,6 +10,7 @@
 #include "scene/noise_kernel.h"
 #include "scene/pattern_lanes.h"
 #include "scene/pigment_tape.h"
+#include "scene/plain_lanes.h"
 #include "scene/surface_eval.h"
 #include "scene/warp.h"
 
@@ -176,6 +177,8 @@ static void values(const struct pattern *p, const struct pattern_packet *packet,
 {
     if (p->tape) {
         greys(p, packet, warped, live, out);
+    } else if (p->ops->plain) {
+        r8_store(out, plain_value(p, v8_load(warped)));
     } else if (p->ops->values) {
         p->ops->values(p, NOISE, warped, out);
     } else {

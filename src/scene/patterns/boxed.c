@@ -19,5 +19,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_fade_out(f, tape_binary(f->b, TAPE_MAX, two, formula_abs(f, at[2])));
 }
 
-const struct pattern_ops boxed_pattern_ops = {
-    .keyword = "boxed", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops boxed_pattern_ops = {.keyword = "boxed",
+                                              .frequency = 1,
+                                              .value = value,
+                                              .formula = formula,
+                                              .plain = PLAIN_BOXED};

@@ -58,4 +58,5 @@ const struct pattern_ops brick_pattern_ops = {.keyword = "brick",
                                               .list = 2,
                                               .init = init,
                                               .value = value,
-                                              .formula = formula};
+                                              .formula = formula,
+                                              .plain = PLAIN_BRICK};

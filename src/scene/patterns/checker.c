@@ -26,5 +26,9 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return odd;
 }
 
-const struct pattern_ops checker_pattern_ops = {
-    .keyword = "checker", .frequency = 0, .list = 2, .value = value, .formula = formula};
+const struct pattern_ops checker_pattern_ops = {.keyword = "checker",
+                                                .frequency = 0,
+                                                .list = 2,
+                                                .value = value,
+                                                .formula = formula,
+                                                .plain = PLAIN_CHECKER};

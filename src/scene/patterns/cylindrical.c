@@ -17,5 +17,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_fade_out(f, formula_length(f, at[0], at[2]));
 }
 
-const struct pattern_ops cylindrical_pattern_ops = {
-    .keyword = "cylindrical", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops cylindrical_pattern_ops = {.keyword = "cylindrical",
+                                                    .frequency = 1,
+                                                    .value = value,
+                                                    .formula = formula,
+                                                    .plain = PLAIN_CYLINDRICAL};

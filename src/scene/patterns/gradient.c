@@ -18,5 +18,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_wrap(f, sum);
 }
 
-const struct pattern_ops gradient_pattern_ops = {
-    .keyword = "gradient", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops gradient_pattern_ops = {.keyword = "gradient",
+                                                 .frequency = 1,
+                                                 .value = value,
+                                                 .formula = formula,
+                                                 .plain = PLAIN_GRADIENT};

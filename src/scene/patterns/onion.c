@@ -17,5 +17,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return tape_binary(f->b, TAPE_MOD, formula_length3(f, at), formula_constant(f, 1));
 }
 
-const struct pattern_ops onion_pattern_ops = {
-    .keyword = "onion", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops onion_pattern_ops = {.keyword = "onion",
+                                              .frequency = 1,
+                                              .value = value,
+                                              .formula = formula,
+                                              .plain = PLAIN_ONION};

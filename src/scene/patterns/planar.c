@@ -17,5 +17,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_fade_out(f, formula_abs(f, at[1]));
 }
 
-const struct pattern_ops planar_pattern_ops = {
-    .keyword = "planar", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops planar_pattern_ops = {.keyword = "planar",
+                                               .frequency = 1,
+                                               .value = value,
+                                               .formula = formula,
+                                               .plain = PLAIN_PLANAR};

@@ -17,5 +17,8 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_fade_out(f, formula_length3(f, at));
 }
 
-const struct pattern_ops spherical_pattern_ops = {
-    .keyword = "spherical", .frequency = 1, .value = value, .formula = formula};
+const struct pattern_ops spherical_pattern_ops = {.keyword = "spherical",
+                                                  .frequency = 1,
+                                                  .value = value,
+                                                  .formula = formula,
+                                                  .plain = PLAIN_SPHERICAL};

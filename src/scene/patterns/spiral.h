@@ -20,6 +20,31 @@ static inline double spiral_value(const struct pattern *p, struct vec3 at, doubl
     return v;
 }
 
+// The same at eight points.
+static inline void spiral_values(const struct pattern *p, const struct noise_kernels *k,
+                                 const double at[3][8], double out[8], double radius[8])
+{
+    double across[8], angle[8], moved[8] = {0};
+    const struct turbulence *t = p->turbulence;
+    for (int i = 0; i < 8; i++)
+        across[i] = fabs(at[0][i]);
+    k->atan2(at[1], across, angle);
+    if (t)
+        noise_turbulence8(k, at, t->lambda, t->omega, t->octaves,
+                          pattern_noise_generator(p), moved);
+    for (int i = 0; i < 8; i++) {
+        const double r = sqrt(at[0][i] * at[0][i] + at[1][i] * at[1][i]);
+        double a =
+            at[0][i] < 0 ? 3 * PATTERN_PI / 2 - angle[i] : PATTERN_PI / 2 + angle[i];
+        a = r != 0 ? a : 0;
+        double v = at[2][i] + r + p->integer[0] * a / (2 * PATTERN_PI);
+        if (t)
+            v += t->amount.x * moved[i];
+        radius[i] = r;
+        out[i] = v;
+    }
+}
+
 static inline uint32_t spiral_formula(struct formula *f, const struct pattern *p,
                                       const uint32_t at[3], uint32_t *radius)
 {

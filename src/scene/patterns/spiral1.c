@@ -11,6 +11,13 @@ static double value(const struct pattern *p, struct vec3 at,
     return spiral_value(p, at, &radius);
 }
 
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    double radius[8];
+    spiral_values(p, k, at, out, radius);
+}
+
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
     uint32_t radius;
@@ -21,4 +28,5 @@ const struct pattern_ops spiral1_pattern_ops = {.keyword = "spiral1",
                                                 .wave = WAVE_TRIANGLE,
                                                 .frequency = 1,
                                                 .value = value,
+                                                .values = values,
                                                 .formula = formula};

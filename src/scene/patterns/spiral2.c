@@ -11,6 +11,15 @@ static double value(const struct pattern *p, struct vec3 at,
     return triangle_wave(radius) + triangle_wave(v);
 }
 
+static void values(const struct pattern *p, const struct noise_kernels *k,
+                   const double at[3][8], double out[8])
+{
+    double radius[8];
+    spiral_values(p, k, at, out, radius);
+    for (int i = 0; i < 8; i++)
+        out[i] = triangle_wave(radius[i]) + triangle_wave(out[i]);
+}
+
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])
 {
     uint32_t radius;
@@ -22,4 +31,5 @@ const struct pattern_ops spiral2_pattern_ops = {.keyword = "spiral2",
                                                 .wave = WAVE_TRIANGLE,
                                                 .frequency = 1,
                                                 .value = value,
+                                                .values = values,
                                                 .formula = formula};
