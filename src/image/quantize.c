@@ -2,6 +2,7 @@
 #include "image/codec.h"
 #include "image/dither.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,16 +94,24 @@ static bool reaches(const struct image_write_options *o, double max, uint32_t bi
     return quantize(encode(o, (double)from_bits(bits)), max) >= i;
 }
 
+// The curves and their inverses differ by less than this share of a number, but at the bend of
+// sRGB's.
+static const double inverse_slack = 0x1p-34, srgb_bend = 0.04045, bend_slack = 1e-5;
+
 // The bits of the least float whose code is at least i > 0: bisection over bit patterns,
-// which are ordered like the positive numbers. The inverse of the encoding mostly rounds to
-// that float or to one beside it.
+// which are ordered like the positive numbers. The inverse of the encoding tells which float
+// that is where it lies clear of all floats, else it is mostly rounded to it or to one beside it.
 static uint32_t border_of(const struct image_write_options *o, double max, int i)
 {
     const double plain = (i - 0.5) / max;
     const bool same = o->unmanaged || transfer_equal(o->working, o->transfer);
-    const uint32_t about = to_bits(
-        (float)(same ? plain
-                     : transfer_encode(o->working, transfer_decode(o->transfer, plain))));
+    const double exact =
+        same ? plain : transfer_encode(o->working, transfer_decode(o->transfer, plain));
+    const uint32_t about = to_bits((float)exact);
+    const double off = (double)(float)exact - exact, slack = inverse_slack * exact;
+    if (exact > (double)FLT_MIN && exact < 1 && fabs(off) > slack &&
+        fabs(plain - srgb_bend) > bend_slack)
+        return off > 0 ? about : about + 1;
     uint32_t lo = 0, hi = to_bits(1);
     if (about > 1 && about < hi - 1) {
         if (!reaches(o, max, about, i)) {
