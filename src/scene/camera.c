@@ -183,7 +183,7 @@ bool camera_mesh_ray(const struct camera *c, double x, double y, int w, int h, u
 {
     const struct view at = {0}; // one bend for all: at the origin
     struct vec3 o, d;
-    if (!mesh_camera_ray(c, x, y, w, h, k, &o, &d))
+    if (!mesh_camera_ray(c, x, y, w, h, k, NULL, &o, &d))
         return false;
     *out = (struct ray){o, bent(c, &at, d), 0, INFINITY};
     return true;

@@ -155,21 +155,28 @@ struct start {
     struct vec3 p, n;
 };
 
-static bool start_at_center(const struct camera_mesh *c, double face, struct start *out)
+static bool start_at_center(const struct camera_mesh *c, double face,
+                            struct mesh_camera_memo *memo, struct start *out)
 {
     struct vec3 p[3];
     if (!(face >= 0 && face < c->mesh->face_count))
         return false;
-    mesh_corners(c->mesh, (uint32_t)face, p);
-    *out = (struct start){c, vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
-                          triangle_normal(p)};
+    if (memo->mesh != c->mesh || memo->face != (uint32_t)face) {
+        mesh_corners(c->mesh, (uint32_t)face, p);
+        *memo = (struct mesh_camera_memo){
+            c->mesh, (uint32_t)face,
+            vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
+            triangle_normal(p)};
+    }
+    *out = (struct start){c, memo->center, memo->normal};
     return true;
 }
 
-static bool start_in_list(const struct mesh_camera *m, double face, struct start *out)
+static bool start_in_list(const struct mesh_camera *m, double face,
+                          struct mesh_camera_memo *memo, struct start *out)
 {
     for (uint32_t i = 0; i < m->mesh_count; i++) {
-        if (start_at_center(&m->mesh[i], face, out))
+        if (start_at_center(&m->mesh[i], face, memo, out))
             return true;
         face -= m->mesh[i].mesh->face_count;
     }
@@ -216,21 +223,22 @@ static struct vec2 uv_place(double x, double y, int w, int h)
 }
 
 static bool start_of(const struct mesh_camera *m, double x, double y, int w, int h,
-                     uint32_t k, struct start *out)
+                     uint32_t k, struct mesh_camera_memo *memo, struct start *out)
 {
     const double row = face_row(y), col = face_col(x);
     switch (m->way) {
     case MESH_CAMERA_RAYS:
-        return k < m->mesh_count && start_at_center(&m->mesh[k], row * w + col, out);
+        return k < m->mesh_count &&
+               start_at_center(&m->mesh[k], row * w + col, memo, out);
     case MESH_CAMERA_LIST:
-        return start_in_list(m, row * w + col + (double)k * m->face_count, out);
+        return start_in_list(m, row * w + col + (double)k * m->face_count, memo, out);
     case MESH_CAMERA_WIDTH: {
         // Columns count from the left of the picture in every mesh.
         const double part = floor(w / (double)m->mesh_count);
         const double mesh = part > 0 ? floor(col / part) : 0;
         const uint32_t last = m->mesh_count - 1;
         return start_at_center(&m->mesh[mesh < last ? (uint32_t)mesh : last],
-                               row * part + col, out);
+                               row * part + col, memo, out);
     }
     case MESH_CAMERA_UV: return start_in_uv(m, uv_place(x, y, w, h), out);
     }
@@ -252,11 +260,13 @@ void mesh_camera_finish(struct mesh_camera *m, struct arena *a)
 }
 
 bool mesh_camera_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
-                     struct vec3 *origin, struct vec3 *direction)
+                     struct mesh_camera_memo *memo, struct vec3 *origin,
+                     struct vec3 *direction)
 {
     static const double backwards = -1e-10; // "is negative", as the language has it
+    struct mesh_camera_memo own = {.mesh = NULL};
     struct start s;
-    if (!start_of(c->mesh, x, y, w, h, k, &s))
+    if (!start_of(c->mesh, x, y, w, h, k, memo ? memo : &own, &s))
         return false;
     const struct vec3 o = vec3_mad(s.p, c->location.z, s.n);
     const struct vec3 d = c->direction.z < backwards ? vec3_neg(s.n) : s.n;

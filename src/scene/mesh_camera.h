@@ -37,9 +37,17 @@ struct mesh_camera {
 
 // Fills face_count and what finds faces by uv.
 void mesh_camera_finish(struct mesh_camera *m, struct arena *a);
+// The face that a caller has asked last: the meshes of a camera are mostly one in several places.
+// All zero at first.
+struct mesh_camera_memo {
+    const struct mesh *mesh;
+    uint32_t face;
+    struct vec3 center, normal;
+};
 // Ray k of the pixel position (x, y) of a w x h picture, as camera_ray's; the direction is
-// a unit vector. False: there is none.
+// a unit vector. False: there is none. memo: NULL, or of this camera alone.
 bool mesh_camera_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
-                     struct vec3 *origin, struct vec3 *direction);
+                     struct mesh_camera_memo *memo, struct vec3 *origin,
+                     struct vec3 *direction);
 
 #endif

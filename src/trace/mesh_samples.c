@@ -1,5 +1,6 @@
 #include "trace/mesh_samples.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "scene/mesh_camera.h"
@@ -10,7 +11,22 @@ struct bundle {
     float color[BATCH_SIZE][4];
     uint32_t sample[BATCH_SIZE];
     uint32_t count;
+    struct mesh_camera_memo memo;
 };
+
+// As camera_mesh_ray.
+static bool ray_of(const struct job *job, struct bundle *b, struct vec2 at, uint32_t k,
+                   struct ray *out)
+{
+    const struct camera *c = job->camera;
+    const struct render_settings *s = &job->settings;
+    if (c->normal)
+        return camera_mesh_ray(c, at.u, at.v, s->width, s->height, k, out);
+    out->t_min = 0;
+    out->t_max = INFINITY;
+    return mesh_camera_ray(c, at.u, at.v, s->width, s->height, k, &b->memo, &out->o,
+                           &out->d);
+}
 
 static void bundle_trace(struct tracer *t, struct bundle *b, double (*sum)[4])
 {
@@ -27,7 +43,7 @@ static bool bundle_put(const struct job *job, struct bundle *b, struct vec2 at,
 {
     const struct render_settings *s = &job->settings;
     struct tracer_ray *r = &b->ray[b->count];
-    if (!camera_mesh_ray(job->camera, at.u, at.v, s->width, s->height, k, &r->ray))
+    if (!ray_of(job, b, at, k, &r->ray))
         return false;
     // What is random along the rays of a pixel differs from one to the next.
     r->position = (struct vec2){at.u, at.v + (double)k * s->height};
@@ -47,6 +63,7 @@ void mesh_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
     if (!b || !sum || !rays)
         abort();
     b->count = 0;
+    b->memo = (struct mesh_camera_memo){.mesh = NULL};
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < job->camera->mesh->rays; k++) {
             if (b->count == BATCH_SIZE)
