@@ -185,7 +185,7 @@ void simple_compile(struct job *job, struct arena *a)
     // the general rule, others ask before they are kept (simple_ask).
     const bool collects =
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
-    job->quick_camera = !general && !collects && c->kind != CAMERA_MESH;
+    job->quick_camera = !general && c->kind != CAMERA_MESH;
     job->asks_in_order = collects && job->settings.purpose == RENDER_GATHER;
     if (general || (collects && !job->asks_in_order) || !job->lights || !job->pigments ||
         !(1 > job->adc_bailout))

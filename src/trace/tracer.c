@@ -220,16 +220,37 @@ static void run_with_gaps(struct tracer *t, const struct vec2 *position, uint32_
         t->sum[i] = k && place[k - 1] == i ? t->sum[--k] : (struct sample_sum){.t = 1};
 }
 
+// Rays in the order in which a wave sorts them.
+static bool is_in_order(const struct ray_batch *b, uint32_t count)
+{
+    unsigned turned = 0;
+    for (int k = 0; k < 3; k++)
+        for (uint32_t i = 1; i < count; i++)
+            turned |= (unsigned)((b->d[k][i] < 0) != (b->d[k][0] < 0));
+    return !turned;
+}
+
+// Makes the rays of the camera eight at a time; false: they are to be made one by one, since
+// samples are taken in the order in which hits ask, which is that of the rays' octants.
+static bool make_rays(struct tracer *t, const struct vec2 *position,
+                      const struct vec2 *on_lens, uint32_t count, uint16_t *place,
+                      uint32_t *made)
+{
+    const struct job *job = t->job;
+    if (!job->quick_camera)
+        return false;
+    *made = job->kernels->camera(job, position, on_lens, count, t->rays, place);
+    return job->settings.purpose != RENDER_SCOUT || is_in_order(t->rays, *made);
+}
+
 const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *position,
                                       const struct vec2 *on_lens, uint32_t count)
 {
-    const struct job *job = t->job;
-    if (job->quick_camera) {
+    uint16_t place[BATCH_SIZE];
+    uint32_t made;
+    if (make_rays(t, position, on_lens, count, place, &made)) {
         begin(t, count);
         wave_sums_reserve(t, count); // all are set by the camera's wave
-        uint16_t place[BATCH_SIZE];
-        const uint32_t made =
-            job->kernels->camera(job, position, on_lens, count, t->rays, place);
         if (t->eye_inside)
             eyes_look(t, made);
         if (made < count)
