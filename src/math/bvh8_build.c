@@ -1,6 +1,7 @@
 // The building of a tree of boxes: the surface area heuristic over bins of the centres (Wald,
 // "On fast construction of SAH-based bounding volume hierarchies", RT 2007), eight children
-// gathered from binary cuts: the widest is cut first, or, of dear items, the best of all ways.
+// gathered from binary cuts: the widest is cut first, or, of dear items that are not too many,
+// the best of all ways.
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,8 @@ enum {
     // Where to halve by count, so that the depth stays within BVH8_STACK: below this depth,
     DEPTH_BINNED = 24,
     // or, in a tree of two children, where so many levels just suffice for that.
-    DEPTH_OF_CUTS = 44
+    DEPTH_OF_CUTS = 44,
+    BEST_MOST = 1 << 15 // items that are gathered in the best way: that takes time
 };
 
 // The error of a test in units of the half extent of the tree: rounding the moved
@@ -47,7 +49,7 @@ struct builder {
     uint32_t *order;  // which item it is
     struct bvh8_node *node;
     uint32_t node_count, node_capacity;
-    struct cut_node *cut; // of dear items
+    struct cut_node *cut; // of dear items that are gathered in the best way
     uint32_t cut_count;
     uint32_t leaf_items; // a leaf of no more is split only if that pays
     struct vec3 origin;
@@ -214,7 +216,7 @@ static bool find_cut(const struct builder *b, const struct range *r, struct cut 
     for (uint32_t i = 0; i < r->count; i++)
         widen_by_centre(&centres, &item[i]);
     *best = (struct cut){.axis = -1, .cost = FLT_MAX};
-    best->bins = r->count <= FEW && b->leaf_items > 1 ? BINS_OF_FEW : BINS;
+    best->bins = r->count <= FEW && !b->cut ? BINS_OF_FEW : BINS;
     for (int axis = 0; axis < 3; axis++) {
         const float width = -centres.hi[axis] - centres.lo[axis];
         best->from[axis] = centres.lo[axis];
@@ -306,14 +308,22 @@ static void set_child(struct builder *b, uint32_t id, int i, const struct box *b
     n->child[i] = child;
 }
 
-// ---- cheap items: the widest box is cut first -----------------------------------------------
+// ---- cheap items, or many: the widest box is cut first --------------------------------------
+
+// Whether to split a range of a node that has `count`. Items that each are a leaf, and would fill
+// one node, are better left to it than made nodes of few children.
+static bool may_split(const struct range *r, uint32_t count, uint32_t leaf_items)
+{
+    return !r->whole && (leaf_items > 1 || r->count > 8 || count + r->count <= 9);
+}
 
 // The range with the largest box that may still be split; -1: none.
-static int widest(const struct range *r, int count)
+static int widest(const struct range *r, int count, uint32_t leaf_items)
 {
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (!r[i].whole && (best < 0 || r[i].area > r[best].area))
+        if (may_split(&r[i], (uint32_t)count, leaf_items) &&
+            (best < 0 || r[i].area > r[best].area))
             best = i;
     return best;
 }
@@ -323,7 +333,7 @@ static uint32_t make_node(struct builder *b, struct range all, uint32_t depth)
 {
     struct range r[8] = {all};
     int n = 1;
-    for (int i; n < 8 && (i = widest(r, n)) >= 0;) {
+    for (int i; n < 8 && (i = widest(r, n, b->leaf_items)) >= 0;) {
         if (split(b, &r[i], depth < DEPTH_BINNED, &r[n]))
             n++;
         else
@@ -482,7 +492,7 @@ struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
     }
     struct range all = {.count = count, .box = range_box(&b, 0, count)};
     all.area = half_area(&all.box);
-    if (leaf_items == 1)
+    if (leaf_items == 1 && count <= BEST_MOST)
         make_best_tree(&b, all);
     else
         make_node(&b, all, 0);
