@@ -307,6 +307,7 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
 {
     accel->leaf_shape = arena_new_array(a, uint8_t, w->leaf_count + 1);
     accel->object_shape = arena_new_array(a, uint8_t, w->object_count + 1);
+    accel->plain = arena_new_array(a, bool, w->object_count + 1);
     for (uint32_t i = 0; i < w->leaf_count; i++)
         accel->leaf_shape[i] = (uint8_t)shape_of_leaf(&w->leaf[i]);
     for (uint32_t i = 0; i < w->object_count; i++) {
@@ -327,6 +328,10 @@ static void classify(struct arena *a, const struct world *w, struct accel *accel
             accel->object_shape[i] = (uint8_t)clipped_shape(w, accel, o);
         if (accel->object_shape[i] == PACKET_NONE && is_packet_csg(w, o))
             accel->object_shape[i] = PACKET_CSG;
+        accel->plain[i] = accel->object_shape[i] != PACKET_NONE && o->opaque &&
+                          !o->bound_count &&
+                          !(o->flags & (OBJECT_NO_IMAGE | OBJECT_NO_REFLECTION |
+                                        OBJECT_NO_SHADOW | OBJECT_NO_RADIOSITY));
     }
 }
 

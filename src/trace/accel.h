@@ -29,7 +29,7 @@ enum packet_shape {
                  // may be part of a product
     PACKET_CARVED, // of objects: an intersection of a PACKET_LANES with what may be part of a
                    // product (trace/packet_carve.h)
-    PACKET_CSG // of objects: other CSG of a few solids
+    PACKET_CSG     // of objects: other CSG of a few solids
 };
 
 // Whether a solid of that shape may be part of a PACKET_PRODUCT.
@@ -76,7 +76,7 @@ struct accel_product {
     // Of each space, as in product_part: the most that coordinates and radii of a part add up
     // to.
     double extent[1 + PRODUCT_SPACES];
-    double least;  // radius
+    double least; // radius
     uint16_t world_solids, solids, count;
     uint16_t spaces;
     uint16_t
@@ -88,8 +88,9 @@ struct accel {
     struct bvh8 top;
     double *ball[4]; // x, y, z and radius of the items of `top` that are bare spheres,
                      // so that most tests touch nothing else; radius 0: another object
-    uint8_t *leaf_shape;           // enum packet_shape, per leaf
-    uint8_t *object_shape;         // enum packet_shape, per object
+    uint8_t *leaf_shape;   // enum packet_shape, per leaf
+    uint8_t *object_shape; // enum packet_shape, per object
+    bool *plain; // per object: of a known shape, opaque, seen by all rays, no bounded_by
     struct accel_product *product; // per object; NULL: there are no products
     unsigned lone_flags;           // of all objects that are bare spheres
     bool lone_opaque;              // all of them are

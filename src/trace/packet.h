@@ -34,20 +34,22 @@ static inline bool search_is_nearer(const struct search *f, double t, uint32_t o
 
 // Eight rays in the terms of a tree, as bvh8_ray; t_far < 0: the lane wants no more.
 struct tree_lanes {
+    _Alignas(64) double t_begin[8];
+    double scale[8];
     float o[3][8], inverse[3][8], t_far[8];
-    double t_begin[8], scale[8];
 };
 
 // Eight rays of a batch. Lanes that are not `alive` hold rays as well: any.
+// What lanes load and store at once stands on lines of the cache of its own.
 struct packet {
+    _Alignas(64) double t[8]; // as in search, when the lane has no search of its own yet
+    double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where
+    uint32_t object[8];                // `whole`; UINT32_MAX: none
+    uint32_t leaf[8];                  // of an unknown boundary
+    struct tree_lanes top;
+    uint8_t crossing[8];
     const struct ray_batch *rays;
     uint32_t first;
-    double t[8]; // as in search, when the lane has no search of its own yet
-    struct tree_lanes top;
-    uint32_t object[8];                // UINT32_MAX: none
-    uint32_t leaf[8];                  // of an unknown boundary
-    double dt[8], part[8], u[8], v[8]; // of the boundary, and the enum crossing, where
-    uint8_t crossing[8];               // `whole`
     unsigned alive, searching, whole;
     unsigned hidden_any; // of all rays, where some object is hidden from some
     const struct world *w;

@@ -11,26 +11,16 @@
 #include "trace/packet_ring.h"
 #include "trace/packet_sponge.h"
 
-static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
+// An object that nothing hides from the rays.
+LANES_INLINE unsigned try_shape(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
     const struct accel *a = p->w->accel;
-    const struct world_object *o = &p->w->object[object];
     const enum packet_shape shape = a->object_shape[object];
-    if (shape == PACKET_NONE)
-        return packet_try_object(p, bits, object);
-    bits = seeing(p, o->flags, bits);
-    if (o->bound_count)
-        bits = within_bounds(e, bits, o);
-    if (!bits)
-        return 0;
-    const bool knows_mixed = shape == PACKET_CARVED || shape == PACKET_CSG;
-    if (p->mode == SWEEP_OPAQUE && !o->opaque && (!o->mixed || !knows_mixed))
-        return o->mixed ? packet_try_object(p, bits, object) : 0;
-    if (shape == PACKET_CSG)
-        return csg8(e, bits, object);
     if (shape == PACKET_PRODUCT)
         return product(e, bits, object);
+    if (shape == PACKET_CSG)
+        return csg8(e, bits, object);
     if (shape == PACKET_MERGE)
         return merge8(e, bits, object);
     if (shape == PACKET_CLIPPED || shape == PACKET_CLIPPED_PRODUCT)
@@ -44,12 +34,34 @@ static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
     if (shape == PACKET_CARVED)
         return carved8(e, bits, object);
     if (shape == PACKET_SPONGE)
-        return accel_large(a, o, object)->ball ? sponge(e, bits, object)
-                                               : packet_try_object(p, bits, object);
+        return accel_large(a, &p->w->object[object], object)->ball
+                   ? sponge(e, bits, object)
+                   : packet_try_object(p, bits, object);
     p->s->stats.leaf_tests++;
     if (shape == PACKET_PLANE)
         return plane8(e, bits, object);
     return lone(e, bits, object);
+}
+
+static unsigned try_eight(struct eight *e, unsigned bits, uint32_t object)
+{
+    struct packet *p = e->p;
+    const struct accel *a = p->w->accel;
+    if (!a->plain[object]) {
+        const struct world_object *o = &p->w->object[object];
+        const enum packet_shape shape = a->object_shape[object];
+        if (shape == PACKET_NONE)
+            return packet_try_object(p, bits, object);
+        bits = seeing(p, o->flags, bits);
+        if (o->bound_count)
+            bits = within_bounds(e, bits, o);
+        if (!bits)
+            return 0;
+        const bool knows_mixed = shape == PACKET_CARVED || shape == PACKET_CSG;
+        if (p->mode == SWEEP_OPAQUE && !o->opaque && (!o->mixed || !knows_mixed))
+            return o->mixed ? packet_try_object(p, bits, object) : 0;
+    }
+    return try_shape(e, bits, object);
 }
 
 // Item i of the tree: a bare sphere stands in the tree's own list, so that most tests

@@ -32,9 +32,10 @@ LANES_INLINE unsigned seeing(const struct packet *p, unsigned flags, unsigned bi
     return bits;
 }
 
-// Takes t where it is wanted and nearer (of equal ones the object declared first).
-LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t,
-                           uint32_t object, uint32_t leaf)
+// Takes t where it is wanted and nearer (of equal ones the object declared first); the leaf is
+// to be set.
+LANES_INLINE unsigned take_nearer(struct eight *e, unsigned bits, struct real8 t,
+                                  uint32_t object)
 {
     struct packet *p = e->p;
     const struct real8 best = r8_load(p->t);
@@ -49,7 +50,15 @@ LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t,
     p->whole &= ~won;
     r8_store(p->t, r8_select(m8_of(won), t, best));
     u8_put(p->object, won, object);
-    u8_put(p->leaf, won, leaf);
+    return won;
+}
+
+LANES_INLINE unsigned take(struct eight *e, unsigned bits, struct real8 t,
+                           uint32_t object, uint32_t leaf)
+{
+    const unsigned won = take_nearer(e, bits, t, object);
+    if (won)
+        u8_put(e->p->leaf, won, leaf);
     return won;
 }
 
@@ -328,10 +337,10 @@ LANES_INLINE struct span8 leaf_span(const struct eight *e, const struct leaf *l,
 static unsigned take_leaves(struct eight *e, unsigned found, struct real8 t,
                             struct real8 at, uint32_t object)
 {
-    const uint32_t first_leaf = e->p->w->object[object].first_leaf;
-    const unsigned won = found ? take(e, found, t, object, first_leaf) : 0;
+    const unsigned won = found ? take_nearer(e, found, t, object) : 0;
     if (!won || e->p->mode != SWEEP_CLOSEST)
         return won;
+    const uint32_t first_leaf = e->p->w->object[object].first_leaf;
     double which[8];
     r8_store(which, at);
     for (unsigned i = 0; i < 8; i++) { // at is -1 or more
@@ -378,26 +387,24 @@ LANES_INLINE void complete(struct packet *p, const struct cross8 *x, unsigned la
 // Spheres, in each lane another. Returns the lanes that hit something else.
 static unsigned complete_balls(struct eight *e, unsigned lanes)
 {
+    static const double none[4];
     struct packet *p = e->p;
-    double x[8] = {0}, y[8] = {0}, z[8] = {0}, r[8] = {0};
+    const double *ball[8] = {none, none, none, none, none, none, none, none};
     unsigned balls = 0, inverted = 0;
     for (unsigned m = lanes; m; m &= m - 1) {
         const int lane = __builtin_ctz(m);
         const struct leaf *l = &p->w->leaf[p->leaf[lane]];
         if (l->ops != &sphere_ops || !l->transform->identity)
             continue;
-        const struct sphere *s = l->shape;
-        x[lane] = s->centre.x;
-        y[lane] = s->centre.y;
-        z[lane] = s->centre.z;
-        r[lane] = s->radius;
+        ball[lane] = &((const struct sphere *)l->shape)->centre.x;
         balls |= m & -m;
         inverted |= l->inverted ? m & -m : 0;
     }
     if (!(balls & (balls - 1)))
         return lanes;
-    const struct cross8 c = cross8_ball((struct vec8){r8_load(x), r8_load(y), r8_load(z)},
-                                        r8_load(r), &e->ray);
+    struct real8 s[4];
+    r8_load_rows(ball, 0, s);
+    const struct cross8 c = cross8_ball((struct vec8){s[0], s[1], s[2]}, s[3], &e->ray);
     complete(p, &c, balls, inverted);
     return lanes & ~balls;
 }

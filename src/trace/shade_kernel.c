@@ -4,6 +4,7 @@
 #include "trace/shade_kernel.h"
 
 #include "math/isa.h"
+#include "math/lanes_pack.h"
 #include "trace/area.h"
 #include "trace/shade_air.h"
 #include "trace/shade_area.h"
@@ -22,12 +23,7 @@
 LANES_INLINE struct real8 gather(const double *from, const struct simple_group *g,
                                  bool in_row)
 {
-    if (in_row)
-        return r8_load(from + g->ray[0]);
-    double v[8];
-    for (int i = 0; i < 8; i++)
-        v[i] = from[g->ray[i]];
-    return r8_load(v);
+    return in_row ? r8_load(from + g->ray[0]) : r8_load_at(from, g->ray);
 }
 
 static bool wants_uv(const struct tracer *t, const struct leaf *const leaf[8])
@@ -131,7 +127,7 @@ static void points(struct tracer *t, const uint16_t *ray, uint32_t count, bool u
 LANES_INLINE void add_own(struct tracer *t, const struct simple_group *g, unsigned live,
                           struct rgb8 c)
 {
-    float(*own)[BATCH_SIZE] = t->wave.own;
+    float(*own)[BATCH_ROW] = t->wave.own;
     if (g->in_row && live == 255) {
         float *r = &own[0][g->slot[0]], *s = &own[1][g->slot[0]],
               *u = &own[2][g->slot[0]];
@@ -179,39 +175,18 @@ LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
         r8_select(r8_lt(v8_dot(v->to, ng), r8_set(0)), r8_set(-1), r8_set(1));
     const struct real8 by = r8_mul(r8_mul(r8_set(2), side), r8_load(g->error));
     const struct vec8 o = v8_mad(v8_load((const double(*)[8])g->p), by, ng);
-    if (live == 255) {
-        r8_store(b->rays->o[0] + queued, o.x);
-        r8_store(b->rays->o[1] + queued, o.y);
-        r8_store(b->rays->o[2] + queued, o.z);
-        r8_store(b->rays->d[0] + queued, v->to.x);
-        r8_store(b->rays->d[1] + queued, v->to.y);
-        r8_store(b->rays->d[2] + queued, v->to.z);
-        r8_store(b->rays->t_max + queued, v->distance);
-        f8_store(b->value[0] + queued, value.r);
-        f8_store(b->value[1] + queued, value.g);
-        f8_store(b->value[2] + queued, value.b);
-        for (uint32_t i = 0; i < 8; i++)
-            b->slot[queued + i] = g->slot[i];
-        return queued + 8;
-    }
-    double all[7][8];
-    float c[3][8];
-    v8_store(all, o);
-    v8_store(all + 3, v->to);
-    r8_store(all[6], v->distance);
-    f8_store(c[0], value.r);
-    f8_store(c[1], value.g);
-    f8_store(c[2], value.b);
-    for (; live; live &= live - 1, queued++) {
-        const int i = __builtin_ctz(live);
-        for (int k = 0; k < 3; k++) {
-            b->rays->o[k][queued] = all[k][i];
-            b->rays->d[k][queued] = all[3 + k][i];
-            b->value[k][queued] = c[k][i];
-        }
-        b->rays->t_max[queued] = all[6][i];
-        b->slot[queued] = g->slot[i];
-    }
+    r8_pack(b->rays->o[0] + queued, live, o.x);
+    r8_pack(b->rays->o[1] + queued, live, o.y);
+    r8_pack(b->rays->o[2] + queued, live, o.z);
+    r8_pack(b->rays->d[0] + queued, live, v->to.x);
+    r8_pack(b->rays->d[1] + queued, live, v->to.y);
+    r8_pack(b->rays->d[2] + queued, live, v->to.z);
+    r8_pack(b->rays->t_max + queued, live, v->distance);
+    f8_pack(b->value[0] + queued, live, value.r);
+    f8_pack(b->value[1] + queued, live, value.g);
+    f8_pack(b->value[2] + queued, live, value.b);
+    for (; live; live &= live - 1)
+        b->slot[queued++] = g->slot[__builtin_ctz(live)];
     return queued;
 }
 

@@ -358,19 +358,18 @@ static void place_leaf(const struct leaf *l, const struct place_rays *r, unsigne
 LANES_INLINE bool place_spheres(const struct leaf *const leaf[8],
                                 const struct place_rays *r, struct place8 *x)
 {
-    double centre[3][8], radius[8];
+    const double *ball[8];
     unsigned inverted = 0;
     for (int i = 0; i < 8; i++) {
         if (leaf[i]->ops != &sphere_ops || !leaf[i]->transform->identity)
             return false;
         const struct sphere *s = leaf[i]->shape;
-        centre[0][i] = s->centre.x;
-        centre[1][i] = s->centre.y;
-        centre[2][i] = s->centre.z;
-        radius[i] = s->radius;
+        ball[i] = &s->centre.x;
         inverted |= (unsigned)leaf[i]->inverted << i;
     }
-    place_sphere(v8_load((const double(*)[8])centre), r8_load(radius), x);
+    struct real8 s[4];
+    r8_load_rows(ball, 0, s);
+    place_sphere((struct vec8){s[0], s[1], s[2]}, s[3], x);
     x->ns = x->ng = v8_select(m8_of(inverted), v8_neg(x->ng), x->ng);
     x->error = place_error_of(leaf[0], r, x->ng);
     return true;

@@ -2,6 +2,7 @@
 #include "trace/area.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/memory.h"
@@ -28,7 +29,10 @@ static struct ray_batch *endless_new(void)
 
 struct tracer *tracer_new(const struct job *job)
 {
-    struct tracer *t = must_calloc(1, sizeof *t);
+    struct tracer *t = aligned_alloc(_Alignof(struct tracer), sizeof *t);
+    if (!t)
+        abort();
+    memset(t, 0, sizeof *t);
     t->job = job;
     t->scratch = trace_scratch_new(job->world);
     t->arena = arena_new(64 * 1024);

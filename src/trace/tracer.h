@@ -41,6 +41,9 @@ enum path_flags {
 };
 
 enum { BATCH_SIZE = 1024 };
+// Of arrays that are walked side by side: rows that are a power of two apart share the same few
+// places of the cache.
+enum { BATCH_ROW = BATCH_SIZE + 16 };
 
 // A ray on its way, and what its colour counts for. A picture's sample is a sum over
 // such rays: colours are linear in `through`.
@@ -117,17 +120,18 @@ struct wavefront {
     struct path_queue *next;
     uint16_t slot[BATCH_SIZE]; // of each ray
     // By slot: light that came unhindered, light that passed a shadow test, transparency.
-    float own[3][BATCH_SIZE], lit[3][BATCH_SIZE], t[BATCH_SIZE];
-    float through[3][BATCH_SIZE];
+    _Alignas(64) float own[3][BATCH_ROW];
+    float lit[3][BATCH_ROW], t[BATCH_ROW];
+    float through[3][BATCH_ROW];
     // Those of a path, by slot where there are paths.
-    float through_t[BATCH_SIZE];
-    uint32_t sample[BATCH_SIZE];
+    float through_t[BATCH_ROW];
+    uint32_t sample[BATCH_ROW];
 };
 
 // Shadow rays to one lamp after the other; what each adds to which slot.
 struct shadow_batch {
     struct ray_batch *rays;
-    float value[3][BATCH_SIZE];
+    _Alignas(64) float value[3][BATCH_ROW];
     uint16_t slot[BATCH_SIZE];
     uint8_t occluded[BATCH_SIZE];
     uint8_t photons[BATCH_SIZE]; // photons_instead
