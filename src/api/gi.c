@@ -9,7 +9,6 @@
 #include "base/arena.h"
 #include "irradiance/cache.h"
 #include "radiosity/radiosity.h"
-#include "scene/effects.h"
 #include "scene/texture.h"
 #include "trace/photons.h"
 
@@ -118,7 +117,8 @@ const char *gi_solution(const struct lambert_context *ctx, bool in)
 {
     const char *own = text_of(ctx, in ? "gi-load" : "gi-save");
     const char *file = text_of(ctx, "radiosity-file");
-    if (own || !file || !option_flag(ctx, in ? "radiosity-from-file" : "radiosity-to-file"))
+    if (own || !file ||
+        !option_flag(ctx, in ? "radiosity-from-file" : "radiosity-to-file"))
         return own;
     return in && access(file, F_OK) ? NULL : file; // POV-Ray goes on without, too
 }
@@ -221,14 +221,6 @@ static enum lambert_status cache_prepare(struct lambert_context *ctx,
     return LAMBERT_OK;
 }
 
-static bool scatters(const struct media *const *media, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        if (media[i]->scattering_type && rgb_max(media[i]->scattering) > 0)
-            return true;
-    return false;
-}
-
 static bool has_subsurface(const struct texture *x)
 {
     for (uint32_t i = 0; x->kind == TEXTURE_PLAIN && i < x->layer_count; i++)
@@ -240,17 +232,17 @@ static bool has_subsurface(const struct texture *x)
     return false;
 }
 
-// Patches light surfaces: says, once each, what of the scene they do not light.
+// Says, once each, what of the scene has no part in the light of patches.
 static void warn_unlit(struct lambert_context *ctx)
 {
     const struct world *w = ctx->world;
     const struct scene *scene = w->scene;
-    bool media = scatters(scene->media, scene->media_count), below = false;
+    bool media = scene->media_count > 0, below = false;
     struct span at_media = {0}, at_below = {0};
     for (uint32_t i = 0; i < w->leaf_count; i++) {
         const struct surface *s = &w->surface[w->leaf[i].surface];
         const struct span where = w->object[w->leaf[i].object].source->where;
-        if (!media && scatters(s->interior->media, s->interior->media_count)) {
+        if (!media && s->interior->media_count) {
             media = true;
             at_media = where;
         }
@@ -261,8 +253,8 @@ static void warn_unlit(struct lambert_context *ctx)
     }
     if (media)
         diag_at(&ctx->diags, DIAG_BLOCK_WARNING, at_media, "media",
-                "with --gi=radiosity light_sources alone light media, not what glows or "
-                "reflects; nor do media dim light between patches");
+                "with --gi=radiosity media neither dim the light between patches nor "
+                "light them");
     if (below)
         diag_at(&ctx->diags, DIAG_BLOCK_WARNING, at_below, "subsurface",
                 "with --gi=radiosity the light of light_sources alone goes below "
@@ -288,8 +280,8 @@ static enum lambert_status patches_prepare(struct lambert_context *ctx,
     g->arena = arena_new(4096);
     job_init(&g->job, g->arena, ctx->world, settings);
     ctx->phase = LAMBERT_PHASE_RADIOSITY;
-    g->radiosity = radiosity_new(&g->job, &o, gi_solution(ctx, true), ctx->error,
-                                 sizeof ctx->error);
+    g->radiosity =
+        radiosity_new(&g->job, &o, gi_solution(ctx, true), ctx->error, sizeof ctx->error);
     ctx->phase = LAMBERT_PHASE_TILES;
     enum lambert_status status = LAMBERT_OK;
     if (!g->radiosity)

@@ -66,12 +66,19 @@ static struct rgb irradiance(const void *data, void *state, struct tracer *t,
     return c;
 }
 
+static void open(const void *data, struct vec3 p, struct open_light *out)
+{
+    const struct radiosity *r = data;
+    volume_light(r->volume, p, out);
+}
+
 struct indirect radiosity_indirect(const struct radiosity *r)
 {
     return (struct indirect){.data = r,
                              .begin = emitters_begin,
                              .end = emitters_end,
-                             .irradiance = irradiance};
+                             .irradiance = irradiance,
+                             .open = r->volume ? open : NULL};
 }
 
 struct rgb radiosity_of_hit(const struct radiosity *r, struct trace_scratch *scratch,

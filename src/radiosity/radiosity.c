@@ -238,6 +238,7 @@ struct radiosity *radiosity_new(const struct job *job,
     r->report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
     emitters_find(r);
     find_shown(r);
+    volume_find(r);
     return r;
 }
 
@@ -247,6 +248,7 @@ void radiosity_free(struct radiosity *r)
         return;
     radiosity_level_free(r);
     clear_world_free(r->clear);
+    volume_free(r->volume);
     free(r->emitter);
     free(r->between);
     free(r->edges.a[0]);

@@ -50,6 +50,13 @@ struct emitter {
     uint32_t first_edge;      // of radiosity.edges, of a polygon
 };
 
+// Light in the open, where the patches' job has media that scatter (volume.c).
+struct volume;
+struct radiosity;
+void volume_find(struct radiosity *r);
+void volume_light(const struct volume *v, struct vec3 p, struct open_light *out);
+void volume_free(struct volume *v);
+
 // A job whose patches do not see what is clear all over.
 struct clear_world {
     struct job job;
@@ -73,9 +80,10 @@ struct radiosity {
     struct polygon_edges edges; // theirs
     bool flat;                  // all of them are, and whole
     bool shafts;                // theirs are known
-    uint64_t *between;  // then: the objects (bits) that may hide one from an element
-    double (*shown)[3]; // irradiance for the picture, without what emitters give it
-    uint64_t key;       // of the scene as elements and lamps see it
+    uint64_t *between;     // then: the objects (bits) that may hide one from an element
+    double (*shown)[3];    // irradiance for the picture, without what emitters give it
+    struct volume *volume; // light in the open; NULL: nobody asks
+    uint64_t key;          // of the scene as elements and lamps see it
 };
 
 // Solves the scene of a job, which must live as long. `saved` (NULL: none) is a file of

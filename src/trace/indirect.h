@@ -30,6 +30,14 @@ struct indirect_eight {
     unsigned lanes; // which of them ask
 };
 
+// Light that comes to a point in the open from all around, by channel: the integral of its
+// radiance over the sphere, over pi, and the same of radiance times the direction it is
+// seen in. A lamp of colour 1 is 1, and its direction.
+struct open_light {
+    double all[3];
+    struct vec3 from[3];
+};
+
 // Light that reaches surfaces by way of others, worked out before the picture.
 struct indirect {
     const void *data; // NULL: there is none
@@ -47,6 +55,8 @@ struct indirect {
     // Of hits whose light nobody looks at: those that would be answered without a ray. NULL: the
     // light is wanted.
     unsigned (*settled)(const void *data, void *state, const struct indirect_eight *q);
+    // What lights media besides lamps. NULL: nothing.
+    void (*open)(const void *data, struct vec3 p, struct open_light *out);
     float least;        // of a layer's matt share that is worth asking
     bool layer_normals; // ask with the normal of the first layer, not the surface's
     bool both_sides;    // ask for light from behind as well, where finishes use it

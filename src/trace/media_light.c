@@ -166,3 +166,39 @@ void media_samples_lit(struct media_march *m, struct media_sample *sample,
             samples_lit(&l, sample, scattering);
     }
 }
+
+// The mean of the phase functions over the sphere, and how much it leans forwards: the first
+// two terms of Legendre's series.
+static void phase_terms(const struct media_mix *mix, double term[2])
+{
+    enum { POINTS = 64 };
+    term[0] = term[1] = 0;
+    for (int i = 0; i < POINTS; i++) {
+        const double cosine = (2 * i + 1.0) / POINTS - 1, p = media_phase(mix, cosine);
+        term[0] += p / POINTS;
+        term[1] += 3 * p * cosine / POINTS;
+    }
+}
+
+void media_open_lit(const struct media_march *m, struct media_sample *sample,
+                    const struct vec3 *scattering, uint32_t count)
+{
+    const struct job *job = m->t->job;
+    const struct indirect *indirect = &job->settings.indirect;
+    double term[2];
+    if (!indirect->open || !job->lights)
+        return;
+    phase_terms(m->mix, term);
+    for (uint32_t i = 0; i < count; i++) {
+        struct media_sample *s = &sample[i];
+        const struct media_way *way = m->walker[m->interval[s->interval].walker].way;
+        struct open_light x;
+        double light[3];
+        indirect->open(indirect->data, vec3_mad(way->o, s->t, way->d), &x);
+        for (int c = 0; c < 3; c++)
+            light[c] =
+                fmax(0, term[0] * x.all[c] + term[1] * vec3_dot(x.from[c], way->d));
+        s->light = vec3_add(s->light,
+                            vec3_mul(vec3(light[0], light[1], light[2]), scattering[i]));
+    }
+}

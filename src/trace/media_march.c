@@ -89,8 +89,10 @@ static void samples_eval_few(struct media_march *m, struct media_sample *sample,
     (m->mix->even ? samples_even : samples_points)(m, sample, count, scattering);
     if (m->depth_only)
         return;
-    if (m->mix->scatters)
+    if (m->mix->scatters) {
         media_samples_lit(m, sample, scattering, count);
+        media_open_lit(m, sample, scattering, count);
+    }
     if (m->t->job->photons && m->t->job->photons->media.count)
         photon_media_lit(m, sample, scattering, count);
     for (uint32_t i = 0; i < count; i++)

@@ -88,4 +88,8 @@ struct media_walker media_walker(struct tracer *t, const struct media_way *way,
 void media_samples_lit(struct media_march *m, struct media_sample *sample,
                        const struct vec3 *scattering, uint32_t count);
 
+// The same of light that comes from all around, by way of surfaces.
+void media_open_lit(const struct media_march *m, struct media_sample *sample,
+                    const struct vec3 *scattering, uint32_t count);
+
 #endif

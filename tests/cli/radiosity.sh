@@ -54,6 +54,29 @@ clear() { render clear.pov -o clear.ppm --gi=radiosity --gi-patches=400 "$@" && 
   value=$(first clear.ppm) && test "$value" -gt 32440 && test "$value" -lt 33096; }
 check "what is clear does not stop light" clear
 check "nor in a last gathering" clear --gi-gather=64
+# Walls of radiosity .1 give .1 of their light to .2 units of a medium that scatters .5 of it a unit, in
+# all directions alike (in the language's measure, four times the mean over the sphere), and loses nothing.
+sed 's/M(.5, .25)/M(.5, .05) hollow/; s/look_at .*z*}/direction z up .1*y right .1*x }/; s/^camera {/& orthographic/' room.pov >smoke.pov
+cat >>smoke.pov <<'END'
+box { <.2, .2, .6>, <.8, .8, .8> pigment { rgbt 1 } hollow
+  interior { media { scattering { 1, .5 extinction 0 } method 3 intervals 1 samples 3 } } }
+END
+smoke() { render smoke.pov -o smoke.ppm --gi=radiosity --gi-patches=100 "$@" && value=$(first smoke.ppm) &&
+  test "$value" -gt 9043 && test "$value" -lt 9305; }
+check "patches light media" smoke
+check "also those of a solution that was saved" smoke --gi-save=smoke.rad
+check "and is used again, by several threads" smoke --gi-load=smoke.rad +WT3
+# A glowing ball is a lamp of its emission times (radius over distance) squared.
+cat >glow.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { orthographic location <0, 0, -5> direction z up .1*y right .1*x }
+sphere { <2, 0, 2.5>, .2 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission 80 } }
+box { -.1, .1 pigment { rgbt 1 } hollow interior { media { scattering { 1, 1 extinction 0 } method 3 intervals 1 samples 9 } } }
+END
+glow() { render glow.pov -o glow.ppm --gi=radiosity --gi-patches=200 && value=$(first glow.ppm) &&
+  test "$value" -gt 3900 && test "$value" -lt 4270; }
+check "what glows lights media as a lamp does" glow
 cat room.pov - >unlit.pov <<'END'
 global_settings { mm_per_unit 10 subsurface { samples 10, 10 } }
 sphere { <.5, .5, .8>, .1 pigment { rgbt 1 } hollow interior { media { scattering { 1, .1 } } } }
