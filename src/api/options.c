@@ -116,10 +116,11 @@ static const char *parse_choice(struct arena *a, const char *choices, const char
     return NULL;
 }
 
-// POV-Ray's letters for file types.
+// POV-Ray's letters for file types. What may follow them, as in `N16`, means nothing there.
 static const char *file_type_word(const char *text)
 {
-    const char *word = text[0] && !text[1] ? image_type_word_of_letter(text[0]) : NULL;
+    const bool letter = text[0] && !text[1 + strspn(text + 1, "0123456789gG")];
+    const char *word = letter ? image_type_word_of_letter(text[0]) : NULL;
     return word ? word : text;
 }
 

@@ -45,7 +45,13 @@ check "out of range is an error" exits 64 "$lambert" sphere.pov +W0
 check "a missing value is an error" exits 64 "$lambert" sphere.pov --width
 quiet() { exits 0 "$lambert" sphere.pov +W8 +H6 "$@" && test ! -s err; }
 check "what means nothing here is taken in silence" \
-  quiet -q -D -P +V +SP8 +EP2 +MB10 -UR +BM2 +WL5 Display=on Pause_When_Done=on -GA
+  quiet -q -D -P +V +SP8 +EP2 +MB10 -UR +BM2 +WL5 Display=on Pause_When_Done=on -GA \
+  Histogram_Name=a.csv Histogram_Type=C Histogram_Grid_Size=8.8
+typed() { exits 0 "$lambert" sphere.pov +W8 +H6 -q -o plain.png "Output_File_Type=$1" && file_starts "$2" "$3"; }
+file_starts() { head -c 4 "$1" | od -An -c | grep -q "$2"; }
+check "bits behind the letter of a type mean nothing, as in POV-Ray" typed N16 plain.png 'P   N   G'
+check "nor does a g" typed Ng8 plain.png 'P   N   G'
+check "another word is no type" exits 64 "$lambert" sphere.pov +W8 +H6 Output_File_Type=Nx
 fields() { exits 0 "$lambert" sphere.pov +W8 +H6 -q -o whole.png && exits 0 "$lambert" sphere.pov +W8 +H6 -q +UF +UO +RTR -o fields.png &&
   cmp whole.png fields.png && ! test -s err; }
 check "field rendering changes nothing, as in POV-Ray 3.7" fields
