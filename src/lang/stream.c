@@ -503,11 +503,6 @@ struct token stream_next(struct stream *s)
     return t;
 }
 
-bool stream_at_end(const struct stream *s)
-{
-    return s->stopped || (!s->pending_set && peek(s, 0).kind == TOK_END);
-}
-
 void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
                         struct diag_sink *diags, FILE *out)
 {

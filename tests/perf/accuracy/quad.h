@@ -4,7 +4,6 @@
 // Arithmetic of 113 bits for the reference; +, -, *, / alone, which need no library.
 __extension__ typedef __float128 quad;
 
-static inline quad quad_abs(quad v) { return v < 0 ? -v : v; }
 quad quad_sqrt(quad v);
 quad quad_value(const quad *c, int degree, quad t);
 // Roots on lo < t < hi at which the sign changes, ascending: between the roots of the
