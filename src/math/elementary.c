@@ -30,6 +30,17 @@ static struct dd exp_parts(struct dd x, int *k)
     return dd_fast_sum(s.hi, s.lo + (q + a.lo + a.lo * a.hi));
 }
 
+// ldexp of numbers near 1.
+static double scaled(double v, int k)
+{
+    const uint64_t bits = (uint64_t)(k + 1023) << 52;
+    double power;
+    if (k < -1000 || k > 1000)
+        return ldexp(v, k);
+    memcpy(&power, &bits, sizeof bits);
+    return v * power;
+}
+
 static double exp_dd(struct dd x)
 {
     if (!(x.hi < 710))
@@ -38,7 +49,7 @@ static double exp_dd(struct dd x)
         return 0;
     int k;
     struct dd e = exp_parts(x, &k);
-    return ldexp(e.hi, k);
+    return scaled(e.hi, k);
 }
 
 // frexp of a positive, normal x.
@@ -120,10 +131,10 @@ double det_pow(double x, double y)
     if (x != x || y != y)
         return x + y;
     double ax = fabs(x);
-    int odd = is_odd_integer(y);
+    const int odd = signbit(x) && is_odd_integer(y);
     if (ax == 0 || ax > DBL_MAX) {
         double r = (ax == 0) == (y < 0) ? HUGE_VAL : 0;
-        return signbit(x) && odd ? -r : r;
+        return odd ? -r : r;
     }
     if (fabs(y) > DBL_MAX)
         return ax == 1 ? 1 : (ax > 1) == (y > 0) ? HUGE_VAL : 0;
@@ -131,7 +142,7 @@ double det_pow(double x, double y)
         return (x - x) / 0.0;
     double clamped = y > 0x1p64 ? 0x1p64 : y < -0x1p64 ? -0x1p64 : y;
     double r = exp_dd(dd_scale(clamped, log_double(ax)));
-    return x < 0 && odd ? -r : r;
+    return odd ? -r : r;
 }
 
 // exp(|x|) as a double-double and its reciprocal; |x| < 700.

@@ -10,6 +10,7 @@
 #include "trace/inside.h"
 #include "trace/lens.h"
 #include "trace/media_march.h"
+#include "trace/shade_kernel.h"
 
 bool media_inside(const struct inside *list)
 {
@@ -247,6 +248,31 @@ struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, doub
     return shadow_through(t, &mix, o, d, s);
 }
 
+bool media_air_is_even(const struct tracer *t)
+{
+    return t->job->has_air_media && !t->job->scene->fog_count &&
+           t->media[WAY_SHADOW].air_even;
+}
+
+void media_air_even_shadows(struct tracer *t, const double *s, uint32_t count,
+                            struct rgb *out)
+{
+    const struct vec3 lost = t->media[WAY_SHADOW].air_extinction;
+    double x[3 * BATCH_SIZE + 8];
+    for (uint32_t i = 0; i < count; i++) {
+        x[3 * i] = -(s[i] * lost.x);
+        x[3 * i + 1] = -(s[i] * lost.y);
+        x[3 * i + 2] = -(s[i] * lost.z);
+    }
+    for (uint32_t i = 3 * count; i % 8; i++)
+        x[i] = 0;
+    t->job->kernels->exp_single(x, 3 * count);
+    const bool clear = lost.x == 0 && lost.y == 0 && lost.z == 0;
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = clear ? rgb(1, 1, 1)
+                       : rgb((float)x[3 * i], (float)x[3 * i + 1], (float)x[3 * i + 2]);
+}
+
 // ---- preparation -----------------------------------------------------------------------
 
 static bool wants_thresholds(const struct media *m)
@@ -384,6 +410,7 @@ void media_end(struct tracer *t)
         arena_free(t->media[i].arena);
         free(t->media[i].sample);
         free(t->media[i].span);
+        free(t->media[i].exp);
     }
     free(t->media);
 }

@@ -48,6 +48,11 @@ struct media_dark {
 };
 void media_shadows(struct tracer *t, struct media_dark *ray, uint32_t count);
 struct rgb media_air_shadow(struct tracer *t, struct vec3 o, struct vec3 d, double s);
+// Whether nothing but media that are the same everywhere fills the scene, and what it lets
+// through of light on at most BATCH_SIZE ways of length s.
+bool media_air_is_even(const struct tracer *t);
+void media_air_even_shadows(struct tracer *t, const double *s, uint32_t count,
+                            struct rgb *out);
 
 // What a job works out for all rays.
 void media_compile(struct job *job, struct arena *a);

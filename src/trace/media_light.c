@@ -129,6 +129,9 @@ static void samples_lit(struct lighting *l, struct media_sample *sample,
     if (!l->count)
         return;
     for (uint32_t i = 0; i < l->count; i++) {
+        l->phase[i] = 1;
+        if (m->mix->isotropic)
+            continue;
         const struct media_sample *s = &sample[l->sample[i]];
         const struct media_way *way = m->walker[m->interval[s->interval].walker].way;
         const struct vec3 d = {b->rays->d[0][i], b->rays->d[1][i], b->rays->d[2][i]};

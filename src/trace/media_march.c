@@ -1,11 +1,14 @@
 #include "trace/media_march.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/arena.h"
 #include "base/memory.h"
 #include "math/elementary.h"
 #include "scene/effects.h"
 #include "trace/photons.h"
+#include "trace/shade_kernel.h"
 
 static struct media_walker *walker_of(const struct media_march *m, uint32_t interval)
 {
@@ -249,23 +252,80 @@ static void total_add(struct total *all, struct vec3 light, struct vec3 depth, d
     all->depth = vec3_mad(all->depth, 1 / n, depth);
 }
 
-static void interval_end(const struct media_march *m, uint32_t first, uint32_t parts,
-                         struct total *all)
+// det_exp_single of what exps_put has put there.
+static const double *exps(const struct media_march *m)
 {
-    struct vec3 light = {0, 0, 0}, depth = {0, 0, 0};
-    if (m->depth_only) {
-        for (uint32_t j = 0; j < parts; j++)
-            depth = vec3_add(depth, span_depth(m, first + j));
-        all->depth = vec3_mad(all->depth, 1.0 / parts, depth);
+    struct media_scratch *s = m->scratch;
+    for (uint32_t i = s->exp_count; i % 8; i++)
+        s->exp[i] = 0;
+    m->t->job->kernels->exp_single(s->exp, s->exp_count);
+    return s->exp;
+}
+
+static void exps_begin(struct media_scratch *s, uint32_t vectors)
+{
+    s->exp_count = 0;
+    if (s->exp_capacity >= 3 * vectors + 8)
         return;
-    }
-    for (uint32_t j = 0; j < parts; j++) {
-        const struct value v = span_value(m, first + j, 0);
-        const struct vec3 clear = exp_minus(vec3_scale(1.0 / parts, depth));
-        light = vec3_add(light, vec3_mul(v.light, clear));
-        depth = vec3_add(depth, v.depth);
-    }
-    total_add(all, light, depth, parts);
+    s->exp_capacity = 6 * vectors + 8;
+    s->exp = must_realloc(s->exp, s->exp_capacity, sizeof *s->exp);
+}
+
+static void exps_put(struct media_scratch *s, struct vec3 depth)
+{
+    double *x = s->exp + s->exp_count;
+    x[0] = -depth.x, x[1] = -depth.y, x[2] = -depth.z;
+    s->exp_count += 3;
+}
+
+// Walker i's intervals from first[i] to before first[i + 1], whose samples are there: leaves
+// the depth before each part in its interval and that before each interval for exps.
+static void depths_end(struct media_march *m, const uint32_t *first, uint32_t parts,
+                       struct value *value, struct total *all)
+{
+    struct media_scratch *s = m->scratch;
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        for (uint32_t k = first[i]; k < first[i + 1]; k++) {
+            struct vec3 depth = {0, 0, 0};
+            for (uint32_t j = k * parts; j < (k + 1) * parts; j++) {
+                if (m->depth_only) {
+                    depth = vec3_add(depth, span_depth(m, j));
+                    continue;
+                }
+                value[j] = span_value(m, j, 0);
+                exps_put(s, vec3_scale(1.0 / parts, depth));
+                depth = vec3_add(depth, value[j].depth);
+            }
+            exps_put(s, all[i].depth);
+            all[i].depth = vec3_mad(all[i].depth, 1.0 / parts, depth);
+        }
+}
+
+static struct vec3 next_exp(const double **e)
+{
+    *e += 3;
+    return vec3((*e)[-3], (*e)[-2], (*e)[-1]);
+}
+
+// Adds intervals to the totals of their walkers.
+static void intervals_end(struct media_march *m, const uint32_t *first, struct total *all)
+{
+    const uint32_t parts = parts_of(m->mix->rules), count = first[m->walker_count];
+    struct media_scratch *s = m->scratch;
+    struct value *value = arena_new_array(s->arena, struct value, (size_t)count * parts);
+    exps_begin(s, count * (parts + 1));
+    depths_end(m, first, parts, value, all);
+    if (m->depth_only)
+        return;
+    const double *e = exps(m);
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        for (uint32_t k = first[i]; k < first[i + 1]; k++) {
+            struct vec3 light = {0, 0, 0};
+            for (uint32_t j = k * parts; j < (k + 1) * parts; j++)
+                light = vec3_add(light, vec3_mul(value[j].light, next_exp(&e)));
+            all[i].light = vec3_add(
+                all[i].light, vec3_mul(vec3_scale(1.0 / parts, light), next_exp(&e)));
+        }
 }
 
 // The samples of the intervals [begin, end) together.
@@ -282,10 +342,9 @@ static void adaptive_samples(struct media_march *m, uint32_t begin, uint32_t end
 static void adaptive(struct media_march *m, uint32_t begin, uint32_t end,
                      struct total *all)
 {
-    const uint32_t parts = parts_of(m->mix->rules);
+    const uint32_t first[] = {0, end - begin};
     adaptive_samples(m, begin, end);
-    for (uint32_t k = begin; k < end; k++)
-        interval_end(m, (k - begin) * parts, parts, all);
+    intervals_end(m, first, all);
 }
 
 // ---- methods 1 and 2 -------------------------------------------------------------------
@@ -435,14 +494,16 @@ bool media_goes_together(const struct media_mix *mix, bool depth_only)
 void media_walk_together(struct media_march *m, const uint32_t *first,
                          struct media_result *out)
 {
-    const uint32_t parts = parts_of(m->mix->rules);
+    struct total *all = arena_new_array(m->scratch->arena, struct total, m->walker_count);
+    memset(all, 0, m->walker_count * sizeof *all);
     adaptive_samples(m, 0, m->interval_count);
-    for (uint32_t i = 0; i < m->walker_count; i++) {
-        struct total all = {{0, 0, 0}, {0, 0, 0}};
-        for (uint32_t k = first[i]; k < first[i + 1]; k++)
-            interval_end(m, k * parts, parts, &all);
-        out[i] = (struct media_result){all.light, exp_minus(all.depth)};
-    }
+    intervals_end(m, first, all);
+    exps_begin(m->scratch, m->walker_count);
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        exps_put(m->scratch, all[i].depth);
+    const double *e = exps(m);
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        out[i] = (struct media_result){all[i].light, next_exp(&e)};
 }
 
 struct media_result media_walk(struct media_march *m)

@@ -26,6 +26,8 @@ struct media_scratch {
     struct media_sample *sample;
     struct media_span *span;
     uint32_t sample_count, sample_capacity, span_count, span_capacity;
+    double *exp; // numbers whose exponentials are asked for together
+    uint32_t exp_count, exp_capacity;
     bool air_even; // for shadow rays: what fills the scene is the same everywhere
     struct vec3 air_extinction;
 };

@@ -32,7 +32,8 @@ static struct vec3 even_density(const struct media *m)
 
 struct media_mix media_mix_of(const struct media *const *media, uint32_t count)
 {
-    struct media_mix mix = {.media = media, .count = count, .even = true};
+    struct media_mix mix = {
+        .media = media, .count = count, .even = true, .isotropic = true};
     for (uint32_t i = 0; i < count; i++) {
         const struct media *m = media[i];
         if (!mix.rules || m->intervals > mix.rules->intervals)
@@ -42,6 +43,7 @@ struct media_mix media_mix_of(const struct media *const *media, uint32_t count)
         mix.even &= is_even(m);
         mix.scatters |= !is_black(m->scattering);
         mix.emits |= !is_black(m->emission);
+        mix.isotropic &= m->scattering_type < 2;
     }
     for (uint32_t i = 0; i < count && mix.even; i++)
         point_add(&mix.everywhere, media[i], even_density(media[i]));

@@ -17,6 +17,7 @@ struct media_mix {
     double aa_threshold;       // the smallest of all
     bool even;                 // the same everywhere: `everywhere`
     bool scatters, emits;
+    bool isotropic; // media_phase is 1
     struct media_point everywhere;
 };
 

@@ -419,6 +419,12 @@ static void exps(const double *x, uint32_t count, float *out)
         f8_store(out + i, f8_of(r8_exp_single(r8_load(x + i))));
 }
 
+static void exp_single(double *x, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i += 8)
+        r8_store(x + i, r8_exp_single(r8_load(x + i)));
+}
+
 // ---- boxes --------------------------------------------------------------------------------
 
 LANES_INLINE void slab8_meet(double min, double max, struct real8 o, struct real8 inv,
@@ -453,16 +459,28 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 
 media_add_fn OF_ISA(media_add_);
 
-const struct shade_kernels OF_ISA(shade_kernels_) = {
-    ISA_TEXT,      &OF_ISA(surface_kernels_),
-    camera,        place,
-    own,           light,
-    bounce,        lit,
-    sums,          exps,
-    judge,         meets,
-    fogs,          toward,
-    views,         misses_cone,
-    points,        texture_space,
-    world_normals, sheet_pass,
-    own_sheets,    light_sheets,
-    caustics,      OF_ISA(media_add_)};
+const struct shade_kernels OF_ISA(shade_kernels_) = {ISA_TEXT,
+                                                     &OF_ISA(surface_kernels_),
+                                                     camera,
+                                                     place,
+                                                     own,
+                                                     light,
+                                                     bounce,
+                                                     lit,
+                                                     sums,
+                                                     exps,
+                                                     exp_single,
+                                                     judge,
+                                                     meets,
+                                                     fogs,
+                                                     toward,
+                                                     views,
+                                                     misses_cone,
+                                                     points,
+                                                     texture_space,
+                                                     world_normals,
+                                                     sheet_pass,
+                                                     own_sheets,
+                                                     light_sheets,
+                                                     caustics,
+                                                     OF_ISA(media_add_)};

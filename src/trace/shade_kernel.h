@@ -63,6 +63,8 @@ struct shade_kernels {
     void (*sums)(const struct wavefront *w, struct sample_sum *out);
     // det_exp_single of `count` numbers; both arrays have room for eight more.
     void (*exps)(const double *x, uint32_t count, float *out);
+    // The same in place, as doubles.
+    void (*exp_single)(double *x, uint32_t count);
     // struct antialias's.
     judge_function *judge;
     // Which of eight rays of a batch meet one of the boxes, as box_meets.

@@ -373,8 +373,26 @@ static struct rgb rest_passes(struct tracer *t, const struct shadow_batch *b, ui
     return airy(t, wave_inside(t, b->slot[k]), ray.o, ray.d, air_end);
 }
 
+// The same of all that nothing stops; air_end: NULL where no air dims.
+static void rests_pass(struct tracer *t, const struct shadow_batch *b, uint32_t count,
+                       const double *air_end, struct rgb *out)
+{
+    const bool even = air_end && !b->pass && media_air_is_even(t);
+    if (even)
+        media_air_even_shadows(t, air_end, count, out);
+    for (uint32_t i = 0; i < count; i++) {
+        if (b->occluded[i])
+            continue;
+        if (!even)
+            out[i] = rest_passes(t, b, i, air_end ? air_end[i] : 0);
+        else if (!(air_end[i] > 0) || !inside_hollow(wave_inside(t, b->slot[i])))
+            out[i] = all;
+    }
+}
+
 void shadow_flush_simple(struct tracer *t, uint32_t count)
 {
+    struct rgb pass[BATCH_SIZE];
     struct shadow_batch *b = &t->simple;
     double air_end[BATCH_SIZE];
     const bool air = has_dimming_air(t->job);
@@ -385,12 +403,12 @@ void shadow_flush_simple(struct tracer *t, uint32_t count)
         t->job->kernels->lit(&t->wave, b, count);
         return;
     }
+    rests_pass(t, b, count, air ? air_end : NULL, pass);
     for (uint32_t k = 0; k < count; k++) {
         if (b->occluded[k])
             continue;
         const struct rgb c = rgb(b->value[0][k], b->value[1][k], b->value[2][k]);
-        tracer_lit(t, b->slot[k],
-                   rgb_mul(c, rest_passes(t, b, k, air ? air_end[k] : 0)));
+        tracer_lit(t, b->slot[k], rgb_mul(c, pass[k]));
     }
 }
 
@@ -445,10 +463,12 @@ void shadow_factors_near(struct tracer *t, uint32_t lamp, uint32_t count, struct
     if (air)
         memcpy(air_end, b->rays->t_max, count * sizeof *air_end);
     batch_trace(t, b, count, air ? air_end : NULL);
+    rests_pass(t, b, count, air ? air_end : NULL, out);
     for (uint32_t i = 0; i < count; i++)
-        out[i] = !(b->rays->t_max[i] > 0) ? all
-                 : b->occluded[i]         ? none
-                                          : rest_passes(t, b, i, air ? air_end[i] : 0);
+        if (!(b->rays->t_max[i] > 0))
+            out[i] = all;
+        else if (b->occluded[i])
+            out[i] = none;
 }
 
 // Rays to the same lamp side by side, so that packets stay together.
