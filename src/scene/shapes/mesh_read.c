@@ -1,6 +1,7 @@
 // mesh { triangle {} smooth_triangle {} ... } and mesh2 { vertex_vectors {} ... }
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -44,6 +45,11 @@ static const struct texture *whole_texture(const struct mesh *m)
     return same ? m->texture[first] : NULL;
 }
 
+static void *kept(struct arena *a, const void *from, size_t size)
+{
+    return memcpy(arena_alloc(a, size), from, size);
+}
+
 static bool finish(struct mesh *m, struct args *args)
 {
     if (m->face_count == 0) {
@@ -72,13 +78,31 @@ static bool read_inside_vector(struct mesh *m, struct args *args)
 
 // ---- mesh -----------------------------------------------------------------------------
 
+// Rows of one size that grow by doubling outside the arena, where what they grew out of
+// would stay.
+struct rows {
+    void *at;
+    uint32_t count, capacity;
+};
+
+static void *rows_add(struct rows *r, size_t size)
+{
+    if (r->count == r->capacity) {
+        r->capacity = r->capacity ? 2 * r->capacity : 64;
+        r->at = realloc(r->at, r->capacity * size);
+        if (!r->at)
+            abort();
+    }
+    return (char *)r->at + r->count++ * size;
+}
+
+// What a mesh is read into; normals, uv coordinates and textures from the first triangle on
+// that has some: those before it are filled in.
 struct soup {
     struct mesh *m;
-    uint32_t textures_capacity, face_textures_capacity;
     struct arena *arena;
-    uint32_t vertex_capacity, normal_capacity, uv_capacity, face_capacity, normals_capacity,
-        uvs_capacity;
-    bool any_normal, any_uv, any_texture;
+    uint32_t textures_capacity;
+    struct rows vertex, normal, uv, face, face_normal, face_uv, face_texture;
 };
 
 // The number of a texture of the mesh, which gets it unless it has it.
@@ -111,7 +135,6 @@ static bool read_textures(struct soup *s, struct args *block, uint32_t out[3])
         out[0] = out[1] = out[2] =
             texture_number(s->m, s->arena, x, &s->textures_capacity);
     }
-    s->any_texture |= out[0] != UINT32_MAX;
     if (args_end(block) && !args_at_texture(block))
         return true;
     args_reject(block, "after the corners of a triangle only uv_vectors, texture { } and "
@@ -119,71 +142,121 @@ static bool read_textures(struct soup *s, struct args *block, uint32_t out[3])
     return false;
 }
 
+typedef uint32_t corners[3];
+
+// The row of the face that was just added, in what not all faces have.
+static uint32_t *face_row(const struct soup *s, struct rows *r, uint32_t others)
+{
+    corners *row = NULL;
+    while (r->count < s->face.count) {
+        row = rows_add(r, sizeof *row);
+        (*row)[0] = (*row)[1] = (*row)[2] = others;
+    }
+    return row ? *row : NULL;
+}
+
+static void add_normals(struct soup *s, const struct vec3 n[3])
+{
+    uint32_t *row = face_row(s, &s->face_normal, UINT32_MAX);
+    for (int i = 0; i < 3; i++) {
+        row[i] = s->normal.count;
+        *(struct vec3 *)rows_add(&s->normal, sizeof *n) = normal_read(s->m, n[i]);
+    }
+}
+
+// Corner 0 of the uv coordinates is that of triangles without.
+static void add_uv(struct soup *s, const struct vec2 uv[3])
+{
+    if (!s->uv.count)
+        *(struct vec2 *)rows_add(&s->uv, sizeof *uv) = (struct vec2){0, 0};
+    uint32_t *row = face_row(s, &s->face_uv, 0);
+    for (int i = 0; i < 3; i++) {
+        row[i] = s->uv.count;
+        *(struct vec2 *)rows_add(&s->uv, sizeof *uv) = uv[i];
+    }
+}
+
 static bool read_triangle(struct soup *s, struct args *block, bool smooth)
 {
-    struct mesh *m = s->m;
     struct vec3 p[3], n[3];
-    struct vec2 uv[3] = {{0, 0}, {0, 0}, {0, 0}};
+    struct vec2 uv[3];
+    uint32_t texture[3];
     for (int i = 0; i < 3; i++)
         if (!args_vec3(block, "corner", &p[i]) ||
             (smooth && !args_vec3(block, "normal", &n[i])))
             return false;
-    if (args_word(block, "uv_vectors")) {
-        s->any_uv = true;
-        for (int i = 0; i < 3; i++)
-            if (!args_vec2(block, "uv vector", &uv[i]))
-                return false;
-    }
-    const uint32_t f = m->face_count++;
-    m->face = grown(s->arena, m->face, f, &s->face_capacity, sizeof *m->face);
-    m->face_normal = grown(s->arena, m->face_normal, f, &s->normals_capacity,
-                           sizeof *m->face_normal);
-    m->face_uv = grown(s->arena, m->face_uv, f, &s->uvs_capacity, sizeof *m->face_uv);
+    const bool mapped = args_word(block, "uv_vectors");
+    for (int i = 0; i < 3 && mapped; i++)
+        if (!args_vec2(block, "uv vector", &uv[i]))
+            return false;
+    uint32_t *face = rows_add(&s->face, sizeof(corners));
     for (int i = 0; i < 3; i++) {
-        m->vertex = grown(s->arena, m->vertex, m->vertex_count, &s->vertex_capacity,
-                          sizeof *m->vertex);
-        m->uv = grown(s->arena, m->uv, m->uv_count, &s->uv_capacity, sizeof *m->uv);
-        m->face[f][i] = m->vertex_count;
-        m->face_uv[f][i] = m->uv_count;
-        m->vertex[m->vertex_count++] = p[i];
-        m->uv[m->uv_count++] = uv[i];
-        m->face_normal[f][i] = UINT32_MAX;
-        if (smooth) {
-            m->normal = grown(s->arena, m->normal, m->normal_count, &s->normal_capacity,
-                              sizeof *m->normal);
-            m->face_normal[f][i] = m->normal_count;
-            m->normal[m->normal_count++] = normal_read(m, n[i]);
+        face[i] = s->vertex.count;
+        *(struct vec3 *)rows_add(&s->vertex, sizeof *p) = p[i];
+    }
+    if (smooth)
+        add_normals(s, n);
+    if (mapped)
+        add_uv(s, uv);
+    if (!read_textures(s, block, texture))
+        return false;
+    if (texture[0] != UINT32_MAX)
+        memcpy(face_row(s, &s->face_texture, UINT32_MAX), texture, sizeof texture);
+    return true;
+}
+
+static bool read_soup(struct soup *s, struct args *args)
+{
+    for (;;) {
+        struct args *block;
+        if ((block = args_block(args, "triangle"))) {
+            if (!read_triangle(s, block, false))
+                return false;
+        } else if ((block = args_block(args, "smooth_triangle"))) {
+            if (!read_triangle(s, block, true))
+                return false;
+        } else if (args_word(args, "inside_vector")) {
+            if (!read_inside_vector(s->m, args))
+                return false;
+        } else {
+            return true;
         }
     }
-    m->face_texture = grown(s->arena, m->face_texture, f, &s->face_textures_capacity,
-                            sizeof *m->face_texture);
-    return read_textures(s, block, m->face_texture[f]);
+}
+
+// The rows in the arena; NULL when there are none. Frees them.
+static void *rows_keep(struct rows *r, struct arena *a, size_t size)
+{
+    void *all = r->count ? kept(a, r->at, r->count * size) : NULL;
+    free(r->at);
+    return all;
 }
 
 static bool build_mesh(void *shape, struct args *args)
 {
     struct mesh *m = shape;
-    struct soup s = {.m = m, .arena = args_arena(args)};
-    for (;;) {
-        struct args *block;
-        if ((block = args_block(args, "triangle"))) {
-            if (!read_triangle(&s, block, false))
-                return false;
-        } else if ((block = args_block(args, "smooth_triangle"))) {
-            if (!read_triangle(&s, block, true))
-                return false;
-        } else if (args_word(args, "inside_vector")) {
-            if (!read_inside_vector(m, args))
-                return false;
-        } else {
-            break;
-        }
-    }
-    if (!s.any_uv)
-        m->face_uv = NULL;
-    if (!s.any_texture)
-        m->face_texture = NULL;
-    return finish(m, args);
+    struct arena *a = args_arena(args);
+    struct soup s = {.m = m, .arena = a};
+    const bool ok = read_soup(&s, args);
+    // Of what not all have, the faces after the last that has some.
+    if (s.face_normal.count)
+        face_row(&s, &s.face_normal, UINT32_MAX);
+    if (s.face_uv.count)
+        face_row(&s, &s.face_uv, 0);
+    if (s.face_texture.count)
+        face_row(&s, &s.face_texture, UINT32_MAX);
+    m->vertex_count = s.vertex.count;
+    m->normal_count = s.normal.count;
+    m->uv_count = s.uv.count;
+    m->face_count = s.face.count;
+    m->vertex = rows_keep(&s.vertex, a, sizeof *m->vertex);
+    m->normal = rows_keep(&s.normal, a, sizeof *m->normal);
+    m->uv = rows_keep(&s.uv, a, sizeof *m->uv);
+    m->face = rows_keep(&s.face, a, sizeof *m->face);
+    m->face_normal = rows_keep(&s.face_normal, a, sizeof *m->face_normal);
+    m->face_uv = rows_keep(&s.face_uv, a, sizeof *m->face_uv);
+    m->face_texture = rows_keep(&s.face_texture, a, sizeof *m->face_texture);
+    return ok && finish(m, args);
 }
 
 // ---- mesh2 -----------------------------------------------------------------------------
@@ -199,11 +272,6 @@ static bool read_count(struct args *block, uint32_t *out)
     }
     *out = (uint32_t)n;
     return true;
-}
-
-static void *kept(struct arena *a, const void *from, size_t size)
-{
-    return memcpy(arena_alloc(a, size), from, size);
 }
 
 static bool read_vectors(struct args *block, struct arena *a, struct vec3 **out,
