@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "base/parallel.h"
+#include "math/elementary.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
@@ -70,8 +71,9 @@ static bool look_around(const struct radiosity *r, struct tracer *t, struct vec3
     for (uint32_t k = 0; k < RAYS; k++) {
         double x[4], own[3], b[3] = {0, 0, 0};
         sobol_point(k, seed, x);
-        const double z = 1 - 2 * x[0], rho = sqrt(fmax(0, 1 - z * z));
-        const struct vec3 d = vec3(rho * cos(2 * pi * x[1]), rho * sin(2 * pi * x[1]), z);
+        const double z = 1 - 2 * x[0], rho = sqrt(fmax(0, 1 - z * z)),
+                     angle = 2 * pi * x[1];
+        const struct vec3 d = vec3(rho * det_cos(angle), rho * det_sin(angle), z);
         const struct ray_query q = {{o, d, 0, INFINITY}, OBJECT_NO_RADIOSITY};
         const struct hit hit = trace_closest_1(p->job->world, t->scratch, &q);
         if (hit.b.t < INFINITY) {
