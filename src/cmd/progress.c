@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -60,19 +61,32 @@ static void print_reading(struct progress *p, uint32_t line, uint32_t lines,
     p->shown = p->terminal;
 }
 
+static unsigned columns(void)
+{
+    struct winsize w;
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col ? w.ws_col : 80;
+}
+
+// Never longer than the window: a line that wraps cannot be drawn over.
 static void print_bar(struct progress *p, uint32_t done, uint32_t total, double elapsed)
 {
+    enum { BAR_NEEDS = 60, COUNTS_NEED = 40, LEFT_NEEDS = 16 };
+    const unsigned percent = (unsigned)(100.0 * done / total), wide = columns();
     char bar[21];
     size_t full = (size_t)(20.0 * done / total);
     memset(bar, '#', full);
     memset(bar + full, '.', 20 - full);
     bar[20] = 0;
-    const unsigned percent = (unsigned)(100.0 * done / total);
-    if (p->phase == LAMBERT_PHASE_RADIOSITY)
-        fprintf(stderr, "\r[%s] radiosity: %u %%  ", bar, percent);
+    fputc('\r', stderr);
+    if (wide >= BAR_NEEDS)
+        fprintf(stderr, "[%s] ", bar);
+    if (p->phase == LAMBERT_PHASE_RADIOSITY && wide >= COUNTS_NEED)
+        fprintf(stderr, "radiosity: %u %%  ", percent);
     else
-        fprintf(stderr, "\r[%s] %3u%%  %u/%u tiles  ", bar, percent, done, total);
-    if (done < total && p->phase == LAMBERT_PHASE_TILES) {
+        fprintf(stderr, "%3u%%  ", percent);
+    if (p->phase != LAMBERT_PHASE_RADIOSITY && wide >= COUNTS_NEED)
+        fprintf(stderr, "%u/%u tiles  ", done, total);
+    if (done < total && p->phase == LAMBERT_PHASE_TILES && wide >= LEFT_NEEDS) {
         fputs("ETA ", stderr);
         print_duration(stderr, left(p, done, total, elapsed));
     }

@@ -97,4 +97,14 @@ solving()
 }
 check "radiosity is stopped before it is solved" solving INT
 check "by SIGTERM too" solving TERM
+# narrow COLUMNS: no line of the progress is longer than a window of so many.
+narrow()
+{
+  script -qec "stty cols $1; '$lambert' sphere.pov +W700 +H700 +A0.0 +AM1 +R4 -o wide.png --tile-size 8" /dev/null </dev/null >typescript || return
+  tr '\r' '\n' <typescript | sed 's/\x1b\[K//g' | grep '%' >lines
+  test -s lines && awk -v most="$1" 'length($0) >= most { bad = 1; print "# " $0 } END { exit bad }' lines
+}
+for columns in 100 45 20; do
+  check "the progress fits into $columns columns" narrow $columns
+done
 finish
