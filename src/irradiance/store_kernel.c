@@ -174,9 +174,12 @@ static unsigned means_of(const struct cache_sample *sample, const uint32_t *file
         const struct cache_sample *x = &sample[filed[i]];
         struct real8 r[4], q[4], s[4];
         set_row(x->row, r);
-        if (!(m8_bits(near_enough(&a, r)) & lanes))
+        const unsigned near = m8_bits(near_enough(&a, r)) & lanes;
+        if (!near)
             continue;
         set_row(x->row + 4, q);
+        if (!(m8_bits(even_enough(&a, q)) & near))
+            continue;
         set_row(x->row + 8, s);
         const struct real8 w = weights(&a, r, q, s);
         const struct mask8 on = m8_and(m8_of(lanes), r8_lt(nought, w));
