@@ -1,5 +1,6 @@
 // The passes that take samples before the picture (spec/lighting.md 12.6).
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -10,8 +11,11 @@
 
 enum { SQUARE = 32 }; // side of the squares that know nothing of each other in a pass
 
+struct scouts;
+
 struct pass {
     struct irradiance_cache *cache;
+    struct scouts *scouts;
     const struct render_settings *settings;
     uint32_t number;
     double size;         // distance of its points, in pixels
@@ -37,28 +41,56 @@ static uint32_t squares_down(const struct render_settings *s)
 struct scout {
     struct tracer *tracer;
     struct gatherer *gatherer;
+    struct scout *next;
 };
+
+// Those that wait for a thread: a round of a pass may be shorter than the making of one.
+struct scouts {
+    pthread_mutex_t lock;
+    struct scout *idle;
+};
+
+static struct scout *scout_new(const struct irradiance_cache *c)
+{
+    struct scout *s = must_calloc(1, sizeof *s);
+    s->gatherer = gatherer_new(c);
+    s->tracer = tracer_new(&c->scout);
+    s->tracer->indirect = &s->gatherer->level[0];
+    return s;
+}
 
 static void *begin(void *user)
 {
     const struct pass *p = user;
-    struct scout *s = malloc(sizeof *s);
+    pthread_mutex_lock(&p->scouts->lock);
+    struct scout *s = p->scouts->idle;
+    if (s)
+        p->scouts->idle = s->next;
+    pthread_mutex_unlock(&p->scouts->lock);
     if (!s)
-        abort();
-    s->gatherer = gatherer_new(p->cache);
+        s = scout_new(p->cache);
     s->gatherer->final = p->final;
-    s->tracer = tracer_new(&p->cache->scout);
-    s->tracer->indirect = &s->gatherer->level[0];
     return s;
 }
 
 static void end(void *user, void *state)
 {
+    const struct pass *p = user;
     struct scout *s = state;
-    (void)user;
-    tracer_free(s->tracer);
-    gatherer_free(s->gatherer);
-    free(s);
+    pthread_mutex_lock(&p->scouts->lock);
+    s->next = p->scouts->idle;
+    p->scouts->idle = s;
+    pthread_mutex_unlock(&p->scouts->lock);
+}
+
+static void scouts_free(struct scouts *all)
+{
+    for (struct scout *s = all->idle, *next; s; s = next) {
+        next = s->next;
+        tracer_free(s->tracer);
+        gatherer_free(s->gatherer);
+        free(s);
+    }
 }
 
 // Where the points of a pass lie that belong to [from, to): multiples of the size.
@@ -221,13 +253,15 @@ static uint32_t pass_count(const struct irradiance_cache *c,
     return n < 1 ? 1 : n > MOST ? MOST : (uint32_t)n;
 }
 
-static bool fill(struct irradiance_cache *c, const struct render_settings *settings,
-                 bool *settled, struct watch *watch, struct irradiance_report *report)
+static bool fill(struct irradiance_cache *c, struct scouts *scouts,
+                 const struct render_settings *settings, bool *settled,
+                 struct watch *watch, struct irradiance_report *report)
 {
     double size, last;
     const uint32_t count = pass_count(c, settings, &size, &last);
     for (uint32_t i = 1; i <= count; i++, size /= 2) {
         struct pass p = {.cache = c,
+                         .scouts = scouts,
                          .settings = settings,
                          .settled = settled,
                          .number = i,
@@ -237,6 +271,7 @@ static bool fill(struct irradiance_cache *c, const struct render_settings *setti
             return false;
     }
     struct pass p = {.cache = c,
+                     .scouts = scouts,
                      .settings = settings,
                      .settled = settled,
                      .number = count + 1,
@@ -251,7 +286,9 @@ bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *s
                      struct watch *watch, struct irradiance_report *report)
 {
     bool *settled = must_calloc(squares_across(settings) * squares_down(settings), 1);
-    const bool whole = fill(c, settings, settled, watch, report);
+    struct scouts scouts = {.lock = PTHREAD_MUTEX_INITIALIZER, .idle = NULL};
+    const bool whole = fill(c, &scouts, settings, settled, watch, report);
+    scouts_free(&scouts);
     free(settled);
     return whole;
 }
