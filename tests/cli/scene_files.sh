@@ -20,6 +20,10 @@ mkdir folder
 check "below the folder of the picture" reads write.pov -o folder/x.png
 check "not in the working directory" cmp folder/text want
 
+printf '\377\376s\0p\0h\0e\0r\0e\0' >utf16.pov
+utf16() { exits 1 "$lambert" check utf16.pov && has err "utf16.pov:1:1: error: this file is UTF-16: save it as UTF-8"; }
+check "UTF-16 is told so, once" utf16
+
 cat >data <<'EOS'
 1, -2.5, <1,2,3>, "he\"l\\lo", +3e2, // a comment
 7 8 9, 10

@@ -218,6 +218,7 @@ lang_scenes = \
 	%D%/360-image-extent.scn \
 	%D%/361-version-1-signs.scn \
 	%D%/362-error-vector-one.scn \
-	%D%/363-warning-semicolons.scn
+	%D%/363-warning-semicolons.scn \
+	%D%/364-message-bytes.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh
