@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "trace/packet.h"
 #include "trace/projected.h"
 #include "trace/shade_kernel.h"
+#include "trace/ray_shaft.h"
 
 struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
                        uint32_t hash, int u, int v)
@@ -255,14 +257,118 @@ static uint32_t places_most(const struct light *light)
     return most < LEAST ? LEAST : most > BATCH_SIZE ? BATCH_SIZE : most;
 }
 
+// ---- what is in the way -----------------------------------------------------------------
+
+enum { AREA_PLACES = 8 }; // neighbours that are asked for together
+
+// What holds all points of an area light's grid, however it is turned and jittered.
+struct area_around {
+    bool known; // rays end there
+    struct aabb box;
+    double radius;
+};
+
+static double half_of(const struct light *l, int size)
+{
+    static const double shift = 0.001; // of a circular grid
+    return size > 1 ? 0.5 + l->circular * shift + l->jitter * 0.5 / (size - 1)
+                    : l->circular * shift;
+}
+
+static struct area_around area_around(const struct tracer *t, const struct lamp *lamp)
+{
+    const struct light *l = lamp->light;
+    const double h1 = half_of(l, l->size1), h2 = half_of(l, l->size2);
+    const double r1 = h1 * vec3_length(l->axis1);
+    const double r2 = h2 * vec3_length(l->orient ? l->axis1 : l->axis2);
+    struct vec3 reach = vec3(r1 + r2, r1 + r2, r1 + r2);
+    if (!l->orient)
+        reach = vec3(h1 * fabs(l->axis1.x) + h2 * fabs(l->axis2.x),
+                     h1 * fabs(l->axis1.y) + h2 * fabs(l->axis2.y),
+                     h1 * fabs(l->axis1.z) + h2 * fabs(l->axis2.z));
+    return (struct area_around){
+        !l->parallel && l->kind != LIGHT_CYLINDER && !l->projected_through &&
+            !air_counts(t->job, lamp->index),
+        {vec3_sub(l->location, reach), vec3_add(l->location, reach)},
+        r1 + r2};
+}
+
+// The origins of the rays from places to the lamp's grid, and a box around them; false: some
+// begin on either side of their surface.
+static bool origins_of(const struct area_around *around,
+                       const struct area_request *const *r, uint32_t count,
+                       double origin[3][AREA_PLACES], struct aabb *box)
+{
+    *box = aabb_empty();
+    for (uint32_t i = 0; i < AREA_PLACES; i++) {
+        const struct area_request *a = r[i < count ? i : 0];
+        const double up =
+            vec3_dot(vec3_sub(a->lamp->light->location, a->p), a->ng);
+        if (a->error > 0 && !(fabs(up) > 1.001 * around->radius))
+            return false;
+        const struct vec3 o = vec3_mad(a->p, (up < 0 ? -2 : 2) * a->error, a->ng);
+        origin[0][i] = o.x, origin[1][i] = o.y, origin[2][i] = o.z;
+        *box = aabb_add(*box, o);
+    }
+    return true;
+}
+
+// Whether nothing can lie between neighbouring places and any point of the lamp.
+static bool nothing_between(const struct tracer *t, const struct area_around *around,
+                            const struct area_request *const *r, uint32_t count)
+{
+    const struct world *w = t->job->world;
+    double origin[3][AREA_PLACES];
+    uint32_t object[RAY_SHAFT_OBJECTS];
+    struct ray_shaft s = {{origin[0], origin[1], origin[2]},
+                      AREA_PLACES,
+                      OBJECT_NO_SHADOW,
+                      around->box,
+                      around->box};
+    return around->known && origins_of(around, r, count, origin, &s.from) &&
+           !w->accel->kernels->shaft(w->dark, &s, object) &&
+           (!w->clear || !w->accel->kernels->shaft(w->clear, &s, object));
+}
+
+// Places on whose ways something may be, together.
+struct area_rest {
+    const struct area_request *at[BATCH_SIZE];
+    struct rgb *out[BATCH_SIZE];
+    uint32_t count;
+};
+
+static void rest_light(struct tracer *t, struct area_rest *rest)
+{
+    struct rgb out[BATCH_SIZE];
+    if (rest->count)
+        places_light(t, rest->at, rest->count, out);
+    for (uint32_t i = 0; i < rest->count; i++)
+        *rest->out[i] = out[i];
+    rest->count = 0;
+}
+
 void area_shadows(struct tracer *t, const struct area_request *const *r, uint32_t count,
                   struct rgb *out)
 {
     if (!count)
         return;
     const uint32_t most = places_most(r[0]->lamp->light);
-    for (uint32_t i = 0; i < count; i += most)
-        places_light(t, r + i, count - i < most ? count - i : most, out + i);
+    const struct area_around around = area_around(t, r[0]->lamp);
+    struct area_rest rest;
+    rest.count = 0;
+    for (uint32_t i = 0, n; i < count; i += n) {
+        n = count - i < AREA_PLACES ? count - i : AREA_PLACES;
+        const bool lit = nothing_between(t, &around, r + i, n);
+        if (rest.count + n > most)
+            rest_light(t, &rest);
+        for (uint32_t k = i; k < i + n; k++) {
+            out[k] = rgb(1, 1, 1);
+            rest.at[rest.count] = r[k];
+            rest.out[rest.count] = &out[k];
+            rest.count += !lit;
+        }
+    }
+    rest_light(t, &rest);
 }
 
 // ---- places that wait -------------------------------------------------------------------

@@ -11,7 +11,7 @@ liblambert_a_SOURCES += \
 	%D%/media_mix.c %D%/media_mix.h %D%/photon_flight.h %D%/photon_media.c %D%/photon_map.c %D%/photon_map.h %D%/photon_path.c %D%/photon_path.h %D%/photon_volley.c %D%/photon_volley.h \
 	%D%/photons.c %D%/photons.h %D%/shade_photons.c %D%/subsurface.c %D%/subsurface.h %D%/subsurface_plan.c %D%/mesh_samples.c %D%/mesh_samples.h %D%/near_zero.h %D%/lens.h %D%/paint.c %D%/paint_lit.c %D%/paint_compile.c %D%/paint.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/scout.c %D%/scout.h %D%/shade.c %D%/shade.h \
-	%D%/shade_light.c %D%/shade_transmit.c %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/sky.c %D%/sky.h \
+	%D%/shade_light.c %D%/shade_transmit.c %D%/ray_shaft.h %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/sky.c %D%/sky.h \
 	%D%/simple.c %D%/simple.h %D%/simple_bounce.c %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
 	%D%/wave.c %D%/wave.h
 
@@ -34,7 +34,7 @@ packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noi
 	%D%/media_kernel.c %D%/photon_kernel.c %D%/photon_search.h %D%/subsurface_kernel.c %D%/subsurface_kernel.h \
 	%D%/packet_kernel.c %D%/packet_product.h %D%/packet_quick.h \
 	%D%/packet.h %D%/packet_any.h %D%/packet_bound.h %D%/packet_carve.h %D%/packet_clip.h %D%/packet_cross.h %D%/packet_csg.h %D%/packet_objects.h %D%/packet_parts.h %D%/packet_shapes.h \
-	%D%/packet_lanes.h %D%/packet_list.h %D%/packet_mesh.h %D%/packet_ring.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \
+	%D%/packet_lanes.h %D%/packet_list.h %D%/packet_mesh.h %D%/packet_ring.h %D%/packet_shaft.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \
 	%D%/shade_kernel.c %D%/shade_kernel.h %D%/shade_air.h %D%/shade_area.h %D%/shade_bounce.h %D%/shade_camera.h %D%/shade_caustic.h \
 	%D%/shade_color.h %D%/shade_judge.h %D%/shade_lamp.h %D%/shade_lanes.h %D%/shade_lit.h %D%/shade_place.h \
 	%D%/shade_sheets.h

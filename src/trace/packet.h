@@ -4,6 +4,7 @@
 #include "trace/accel.h"
 #include "trace/photon_search.h"
 #include "trace/scratch.h"
+#include "trace/ray_shaft.h"
 
 // One ray on its way through the world. The nearest hit so far is kept; among equal
 // distances it is the one of the object declared first.
@@ -114,6 +115,7 @@ struct packet_kernels {
     void (*walk)(struct search *f, struct bvh8_ray *r, int32_t child);
     // As sweep_object before f->t, of a PACKET_CARVED; unsure: only the sweep can tell.
     bool (*carve)(struct search *f, uint32_t object, struct boundary *out, bool *unsure);
+    ray_shaft_function *shaft;
     const struct shape_kernels *shapes;
     photon_search_fn *photons;
 };

@@ -4,6 +4,7 @@
 #include "trace/packet.h"
 #include "trace/packet_any.h"
 #include "trace/packet_list.h"
+#include "trace/packet_shaft.h"
 
 enum { SMALL_TREE = 16 }; // nodes up to which packets always pay
 
@@ -244,6 +245,25 @@ static void find_some(struct eight *e, struct packet *p, uint64_t some)
         p->alive &= ~try_eight(e, p->alive, (uint32_t)__builtin_ctzll(some));
 }
 
+// The same of listed ones: those that are dearer than their boxes behind them.
+static void find_listed(struct eight *e, struct packet *p, const uint32_t *object,
+                        uint32_t count)
+{
+    for (uint32_t i = 0; i < count && p->alive; i++) {
+        const struct world_object *o = &p->w->object[object[i]];
+        const enum packet_shape shape = p->w->accel->object_shape[object[i]];
+        const bool boxed = (shape < PACKET_SPHERE || shape > PACKET_CYLINDER) &&
+                           aabb_is_finite(o->bounds);
+        unsigned lanes = p->alive;
+        if (boxed)
+            lanes &= box_lanes(e, &o->bounds);
+        e->boxed = boxed;
+        if (lanes)
+            p->alive &= ~try_eight(e, lanes, object[i]);
+    }
+    e->boxed = false;
+}
+
 // As box_ray_of has it.
 LANES_INLINE struct real8 inverse8(struct real8 d, struct real8 longest)
 {
@@ -346,9 +366,18 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
     p.mode = SWEEP_OPAQUE;
     s->stats.shadow_rays += rays->count;
     uint32_t blocker = UINT32_MAX; // of all rays before: likely of these as well
+    struct shaft_search shaft;
+    shaft.end = shaft.skip = shaft.failed = 0;
+    shaft.count = RAY_SHAFT_MANY;
     for (uint32_t i = 0; i < rays->count; i += 8) {
         struct eight e;
         const uint32_t n = rays->count - i < 8 ? rays->count - i : 8;
+        if (!some && i == shaft.end)
+            shaft_search_at(&shaft, w, rays, i);
+        if (!shaft.count) {
+            memset(out + i, 0, 8);
+            continue;
+        }
         if (n == 8)
             begin(&e, &p, rays, i, 255);
         else
@@ -357,6 +386,8 @@ static void trace_occluded8(const struct world *w, struct trace_scratch *s,
             p.alive &= ~try_eight(&e, p.alive, blocker);
         if (some)
             find_some(&e, &p, *some);
+        else if (shaft.count != RAY_SHAFT_MANY)
+            find_listed(&e, &p, shaft.object, shaft.count);
         else if (p.alive)
             find(&e, &p);
         bool all = true;
@@ -421,4 +452,4 @@ static bool carve(struct search *f, uint32_t object, struct boundary *out, bool 
 
 const struct packet_kernels OF_ISA(packet_kernels_) = {
     ISA_TEXT, trace_closest8, trace_occluded8,         crossings,
-    walk,     carve,          &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};
+    walk,     carve,          shaft_objects, &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};

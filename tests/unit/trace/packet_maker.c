@@ -227,6 +227,25 @@ static void fill(struct maker *m, struct ray_batch *b, int kind)
     }
 }
 
+enum { BUNDLE = 64 };
+
+// Bundles from places close to each other to ends close to each other.
+static void fill_bundles(struct maker *m, struct ray_batch *b)
+{
+    struct vec3 from = {0, 0, 0}, to = {0, 0, 0};
+    b->count = 0;
+    for (int i = 0; i < RAYS; i++) {
+        if (i % BUNDLE == 0) {
+            from = somewhere(m, 9);
+            to = somewhere(m, 9);
+        }
+        const struct vec3 o = vec3_add(from, somewhere(m, .2));
+        const struct vec3 end = vec3_add(to, somewhere(m, i / BUNDLE % 2 ? .1 : 0));
+        const struct vec3 d = vec3_sub(end, o);
+        put(b, o, vec3_dot(d, d) == 0 ? vec3(0, 0, 1) : d, 0, 1, OBJECT_NO_SHADOW);
+    }
+}
+
 static struct ray_query query_at(const struct ray_batch *b, uint32_t i)
 {
     return (struct ray_query){.ray = {vec3(b->o[0][i], b->o[1][i], b->o[2][i]),
@@ -312,6 +331,38 @@ static int check_crossings(const struct world *w, struct trace_scratch *s,
     return total;
 }
 
+// Of bundles, all that is in the way of some ray is in the bundle's shaft. Returns the number of
+// empty shafts.
+static int check_shafts(const struct world *w, struct trace_scratch *s,
+                        const struct ray_batch *b)
+{
+    int empty = 0;
+    for (uint32_t first = 0; first + BUNDLE <= b->count; first += BUNDLE) {
+        struct ray_shaft shaft = {{b->o[0] + first, b->o[1] + first, b->o[2] + first},
+                                  BUNDLE,
+                                  OBJECT_NO_SHADOW,
+                                  aabb_empty(),
+                                  aabb_empty()};
+        uint32_t object[RAY_SHAFT_OBJECTS];
+        for (uint32_t i = first; i < first + BUNDLE; i++) {
+            const struct ray r = query_at(b, i).ray;
+            shaft.from = aabb_add(shaft.from, r.o);
+            shaft.to = aabb_add(shaft.to, ray_at(&r, r.t_max));
+        }
+        const uint32_t n = w->accel->kernels->shaft(w, &shaft, object);
+        empty += n == 0;
+        for (uint32_t i = first; i < first + BUNDLE && n != RAY_SHAFT_MANY; i++) {
+            const struct ray_query q = query_at(b, i);
+            const struct boundary met = brute(w, s, &q, SWEEP_OPAQUE);
+            bool listed = isinf(met.t);
+            for (uint32_t k = 0; k < n && !listed; k++)
+                listed = object[k] == w->leaf[met.leaf].object;
+            assert_true(listed);
+        }
+    }
+    return empty;
+}
+
 static int check_world(struct world *w, struct maker *m)
 {
     struct trace_scratch *s = trace_scratch_new(w);
@@ -319,11 +370,15 @@ static int check_world(struct world *w, struct maker *m)
     struct hit_batch *hit = hit_batch_new(RAYS);
     uint8_t dark[RAYS];
     int hits = 0;
-    for (int kind = 0; kind < 10; kind++) {
-        if (kind % 2 == 0)
+    for (int kind = 0; kind < 11; kind++) {
+        if (kind == 10)
+            fill_bundles(m, b);
+        else if (kind % 2 == 0)
             fill(m, b, kind / 2);
         else
             go_on(b, hit);
+        if (kind == 10 && !m->alone)
+            m->empty += check_shafts(w, s, b);
         trace_closest(w, s, b, hit);
         trace_occluded(w, s, b, dark);
         m->crossed += check_crossings(w, s, b);
@@ -359,6 +414,7 @@ void check_scene(struct maker *m)
         struct world *w = world_build(m->a, &scene);
         assert_true(check_world(w, &rays) > 100);
         m->crossed = rays.crossed;
+        m->empty = rays.empty;
     }
     unsetenv("LAMBERT_ISA");
 }

@@ -19,6 +19,7 @@ struct maker {
     uint32_t count;
     uint64_t random;
     int crossed; // surfaces in lists of all that a ray crosses
+    int empty;   // shafts with nothing in them
     bool alone;  // the one-ray form is the reference, not all crossings
     bool grid;   // coordinates are multiples of 1/4, nothing is turned: faces coincide
     bool middle; // the camera is at the origin, or close to it

@@ -41,6 +41,7 @@ static struct object *random_torus(struct maker *m, double r, int i)
 static void every_kernel(void **state)
 {
     (void)state;
+    int empty = 0;
     for (int kind = 0; kind < 9; kind++) {
         struct maker m = {.a = arena_new(1 << 16), .random = 40 + (uint64_t)kind};
         for (int i = 0; i < 24; i++) {
@@ -74,7 +75,9 @@ static void every_kernel(void **state)
             m.object[m.count++] = o;
         }
         check_made(&m);
+        empty += m.empty;
     }
+    assert_true(empty > 10);
 }
 
 static void one_product(void **state)
