@@ -75,6 +75,7 @@ struct brush {
     struct paint_group *group;
     const struct transform *moved; // of the texture that is being painted
     double seen[3][8];             // what slope sees
+    struct rgb *pass; // of each lane: what is let through; NULL: hits are shaded
 };
 
 // Where a texture is looked up, as struct texture_point and struct texture_chain.
@@ -190,9 +191,38 @@ static unsigned paint_layer(struct brush *b, const struct paint_texture *x,
                                     coat);
 }
 
+// As occluder_plain of trace/shadow.c.
+static void pass_plain(struct brush *b, const struct paint_texture *x,
+                       const struct spot *spot, unsigned live, const double weight[8])
+{
+    struct rgb pass[8];
+    for (int i = 0; i < 8; i++)
+        pass[i] = rgb(1, 1, 1);
+    for (uint32_t k = x->texture->layer_count; k-- > 0;) {
+        struct paint_sheet s; // of its colours alone
+        s.layer = &x->texture->layer[k];
+        s.lanes = live;
+        layer_colors(b, x, spot, k, &s);
+        for (unsigned left = live & s.found; left; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            const struct rgbft c = {s.color[0][i], s.color[1][i], s.color[2][i],
+                                    s.color[3][i], s.color[4][i]};
+            pass[i] = rgb_mul(pass[i], rgbft_pass(c));
+        }
+    }
+    for (; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        b->pass[i] = rgb_add(b->pass[i], rgb_scale((float)weight[i], pass[i]));
+    }
+}
+
 static void paint_plain(struct brush *b, const struct paint_texture *x,
                         const struct spot *spot, unsigned live, const double weight[8])
 {
+    if (b->pass) {
+        pass_plain(b, x, spot, live, weight);
+        return;
+    }
     struct paint_scratch *s = b->t->paint;
     struct paint_coat *coat = &s->coat[s->coat_count++];
     coat->texture = x->texture;
@@ -398,19 +428,11 @@ static void paint_side(struct brush *b, const struct paint_texture *x,
     paint_texture(b, x, &spot, live, whole);
 }
 
-// Paints up to eight hits.
-static void brush_paint(struct brush *b, const uint16_t *ray, uint32_t count)
+// Paints up to eight hits of the batch.
+static void paint_sides(struct brush *b, const uint16_t *ray, uint32_t count)
 {
-    struct paint_scratch *s = b->t->paint;
+    struct paint_group *g = b->group;
     const struct surface *surface = b->surface;
-    if (s->group_count == PAINT_GROUPS ||
-        s->sheet_count + 8 * PAINT_LAYERS > PAINT_SHEETS ||
-        s->coat_count + 8 * PAINT_PARTS > PAINT_COATS)
-        brush_flush(b);
-    struct paint_group *g = b->group = &s->group[s->group_count++];
-    g->surface = surface;
-    g->sheet = s->sheet_count;
-    g->coat = s->coat_count;
     b->t->job->kernels->points(b->t, ray, count, surface->wants_uv, &g->hits);
     memcpy(b->seen, g->hits.n, sizeof b->seen);
     const unsigned live = g->hits.live, back = b->paint->back ? live & g->hits.turned : 0;
@@ -418,6 +440,20 @@ static void brush_paint(struct brush *b, const uint16_t *ray, uint32_t count)
         paint_side(b, b->paint->top, &surface->texture_transform, live & ~back);
     if (back)
         paint_side(b, b->paint->back, &surface->interior_texture_transform, back);
+}
+
+static void brush_paint(struct brush *b, const uint16_t *ray, uint32_t count)
+{
+    struct paint_scratch *s = b->t->paint;
+    if (s->group_count == PAINT_GROUPS ||
+        s->sheet_count + 8 * PAINT_LAYERS > PAINT_SHEETS ||
+        s->coat_count + 8 * PAINT_PARTS > PAINT_COATS)
+        brush_flush(b);
+    struct paint_group *g = b->group = &s->group[s->group_count++];
+    g->surface = b->surface;
+    g->sheet = s->sheet_count;
+    g->coat = s->coat_count;
+    paint_sides(b, ray, count);
     g->sheet_count = s->sheet_count - g->sheet;
     g->coat_count = s->coat_count - g->coat;
 }
@@ -444,4 +480,32 @@ void paint_shade(struct tracer *t)
     }
     if (s)
         s->seen_count = 0;
+}
+
+// ---- shadow rays ------------------------------------------------------------------------
+
+bool paint_filters(const struct job *job, uint32_t surface)
+{
+    return job->paint && job->paint[surface].top &&
+           job->world->surface[surface].interior->caustics == 0;
+}
+
+void paint_pass(struct tracer *t, uint32_t surface, const uint16_t *ray, uint32_t count,
+                struct rgb pass[8])
+{
+    struct paint_group g;
+    struct brush b = {.t = t,
+                      .surface = &t->job->world->surface[surface],
+                      .paint = &t->job->paint[surface],
+                      .group = &g,
+                      .pass = pass};
+    struct ray_batch *const rays = t->rays;
+    struct hit_batch *const hit = t->hit;
+    t->rays = t->walk_rays;
+    t->hit = t->walk_hit;
+    for (int i = 0; i < 8; i++)
+        pass[i] = rgb(0, 0, 0);
+    paint_sides(&b, ray, count);
+    t->rays = rays;
+    t->hit = hit;
 }

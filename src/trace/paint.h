@@ -89,6 +89,14 @@ bool paint_take(struct tracer *t, uint32_t k);
 // Shades the hits that were kept.
 void paint_shade(struct tracer *t);
 
+// ---- shadow rays ---------------------------------------------------------------------
+// Whether paint_pass knows what the surface lets through.
+bool paint_filters(const struct job *job, uint32_t surface);
+// What it lets through at up to eight hits of shadow rays among transparent things, which stand
+// in walk_rays and walk_hit.
+void paint_pass(struct tracer *t, uint32_t surface, const uint16_t *ray, uint32_t count,
+                struct rgb pass[8]);
+
 // ---- light, eight hits at a time --------------------------------------------------------
 // The rules of a surface's light, and of its textures', that lanes know.
 bool paint_lights_surface(const struct job *job, const struct surface *s);

@@ -8,6 +8,7 @@
 #include "trace/layers.h"
 #include "trace/media.h"
 #include "trace/near_zero.h"
+#include "trace/paint.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
 #include "trace/shadow_list.h"
@@ -95,16 +96,22 @@ static double found_again(const struct world *w, const struct hit *hit)
     return w->accel->leaf_shape[hit->b.leaf] == PACKET_LANES ? 2 * hit->b.dt : 0;
 }
 
+// Whether the surface lets light of this lamp through.
+static bool is_clear(const struct shadow_walk *s, const struct surface *surface)
+{
+    return !surface->opaque && !(s->photons && photons_instead_of(surface, s->photons));
+}
+
 // Crosses the surface that was hit, behind media that let `dim` pass; false: nothing
-// passes.
+// passes. known: what the surface lets through, unless it is NULL.
 static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
-                    const struct hit *hit, struct rgb dim)
+                    const struct hit *hit, struct rgb dim, const struct rgb *known)
 {
     const struct world *w = t->job->world;
     const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
     struct rgb pass = none;
-    if (!surface->opaque && !(s->photons && photons_instead_of(surface, s->photons)))
-        pass = surface_pass(t, ray, hit, surface);
+    if (is_clear(s, surface))
+        pass = known ? *known : surface_pass(t, ray, hit, surface);
     if (s->air)
         air_between(t, s, ray, hit->b.t);
     const struct interior *x = surface->interior;
@@ -153,7 +160,7 @@ static struct rgb walk_alone(struct tracer *t, const struct shadow_request *r, b
             media_shadows(t, &m, 1);
         }
         dim = m.pass;
-    } while (on && walk_on(t, &s, &q.ray, &hit, dim));
+    } while (on && walk_on(t, &s, &q.ray, &hit, dim, NULL));
     if (air && !on)
         air_between(t, &s, &q.ray, r->t_max);
     return s.pass;
@@ -209,6 +216,53 @@ static void walks_dim(struct tracer *t, const struct shadow_walk *s, uint32_t be
                              : all;
 }
 
+// What textures let through where the walks have hit, eight hits of a surface at a time.
+struct painted_pass {
+    struct rgb pass[BATCH_SIZE];
+    bool known[BATCH_SIZE];
+};
+
+// The surface of a walk's hit that paint_pass is asked about; UINT32_MAX: none.
+static uint32_t filter_of(const struct tracer *t, const struct shadow_walk *s, uint32_t i)
+{
+    const struct job *job = t->job;
+    if (!(t->walk_hit->t[i] < t->walk_rays->t_max[i]))
+        return UINT32_MAX;
+    const uint32_t surface = job->world->leaf[t->walk_hit->leaf[i]].surface;
+    return !job->pass[surface].known && paint_filters(job, surface) &&
+                   is_clear(s, &job->world->surface[surface])
+               ? surface
+               : UINT32_MAX;
+}
+
+static void walks_paint(struct tracer *t, const struct shadow_walk *s, uint32_t n,
+                        struct painted_pass *out)
+{
+    enum { NEAR = 64 }; // rays among which those of a surface are looked for
+    uint32_t surface[BATCH_SIZE];
+    for (uint32_t i = 0; i < n; i++) {
+        surface[i] = filter_of(t, &s[i], i);
+        out->known[i] = false;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t one = surface[i];
+        uint16_t ray[8];
+        uint32_t count = 0;
+        struct rgb pass[8];
+        for (uint32_t k = i; one != UINT32_MAX && k < n && k < i + NEAR && count < 8; k++)
+            if (surface[k] == one)
+                ray[count++] = (uint16_t)k;
+        if (count < 2)
+            continue;
+        paint_pass(t, one, ray, count, pass);
+        for (uint32_t k = 0; k < count; k++) {
+            out->pass[ray[k]] = pass[k];
+            out->known[ray[k]] = true;
+            surface[ray[k]] = UINT32_MAX;
+        }
+    }
+}
+
 // The same for the rays of a batch that nothing opaque stops: those that meet surfaces
 // go from one to the next together. air_end[i]: where the lamp is, for rays that the air
 // dims, or 0; NULL: none are.
@@ -217,6 +271,7 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
 {
     const struct job *job = t->job;
     struct shadow_walk *s = t->walk;
+    struct painted_pass painted;
     uint32_t n = 0;
     for (uint32_t first = 0; first < count; first += 8) {
         unsigned lit = 0, met = 0;
@@ -246,6 +301,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
         t->walk_rays->count = n;
         trace_closest(t->job->world->clear, t->scratch, t->walk_rays, t->walk_hit);
         uint32_t left = 0;
+        if (job->paint)
+            walks_paint(t, s, n, &painted);
         for (uint32_t first = 0; first < n; first += DIM) {
             struct rgb dim[DIM];
             const uint32_t end = n - first < DIM ? n : first + DIM;
@@ -257,7 +314,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
                 if (!(hit.b.t < ray.t_max))
                     walk_end(t, &s[i], b, air_end);
                 else if (walk_on(t, &s[i], &ray, &hit,
-                                 t->job->has_media ? dim[i - first] : all))
+                                 t->job->has_media ? dim[i - first] : all,
+                                 job->paint && painted.known[i] ? &painted.pass[i] : NULL))
                     s[left++] = s[i];
                 else
                     b->pass[s[i].ray] = none;

@@ -274,4 +274,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/380-defaults-between.pov \
 	%D%/381-layers-old.pov \
 	%D%/382-mesh-normals-zero.pov \
-	%D%/383-version-1-sums.pov
+	%D%/383-version-1-sums.pov \
+	%D%/379-shadow-textured.pov
