@@ -15,11 +15,13 @@ const struct patch_settings patch_defaults = {.count = 8000, .samples = 3, .dept
 // How far above the surface, relative to the cell, a probing ray starts.
 static const double probe_height = 1e-5;
 
-// Inside of a disc is the half space below it, but what lies there is in the open.
+// Inside of a disc is the half space below it, but what lies there is in the open; so is
+// what lies inside of what patches do not see.
 static bool encloses(const struct world *w, uint32_t object)
 {
     const struct world_object *o = &w->object[object];
-    return o->is_csg || w->leaf[o->first_leaf].ops != &disc_ops;
+    return !(o->flags & OBJECT_NO_RADIOSITY) &&
+           (o->is_csg || w->leaf[o->first_leaf].ops != &disc_ops);
 }
 
 static bool in_room(const struct patches *p, struct vec3 at)

@@ -50,6 +50,15 @@ cat room.pov - >clear.pov <<'END'
 box { .1, <.9, .9, .45> pigment { rgbt 1 } hollow }
 sphere { <.5, .5, .8>, .15 pigment { gradient x color_map { [0 rgbf 1] [1 rgbf <.2, .3, .4, 1>] } } finish { reflection 0 } hollow }
 END
+# A ball in the clear box is lit as the walls are: it has the value of the furnace all over.
+cat room.pov - >inside.pov <<'END'
+box { <.1, .1, .6>, .9 pigment { rgbt 1 } hollow }
+sphere { <.5, .5, .8>, .18 M(.5, .25) }
+END
+sed -i 's/^camera.*/camera { orthographic location <.5, .5, .5> direction z up .1*y right .1*x }/' inside.pov
+inside() { render inside.pov -o inside.ppm --gi=radiosity --gi-patches=400 && value=$(first inside.ppm) &&
+  test "$value" -gt 32440 && test "$value" -lt 33096; }
+check "what stands in something clear takes part" inside
 clear() { render clear.pov -o clear.ppm --gi=radiosity --gi-patches=400 "$@" && has err 'radiosity: .* patches' &&
   value=$(first clear.ppm) && test "$value" -gt 32440 && test "$value" -lt 33096; }
 check "what is clear does not stop light" clear
