@@ -121,10 +121,16 @@ static const char *item_name(struct args *a, const struct ast *n)
     return NULL;
 }
 
-static bool ends_with(const char *text, const char *end)
+// Blocks that are lists of entries in brackets.
+static bool is_list(const char *block)
 {
-    const size_t n = strlen(text), m = strlen(end);
-    return n >= m && strcmp(text + n - m, end) == 0;
+    static const char *const names[] = {"color_map",  "colour_map", "pigment_map",
+                                        "normal_map", "slope_map",  "texture_map",
+                                        "density_map"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(block, names[i]) == 0)
+            return true;
+    return false;
 }
 
 // What was likely meant by an item that has no place; NULL: nobody knows.
@@ -132,7 +138,7 @@ static const char *misplaced_hint(const struct args *a, const struct ast *n)
 {
     if (n->kind == AST_VALUE && n->value && n->value->kind != VALUE_NUMBER)
         return arena_printf(a->b->e->parse, "it is a %s", value_kind_name(n->value));
-    if (ends_with(a->name, "_map") && n->kind == AST_NUMBER)
+    if (is_list(a->name) && n->kind == AST_NUMBER)
         return "entries stand in brackets, as in [0.5 rgb 1]";
     if (n->kind == AST_WORD && n->word == WORD_contained_by)
         return "a '{' is missing after it";
@@ -176,7 +182,7 @@ void args_unknown(struct args *a, const enum word *known, size_t count)
                   a->name);
     } else {
         diag_hint(args_diags(a), DIAG_EXTRA_ARG, n->where, misplaced_hint(a, n), a->name);
-        if (ends_with(a->name, "_map")) // of which nothing is in brackets
+        if (is_list(a->name)) // of which nothing is in brackets
             a->at = NULL;
     }
     args_fail(a);

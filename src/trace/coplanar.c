@@ -359,7 +359,7 @@ bool coplanar_mark(struct world *w)
         abort();
     walk(w, &f, &c, count_faces);
     walk(w, &f, &c, keep_faces);
-    const bool found = f.count <= FACES_MOST && mark(w, &f);
+    const bool found = f.count > 1 && f.count <= FACES_MOST && mark(w, &f);
     free(c.count);
     free(f.at);
     return found;
