@@ -411,6 +411,7 @@ void media_end(struct tracer *t)
         free(t->media[i].sample);
         free(t->media[i].span);
         free(t->media[i].exp);
+        free(t->media[i].value);
     }
     free(t->media);
 }

@@ -179,30 +179,27 @@ static void spans_refine(struct media_march *m, uint32_t first)
     }
 }
 
-struct value {
-    struct vec3 light, depth;
-};
-
-static struct value value_of(const struct media_sample *a, double ka,
-                             const struct media_sample *b, double kb)
+static struct media_value value_of(const struct media_sample *a, double ka,
+                                   const struct media_sample *b, double kb)
 {
-    return (struct value){vec3_mad(vec3_scale(ka, a->light), kb, b->light),
-                          vec3_mad(vec3_scale(ka, a->depth), kb, b->depth)};
+    return (struct media_value){vec3_mad(vec3_scale(ka, a->light), kb, b->light),
+                                vec3_mad(vec3_scale(ka, a->depth), kb, b->depth)};
 }
 
-static struct value value_add(struct value a, struct value b, double k)
+static struct media_value value_add(struct media_value a, struct media_value b, double k)
 {
-    return (struct value){vec3_mad(a.light, k, b.light), vec3_mad(a.depth, k, b.depth)};
+    return (struct media_value){vec3_mad(a.light, k, b.light),
+                                vec3_mad(a.depth, k, b.depth)};
 }
 
 // The mean over a span (spec/lighting.md 10.6).
-static struct value span_value(const struct media_march *m, uint32_t i, int depth)
+static struct media_value span_value(const struct media_march *m, uint32_t i, int depth)
 {
     const struct media_scratch *s = m->scratch;
     const struct media_span *p = &s->span[i];
     const struct media_sample *a = &s->sample[p->first], *b = &s->sample[p->middle],
                               *c = &s->sample[p->last];
-    struct value v = {{0, 0, 0}, {0, 0, 0}};
+    struct media_value v = {{0, 0, 0}, {0, 0, 0}};
     v = p->half[0] ? value_add(v, span_value(m, p->half[0], depth - 1), 0.5)
                    : value_of(a, 1.0 / 3, b, 1.0 / 6);
     return p->half[1] ? value_add(v, span_value(m, p->half[1], depth - 1), 0.5)
@@ -281,22 +278,31 @@ static void exps_put(struct media_scratch *s, struct vec3 depth)
 // Walker i's intervals from first[i] to before first[i + 1], whose samples are there: leaves
 // the depth before each part in its interval and that before each interval for exps.
 static void depths_end(struct media_march *m, const uint32_t *first, uint32_t parts,
-                       struct value *value, struct total *all)
+                       struct total *all)
 {
     struct media_scratch *s = m->scratch;
     for (uint32_t i = 0; i < m->walker_count; i++)
         for (uint32_t k = first[i]; k < first[i + 1]; k++) {
             struct vec3 depth = {0, 0, 0};
             for (uint32_t j = k * parts; j < (k + 1) * parts; j++) {
-                if (m->depth_only) {
-                    depth = vec3_add(depth, span_depth(m, j));
-                    continue;
-                }
-                value[j] = span_value(m, j, 0);
+                s->value[j] = span_value(m, j, 0);
                 exps_put(s, vec3_scale(1.0 / parts, depth));
-                depth = vec3_add(depth, value[j].depth);
+                depth = vec3_add(depth, s->value[j].depth);
             }
             exps_put(s, all[i].depth);
+            all[i].depth = vec3_mad(all[i].depth, 1.0 / parts, depth);
+        }
+}
+
+// The same where light is not asked for.
+static void depths_alone(const struct media_march *m, const uint32_t *first,
+                         uint32_t parts, struct total *all)
+{
+    for (uint32_t i = 0; i < m->walker_count; i++)
+        for (uint32_t k = first[i]; k < first[i + 1]; k++) {
+            struct vec3 depth = {0, 0, 0};
+            for (uint32_t j = k * parts; j < (k + 1) * parts; j++)
+                depth = vec3_add(depth, span_depth(m, j));
             all[i].depth = vec3_mad(all[i].depth, 1.0 / parts, depth);
         }
 }
@@ -312,17 +318,22 @@ static void intervals_end(struct media_march *m, const uint32_t *first, struct t
 {
     const uint32_t parts = parts_of(m->mix->rules), count = first[m->walker_count];
     struct media_scratch *s = m->scratch;
-    struct value *value = arena_new_array(s->arena, struct value, (size_t)count * parts);
-    exps_begin(s, count * (parts + 1));
-    depths_end(m, first, parts, value, all);
-    if (m->depth_only)
+    if (m->depth_only) {
+        depths_alone(m, first, parts, all);
         return;
+    }
+    if (s->value_capacity < count * parts) {
+        s->value_capacity = 2 * count * parts;
+        s->value = must_realloc(s->value, s->value_capacity, sizeof *s->value);
+    }
+    exps_begin(s, count * (parts + 1));
+    depths_end(m, first, parts, all);
     const double *e = exps(m);
     for (uint32_t i = 0; i < m->walker_count; i++)
         for (uint32_t k = first[i]; k < first[i + 1]; k++) {
             struct vec3 light = {0, 0, 0};
             for (uint32_t j = k * parts; j < (k + 1) * parts; j++)
-                light = vec3_add(light, vec3_mul(value[j].light, next_exp(&e)));
+                light = vec3_add(light, vec3_mul(s->value[j].light, next_exp(&e)));
             all[i].light = vec3_add(
                 all[i].light, vec3_mul(vec3_scale(1.0 / parts, light), next_exp(&e)));
         }

@@ -19,13 +19,19 @@ struct media_span {
     uint32_t half[2];             // spans; 0: none, since spans come after their parent
 };
 
+// The means over a span.
+struct media_value {
+    struct vec3 light, depth;
+};
+
 // What a thread needs to walk through media: rays to the eye and shadow rays have one each,
 // because a sample of the one may ask for the other.
 struct media_scratch {
     struct arena *arena;
     struct media_sample *sample;
     struct media_span *span;
-    uint32_t sample_count, sample_capacity, span_count, span_capacity;
+    struct media_value *value; // of the spans that fill intervals
+    uint32_t sample_count, sample_capacity, span_count, span_capacity, value_capacity;
     double *exp; // numbers whose exponentials are asked for together
     uint32_t exp_count, exp_capacity;
     bool air_even; // for shadow rays: what fills the scene is the same everywhere
