@@ -140,7 +140,7 @@ struct box_ray box_ray_of(const struct ray *r)
 static void meet_slab(double min, double max, double o, double inv, double *t0,
                       double *t1)
 {
-    const double grow = 1 + 2 * GAMMA(3);
+    const double grow = 1 + BOX_SLACK;
     const bool back = signbit(inv);
     const double near = ((back ? max : min) - o) * inv;
     const double far = ((back ? min : max) - o) * inv * grow;
@@ -265,7 +265,7 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
         return false;
     if (o->is_csg) {
         double t;
-        f->box.t_max = fmin(q->ray.t_max, f->t);
+        f->box.t_max = fmin(q->ray.t_max, f->t + fabs(f->t) * BOX_SLACK);
         if (!box_meets(&o->bounds, &f->box, &t))
             return false;
         if (one_kind && f->w->accel->object_shape[object] == PACKET_SPONGE) {

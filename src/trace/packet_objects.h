@@ -213,7 +213,7 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
 LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
                                    struct real8 far)
 {
-    const struct real8 grow = r8_set(1 + 2 * GAMMA(3));
+    const struct real8 grow = r8_set(1 + BOX_SLACK);
     struct real8 near = e->t_min;
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
@@ -230,10 +230,12 @@ LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
     return m8_bits(r8_le(near, far));
 }
 
-// The lanes that meet the box before their nearest hit.
+// The lanes that meet the box before their nearest hit, or with it.
 LANES_INLINE unsigned box_lanes(const struct eight *e, const struct aabb *b)
 {
-    return box_lanes_to(e, b, r8_min(e->t_max, r8_load(e->p->t)));
+    const struct real8 t = r8_load(e->p->t);
+    const struct real8 far = r8_add(t, r8_mul(r8_abs(t), r8_set(BOX_SLACK)));
+    return box_lanes_to(e, b, r8_min(e->t_max, far));
 }
 
 // The lines' spans in a convex shape, with their errors; odd: lanes for the sweep.

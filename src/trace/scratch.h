@@ -1,6 +1,7 @@
 #ifndef TRACE_SCRATCH_H
 #define TRACE_SCRATCH_H
 
+#include "math/gamma.h"
 #include "scene/boundary.h"
 #include "trace/intersect.h"
 
@@ -26,6 +27,9 @@ struct box_ray {
 };
 
 struct box_ray box_ray_of(const struct ray *r);
+// By as much of a t rounding moves a slab, so that a box may seem to begin behind a hit in its face:
+// t_max of a search for what is nearer, or as near, than another hit grows by it, too.
+#define BOX_SLACK (2 * GAMMA(3))
 // Whether the box is met within [t_min, t_max]; *t is where it begins. Conservative: the
 // bounds are grown by the rounding of the slab test (Ize 2013).
 bool box_meets(const struct aabb *b, const struct box_ray *r, double *t);

@@ -363,12 +363,36 @@ static int check_shafts(const struct world *w, struct trace_scratch *s,
     return empty;
 }
 
+// Traces the batch, and each ray against every object by itself; returns the hits.
+static int check_batch(struct world *w, struct trace_scratch *s, struct maker *m,
+                       const struct ray_batch *b, struct hit_batch *hit)
+{
+    uint8_t dark[RAYS];
+    int hits = 0;
+    trace_closest(w, s, b, hit);
+    trace_occluded(w, s, b, dark);
+    m->crossed += check_crossings(w, s, b);
+    for (uint32_t i = 0; i < b->count; i++) {
+        const struct ray_query q = query_at(b, i);
+        const struct hit one = trace_closest_1(w, s, &q);
+        const struct boundary want = m->alone ? one.b : brute(w, s, &q, SWEEP_CLOSEST);
+        assert_same(&want, &one.b);
+        const struct hit in_batch = hit_batch_at(hit, i);
+        assert_same(&want, &in_batch.b);
+        const bool shadowed = m->alone ? trace_occluded_1(w, s, &q)
+                                       : !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
+        assert_int_equal(shadowed, trace_occluded_1(w, s, &q));
+        assert_int_equal(shadowed, dark[i]);
+        hits += !isinf(want.t);
+    }
+    return hits;
+}
+
 static int check_world(struct world *w, struct maker *m)
 {
     struct trace_scratch *s = trace_scratch_new(w);
     struct ray_batch *b = ray_batch_new(RAYS);
     struct hit_batch *hit = hit_batch_new(RAYS);
-    uint8_t dark[RAYS];
     int hits = 0;
     for (int kind = 0; kind < 11; kind++) {
         if (kind == 10)
@@ -379,23 +403,7 @@ static int check_world(struct world *w, struct maker *m)
             go_on(b, hit);
         if (kind == 10 && !m->alone)
             m->empty += check_shafts(w, s, b);
-        trace_closest(w, s, b, hit);
-        trace_occluded(w, s, b, dark);
-        m->crossed += check_crossings(w, s, b);
-        for (uint32_t i = 0; i < b->count; i++) {
-            const struct ray_query q = query_at(b, i);
-            const struct hit one = trace_closest_1(w, s, &q);
-            const struct boundary want =
-                m->alone ? one.b : brute(w, s, &q, SWEEP_CLOSEST);
-            assert_same(&want, &one.b);
-            const struct hit in_batch = hit_batch_at(hit, i);
-            assert_same(&want, &in_batch.b);
-            const bool shadowed = m->alone ? trace_occluded_1(w, s, &q)
-                                           : !isinf(brute(w, s, &q, SWEEP_OPAQUE).t);
-            assert_int_equal(shadowed, trace_occluded_1(w, s, &q));
-            assert_int_equal(shadowed, dark[i]);
-            hits += !isinf(want.t);
-        }
+        hits += check_batch(w, s, m, b, hit);
     }
     hit_batch_free(hit);
     ray_batch_free(b);
@@ -403,20 +411,42 @@ static int check_world(struct world *w, struct maker *m)
     return hits;
 }
 
+static struct world *made_world(struct maker *m)
+{
+    struct scene scene = {.object = m->object, .object_count = m->count};
+    scene.default_texture = (struct attached_texture){&grey_texture, &transform_identity};
+    return world_build(m->a, &scene);
+}
+
 void check_scene(struct maker *m)
 {
     static const char *const isa[] = {"base", "avx2", "avx512"};
-    struct scene scene = {.object = m->object, .object_count = m->count};
-    scene.default_texture = (struct attached_texture){&grey_texture, &transform_identity};
     for (int i = 0; i < 3; i++) {
         setenv("LAMBERT_ISA", isa[i], 1);
         struct maker rays = *m;
-        struct world *w = world_build(m->a, &scene);
-        assert_true(check_world(w, &rays) > 100);
+        assert_true(check_world(made_world(m), &rays) > 100);
         m->crossed = rays.crossed;
         m->empty = rays.empty;
     }
     unsetenv("LAMBERT_ISA");
+}
+
+int check_rays(struct maker *m, const struct vec3 *o, const struct vec3 *d,
+               uint32_t count)
+{
+    struct world *w = made_world(m);
+    struct trace_scratch *s = trace_scratch_new(w);
+    struct ray_batch *b = ray_batch_new(RAYS);
+    struct hit_batch *hit = hit_batch_new(RAYS);
+    assert_true(count <= RAYS);
+    b->count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        put(b, o[i], d[i], 0, INFINITY, 0);
+    const int hits = check_batch(w, s, m, b, hit);
+    hit_batch_free(hit);
+    ray_batch_free(b);
+    trace_scratch_free(s);
+    return hits;
 }
 
 void add_within(struct maker *m, struct object *o, double far)

@@ -42,6 +42,9 @@ void add_within(struct maker *m, struct object *o, double far);
 void check_scene(struct maker *m);
 // The same; the scene is not needed any more.
 void check_made(struct maker *m);
+// These rays, at most 1000, in the scene as it was made; returns how many meet something.
+int check_rays(struct maker *m, const struct vec3 *o, const struct vec3 *d,
+               uint32_t count);
 // A scene of `count` objects. Returns the surfaces in lists of all that rays cross.
 int check_random(uint64_t seed, int count, int depth, double apart, bool grid);
 

@@ -149,6 +149,41 @@ static void clear_products(void **state)
     arena_free(m.a);
 }
 
+// A block with a notch; a plane is its upper face, at -.75.
+static struct object *notched(struct maker *m, double x, double depth)
+{
+    const struct box b = {vec3(x - 2, -2, -.75 - depth), vec3(x + 2, 2, 1)};
+    const struct plane p = {vec3(0, 0, 1), vec3(0, 0, -.75)};
+    const struct sphere s = {vec3(x, 2, -.75), .5, transform_identity.linear};
+    const struct object **solid = arena_new_array(m->a, const struct object *, 2);
+    const struct object **child = arena_new_array(m->a, const struct object *, 2);
+    solid[0] = of(m, &box_ops, &b);
+    solid[1] = of(m, &plane_ops, &p);
+    child[0] = object_new_csg(m->a, CSG_INTERSECTION, solid, 2, (struct span){0});
+    child[1] = of(m, &sphere_ops, &s);
+    return object_new_csg(m->a, CSG_DIFFERENCE, child, 2, (struct span){0});
+}
+
+// Two objects have a face in one place: the one declared first is seen, whichever is tried
+// first, although its box may seem to begin a rounding behind the hit of the other.
+static void hits_in_one_place(void **state)
+{
+    (void)state;
+    enum { COUNT = 400 };
+    for (int swapped = 0; swapped < 2; swapped++) {
+        struct maker m = {.a = arena_new(1 << 16)};
+        struct vec3 o[COUNT], d[COUNT];
+        m.object[m.count++] = notched(&m, swapped ? 1 : -1, 1);
+        m.object[m.count++] = notched(&m, swapped ? -1 : 1, 2);
+        for (int i = 0; i < COUNT; i++) {
+            o[i] = vec3(.25, .25, .25 * (1 + i / 20));
+            d[i] = vec3(0, 0, -.25 * (1 + i % 20));
+        }
+        assert_int_equal(check_rays(&m, o, d, COUNT), COUNT);
+        arena_free(m.a);
+    }
+}
+
 // A block from which small solids are taken, again and again, and turned between.
 static struct object *drilled(struct maker *m, uint32_t n, double off)
 {
@@ -518,6 +553,7 @@ int main(void)
         cmocka_unit_test(every_kernel),
         cmocka_unit_test(one_product),
         cmocka_unit_test(products),
+        cmocka_unit_test(hits_in_one_place),
         cmocka_unit_test(clear_products),
         cmocka_unit_test(merges),
         cmocka_unit_test(rings),
