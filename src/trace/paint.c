@@ -205,9 +205,12 @@ static void pass_plain(struct brush *b, const struct paint_texture *x,
         layer_colors(b, x, spot, k, &s);
         for (unsigned left = live & s.found; left; left &= left - 1) {
             const int i = __builtin_ctz(left);
-            const struct rgbft c = {s.color[0][i], s.color[1][i], s.color[2][i],
-                                    s.color[3][i], s.color[4][i]};
-            pass[i] = rgb_mul(pass[i], rgbft_pass(c));
+            const struct painted color = {.color = {s.color[0][i], s.color[1][i],
+                                                    s.color[2][i], s.color[3][i],
+                                                    s.color[4][i]}};
+            struct layer l;
+            layer_painted(b->t, s.layer, &color, &l);
+            pass[i] = rgb_mul(pass[i], l.pass);
         }
     }
     for (; live; live &= live - 1) {
