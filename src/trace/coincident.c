@@ -68,20 +68,10 @@ static struct aabb box_around(struct vec3 p, double reach)
     return (struct aabb){vec3_sub(p, r), vec3_add(p, r)};
 }
 
-// Whether a face is seen instead of the leaf that was hit: a clear or a coplanar one.
-static bool takes(const struct world *w, const struct boundary *b, uint32_t leaf,
-                  double t, double dt)
-{
-    const struct leaf *l = &w->leaf[leaf];
-    if (w->surface[l->surface].opaque)
-        return w->leaf[b->leaf].coplanar && w->leaf[b->leaf].object < l->object;
-    return fabs(b->t - t) <= b->dt + dt;
-}
-
-// Puts the face that is to be seen in place of hit i, between q's ends.
-static void look_for(const struct world *w, struct trace_scratch *s,
-                     const struct ray_query *q, double reach, uint32_t i,
-                     const struct hit_batch *hit)
+// Puts the opaque face that is to be seen in place of hit i of a clear one, between q's ends.
+static void behind_clear(const struct world *w, struct trace_scratch *s,
+                         const struct ray_query *q, double reach, uint32_t i,
+                         const struct hit_batch *hit)
 {
     const double t = hit->t[i], dt = hit->dt[i];
     const uint32_t own = w->leaf[hit->leaf[i]].object;
@@ -89,8 +79,35 @@ static void look_for(const struct world *w, struct trace_scratch *s,
     for (uint32_t k = 0; k < x.count; k++) {
         struct search f = search_of(w, s, q, SWEEP_CLOSEST);
         if (x.object[k] != own && search_try_object(&f, x.object[k]) &&
-            takes(w, &f.b, hit->leaf[i], t, dt))
+            fabs(f.b.t - t) <= f.b.dt + dt)
             hit_batch_put(hit, i, &f.b);
+    }
+}
+
+static bool is_near(const struct aabb *b, struct vec3 p, double reach)
+{
+    return p.x >= b->min.x - reach && p.x <= b->max.x + reach &&
+           p.y >= b->min.y - reach && p.y <= b->max.y + reach &&
+           p.z >= b->min.z - reach && p.z <= b->max.z + reach;
+}
+
+// Puts the first of the opaque faces in one plane in place of hit i of one, likewise.
+static void first_of_opaque(const struct world *w, struct trace_scratch *s,
+                            const struct ray_query *q, double reach, uint32_t i,
+                            const struct hit_batch *hit)
+{
+    const uint32_t leaf = hit->leaf[i];
+    const struct vec3 point = ray_at(&q->ray, hit->t[i]);
+    for (uint32_t k = w->leaf[leaf].first_pair;
+         k < w->coplanar_pair_count && w->coplanar_pair[k].leaf == leaf; k++) {
+        const struct coplanar_pair *p = &w->coplanar_pair[k];
+        if (!is_near(&p->where, point, reach))
+            continue;
+        struct search f = search_of(w, s, q, SWEEP_CLOSEST);
+        if (search_try_object(&f, p->earlier) && w->leaf[f.b.leaf].coplanar) {
+            hit_batch_put(hit, i, &f.b);
+            return;
+        }
     }
 }
 
@@ -105,8 +122,8 @@ void coincident_hits(const struct world *w, struct trace_scratch *s,
         if (!(t < INFINITY))
             continue;
         const struct leaf *l = &w->leaf[hit->leaf[i]];
-        if (!w->object[l->object].may_coincide ||
-            (!l->coplanar && w->surface[l->surface].opaque))
+        const bool opaque = w->surface[l->surface].opaque;
+        if (!w->object[l->object].may_coincide || (opaque && !l->coplanar))
             continue;
         const struct ray_query q = {
             .ray = {.o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
@@ -114,6 +131,7 @@ void coincident_hits(const struct world *w, struct trace_scratch *s,
                     .t_min = fmax(rays->t_min[i], t - wide * dt),
                     .t_max = fmin(rays->t_max[i], t + wide * dt)},
             .hidden_by = rays->hidden_by[i]};
-        look_for(w, s, &q, wide * dt * vec3_max_abs(q.ray.d), i, hit);
+        (opaque ? first_of_opaque
+                : behind_clear)(w, s, &q, wide * dt * vec3_max_abs(q.ray.d), i, hit);
     }
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "scene/shape.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
@@ -246,16 +247,10 @@ static bool in_plane(const struct face *f, const struct face *g, double error)
     return true;
 }
 
-static bool look_alike(const struct world *w, const struct face *f, const struct face *g)
-{
-    return w->leaf[f->leaf].object == w->leaf[g->leaf].object ||
-           w->leaf[f->leaf].surface == w->leaf[g->leaf].surface;
-}
-
-static bool coincide(const struct world *w, const struct face *f, const struct face *g)
+static bool coincide(const struct face *f, const struct face *g)
 {
     const double error = f->error + g->error, turn = vec3_dot(f->normal, g->normal);
-    if (look_alike(w, f, g) || (turn < 0 && !f->sheet && !g->sheet))
+    if (turn < 0 && !f->sheet && !g->sheet)
         return false;
     // Of two planes the normals themselves are compared; a finite face has its corners.
     if (!f->corners && !g->corners && !(fabs(turn) >= 1 - GAMMA(64)))
@@ -280,19 +275,69 @@ static int by_from(const void *a, const void *b)
     return (x->from > y->from) - (x->from < y->from);
 }
 
-// Pairs among faces of one key, in the order of their beginnings. `left` comparisons more
-// are made: a crowd that lies in one plane is not worth more of a scene's time.
-static bool pairs(struct world *w, struct face *f, uint32_t count, uint64_t *left)
+static struct aabb box_of(const struct face *f)
 {
-    bool found = false;
+    if (!f->corners)
+        return aabb_infinite();
+    const struct vec3 error = vec3(f->error, f->error, f->error);
+    struct aabb box = aabb_empty();
+    for (uint32_t c = 0; c < f->corners; c++) {
+        box = aabb_add(box, vec3_sub(f->corner[c], error));
+        box = aabb_add(box, vec3_add(f->corner[c], error));
+    }
+    return box;
+}
+
+// Of one run over all pairs. First leaves are marked, then pairs of marked leaves listed.
+struct hunt {
+    struct world *w;
+    uint64_t left; // comparisons: a crowd in one plane is not worth more time
+    bool list;
+    struct coplanar_pair *pair;
+    uint32_t count, capacity;
+};
+
+static void list_pair(struct hunt *h, const struct face *f, const struct face *g)
+{
+    const bool f_later = h->w->leaf[f->leaf].object > h->w->leaf[g->leaf].object;
+    const struct face *later = f_later ? f : g, *earlier = f_later ? g : f;
+    if (h->count == h->capacity) {
+        h->capacity = h->capacity ? 2 * h->capacity : 64;
+        h->pair = realloc(h->pair, h->capacity * sizeof *h->pair);
+        if (!h->pair)
+            abort();
+    }
+    h->pair[h->count++] =
+        (struct coplanar_pair){.leaf = later->leaf,
+                               .earlier = h->w->leaf[earlier->leaf].object,
+                               .where = aabb_meet(box_of(f), box_of(g))};
+}
+
+static void take_pair(struct hunt *h, const struct face *f, const struct face *g)
+{
+    struct leaf *a = &h->w->leaf[f->leaf], *b = &h->w->leaf[g->leaf];
+    if (h->list)
+        list_pair(h, f, g);
+    else
+        a->coplanar = b->coplanar = true;
+}
+
+static bool matters(const struct hunt *h, const struct face *f, const struct face *g)
+{
+    const struct leaf *a = &h->w->leaf[f->leaf], *b = &h->w->leaf[g->leaf];
+    return a->object != b->object &&
+           (h->list ? a->coplanar && b->coplanar : a->surface != b->surface);
+}
+
+// Pairs among faces of one key, in the order of their beginnings.
+static void pairs(struct hunt *h, struct face *f, uint32_t count)
+{
     qsort(f, count, sizeof *f, by_from);
     for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = i + 1; k < count && f[k].from < f[i].to && *left; k++, --*left)
-            if (coincide(w, &f[i], &f[k])) {
-                w->leaf[f[i].leaf].coplanar = w->leaf[f[k].leaf].coplanar = true;
-                found = true;
-            }
-    return found;
+        for (uint32_t k = i + 1; k < count && f[k].from < f[i].to && h->left;
+             k++, --h->left)
+            if (matters(h, &f[i], &f[k]) && coincide(&f[i], &f[k]))
+                take_pair(h, &f[i], &f[k]);
 }
 
 // In crowds nothing is looked for: it would take time that other scenes of their size do not.
@@ -327,21 +372,50 @@ static void keep_faces(const struct cells *c, struct faces *f, uint32_t first)
     f->count = kept;
 }
 
-static bool mark(struct world *w, struct faces *f)
+static void hunt(struct hunt *h, struct faces *f)
 {
-    bool found = false;
-    uint64_t left = 64 * (uint64_t)f->count;
-    for (uint32_t i = 0; i < f->count; i++)
-        stretch_of(&f->at[i]);
+    h->left = 64 * (uint64_t)f->count;
     qsort(f->at, f->count, sizeof *f->at, by_key);
     for (uint32_t i = 0, end; i < f->count; i = end) {
         for (end = i + 1; end < f->count; end++)
             if (f->at[end].key - f->at[end - 1].key > key_error(&f->at[end]))
                 break;
         if (end - i > 1)
-            found |= pairs(w, f->at + i, end - i, &left);
+            pairs(h, f->at + i, end - i);
     }
-    return found;
+}
+
+static int by_leaf(const void *a, const void *b)
+{
+    const struct coplanar_pair *x = a, *y = b;
+    return x->leaf != y->leaf ? (x->leaf > y->leaf) - (x->leaf < y->leaf)
+                              : (x->earlier > y->earlier) - (x->earlier < y->earlier);
+}
+
+static void keep_pairs(struct world *w, const struct hunt *h)
+{
+    struct coplanar_pair *pair =
+        arena_new_array(w->arena, struct coplanar_pair, h->count);
+    memcpy(pair, h->pair, h->count * sizeof *pair);
+    qsort(pair, h->count, sizeof *pair, by_leaf);
+    for (uint32_t i = h->count; i-- > 0;)
+        w->leaf[pair[i].leaf].first_pair = i;
+    w->coplanar_pair = pair;
+    w->coplanar_pair_count = h->count;
+}
+
+static bool mark(struct world *w, struct faces *f)
+{
+    for (uint32_t i = 0; i < f->count; i++)
+        stretch_of(&f->at[i]);
+    struct hunt h = {.w = w};
+    hunt(&h, f);
+    h.list = true;
+    hunt(&h, f);
+    if (h.count > 0)
+        keep_pairs(w, &h);
+    free(h.pair);
+    return h.count > 0;
 }
 
 bool coplanar_mark(struct world *w)

@@ -5,8 +5,8 @@
 // and overlap: of boxes, planes, discs, triangles, and the ends of cylinders and cones.
 #include "trace/world.h"
 
-// Sets leaf.coplanar of their leaves; whether there are any. Faces of one surface, which look
-// alike, are not looked for.
+// Sets leaf.coplanar of their leaves, and the world's pairs; whether there are any. Faces of
+// one surface, which look alike, count only beside a third that does not.
 bool coplanar_mark(struct world *w);
 
 #endif

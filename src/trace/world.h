@@ -47,8 +47,9 @@ struct leaf {
     bool required; // outside this leaf its object has nothing: it is bounded, and only
                    // intersections lie above it
     bool inverted;
-    bool drawn; // false: a clip; its boundaries only change states
-    bool coplanar; // flat faces lie in those of another opaque object (coplanar.h)
+    bool drawn;          // false: a clip; its boundaries only change states
+    bool coplanar;       // flat faces lie in those of another opaque object (coplanar.h)
+    uint32_t first_pair; // if coplanar: the first of the world's pairs that has this leaf
 };
 
 // The rounding, in shape space, of a point o + t d with coordinates of these sizes on its
@@ -99,6 +100,12 @@ struct world_object {
     uint32_t bound_count;
 };
 
+// A face of a leaf that lies in one of an object earlier in the scene (coplanar.h).
+struct coplanar_pair {
+    uint32_t leaf, earlier; // a leaf, an object
+    struct aabb where;      // what both faces have in common lies within
+};
+
 struct light_group {
     const struct light *const *light;
     uint32_t count;
@@ -121,10 +128,12 @@ struct world {
     uint32_t light_count;
     struct light_group *light_group;
     uint32_t light_group_count;
-    bool has_transparent; // some surface is not opaque
-    bool has_coincident;  // some object may_coincide
-    struct aabb bounds;   // of the finite objects
-    struct accel *accel;  // trace/accel.h
+    bool has_transparent;                      // some surface is not opaque
+    bool has_coincident;                       // some object may_coincide
+    const struct coplanar_pair *coplanar_pair; // by leaf, then by object
+    uint32_t coplanar_pair_count;
+    struct aabb bounds;  // of the finite objects
+    struct accel *accel; // trace/accel.h
     // The same world with nothing to meet but the objects that are not wholly opaque, for
     // rays of which it is known that nothing opaque is on their way. NULL: none are.
     const struct world *clear;

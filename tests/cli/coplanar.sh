@@ -49,4 +49,16 @@ both "a box cut by a plane" "box { <-2, 0, -2>, <2, 1, 2> $turn" "intersection {
 one "cylinders" "cylinder { 0, y, 1.2 rotate 13*z" "cylinder { -y*2, y*.5, 1 translate y/2 rotate 20*z rotate -7*z"
 both "triangles" "triangle { <-1, 1, -1>, <1, 1, -1>, <0, 1, 1> $turn" "triangle { <-3, 3, -3>, <3, 3, -3>, <0, 3, 3> rotate 33*z scale 1/3 rotate -33*z $turn"
 one "a box, a triangle" "box { <-2, 0, -2>, <2, 1, 2> $turn" "triangle { <-1, 1, -1>, <1, 1, -1>, <0, 1, 1> scale 3 scale 1/3 $turn"
+# Of three boxes in one place the outer two look alike; the one between is not seen.
+cat >three.pov <<END
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <1.3, 4, -5> look_at <0, 1, 0> angle 25 }
+background { rgb <0, 0, 1> }
+#declare Red = $first
+box { <-1, 0, -1>, 1 $turn texture { Red } }
+box { <-3, 0, -3>, 3 scale 1/3 rotate 20*z rotate -20*z $turn $second }
+box { <-7, 0, -7>, 7 scale 1/7 rotate 50*x rotate -50*x $turn texture { Red } }
+END
+check "the first of three" seen three
 finish
