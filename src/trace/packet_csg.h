@@ -10,6 +10,7 @@
 // long: all that the sweep takes for a surface passes. The first that passes is what the sweep
 // finds, if no other crossing lies within `slack`: then what may be is, and its batch holds
 // nothing else. The other lanes are left to the sweep.
+#include "math/isa.h"
 #include "scene/shapes/superellipsoid.h"
 #include "trace/packet_carve.h"
 
