@@ -31,7 +31,7 @@ struct lambert_context {
     lambert_progress_fn progress;
     void *progress_user;
     volatile bool cancel;
-    const char *state_path; // of a render that may be continued; NULL: none
+    const char *state_path;   // of a render that may be continued; NULL: none
     enum lambert_phase phase; // that progress is about
 
     // Of the scene that is loaded.
@@ -45,7 +45,7 @@ struct lambert_context {
     struct read_file {
         const char *path;
         const struct read_file *next; // the one before
-    } *files_read;
+    } * files_read;
 };
 
 struct lambert_image {

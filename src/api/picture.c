@@ -108,7 +108,8 @@ enum lambert_status lambert_image_read(struct lambert_context *ctx, const char *
     // The numbers of an integer file are kept as they are.
     if (!image_read(&image->im, path, (struct transfer){0}, error, sizeof error)) {
         free(image);
-        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path, error);
+        return context_fail(ctx, LAMBERT_ERROR_INPUT, "cannot read '%s': %s", path,
+                            error);
     }
     image->unmanaged = !image_type_is_light(image_type_of_file(path));
     *out = image;

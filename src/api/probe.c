@@ -95,9 +95,10 @@ bool probe_trace(void *user, const struct object *o, struct vec3 from, struct ve
         *t = compile(p, o);
     }
     const struct world *w = (*t)->world;
-    const struct ray_query q = {
-        .ray = {.o = from, .d = d, .t_min = own_surface * vec3_max_abs(from),
-                .t_max = INFINITY}};
+    const struct ray_query q = {.ray = {.o = from,
+                                        .d = d,
+                                        .t_min = own_surface * vec3_max_abs(from),
+                                        .t_max = INFINITY}};
     struct hit h = trace_closest_1(w, (*t)->scratch, &q);
     if (!(h.b.t < INFINITY))
         return false;

@@ -121,8 +121,8 @@ enum lambert_status samples_load(struct lambert_context *ctx, struct irradiance_
     FILE *f = fopen(path, "rb");
     if (!f)
         why = strerror(errno);
-    else if (fread(&h, sizeof h, 1, f) != 1 || memcmp(h.magic, magic, sizeof magic) != 0 ||
-             h.order != 1)
+    else if (fread(&h, sizeof h, 1, f) != 1 ||
+             memcmp(h.magic, magic, sizeof magic) != 0 || h.order != 1)
         why = "it holds no radiosity samples of this program and version";
     else if (!read_samples(f, &h, c))
         why = "it is cut off or damaged";

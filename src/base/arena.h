@@ -34,7 +34,7 @@ char *arena_printf(struct arena *a, const char *fmt, ...)
 // arena holds on to something else.
 void arena_at_end(struct arena *a, void (*done)(void *data), void *data);
 
-#define arena_new_struct(a, type) ((type *)arena_alloc((a), sizeof(type)))
+#define arena_new_struct(a, type)   ((type *)arena_alloc((a), sizeof(type)))
 #define arena_new_array(a, type, n) ((type *)arena_alloc((a), (n) * sizeof(type)))
 
 #endif

@@ -24,7 +24,9 @@ struct diag {
     const char *hint; // NULL, or what to do: "did you mean 'pigment'?"
 };
 
-enum { DIAG_REPEATS_MAX = 1000 }; // of errors already said: then a loop is not worth its end
+enum {
+    DIAG_REPEATS_MAX = 1000
+}; // of errors already said: then a loop is not worth its end
 
 // Stages report here and go on; the caller decides whether to stop. A sink is
 // owned by one context, so two contexts never share messages.
@@ -32,7 +34,7 @@ struct diag_sink {
     void (*emit)(void *user, const struct diag *d);
     void *user;
     unsigned errors, warnings;
-    unsigned errors_max;      // 0: no limit. Stages stop when errors reach it
+    unsigned errors_max; // 0: no limit. Stages stop when errors reach it
     // What was said last: loops fail at the same place again, and a calculation that fails
     // is evaluated again.
     struct {

@@ -13,7 +13,8 @@ static char *read_plain(FILE *in, struct arena *a, const char *prefix, size_t mo
     struct stat s;
     const size_t before = strlen(prefix);
     const int fd = fileno(in);
-    if (fd < 0 || fstat(fd, &s) || !S_ISREG(s.st_mode) || ftell(in) != 0 || s.st_size <= 0)
+    if (fd < 0 || fstat(fd, &s) || !S_ISREG(s.st_mode) || ftell(in) != 0 ||
+        s.st_size <= 0)
         return NULL;
     *len = before + (size_t)s.st_size;
     if (*len > most)

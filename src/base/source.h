@@ -18,7 +18,8 @@ struct source_file {
     const char *name; // as used to open it
     const char *text;
     uint32_t len;
-    bool ended; // two zero bytes follow, and the text may be written to (but is not left so)
+    bool
+        ended; // two zero bytes follow, and the text may be written to (but is not left so)
     struct arena *arena;
     uint32_t *line_start; // byte offset of each line; NULL until somebody asks
     uint32_t line_count;
@@ -39,7 +40,8 @@ struct source_map {
     uint32_t count, capacity;
     struct expansion *expansions;
     uint32_t expansion_count, expansion_capacity;
-    uint32_t expansion_at[EXPANSIONS_KEPT]; // the last of each remainder of the place, or 0
+    uint32_t
+        expansion_at[EXPANSIONS_KEPT]; // the last of each remainder of the place, or 0
 };
 
 void source_map_init(struct source_map *m, struct arena *arena);
@@ -47,7 +49,7 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
                     struct span included_at);
 
 struct source_line {
-    uint32_t number; // 1 is the first
+    uint32_t number;     // 1 is the first
     uint32_t begin, end; // without its newline
 };
 

@@ -34,7 +34,15 @@ struct progress {
 };
 
 // Files that get messages besides the console.
-enum stream { STREAM_ALL, STREAM_DEBUG, STREAM_WARNING, STREAM_FATAL, STREAM_RENDER, STREAM_STATISTIC, STREAM_COUNT };
+enum stream {
+    STREAM_ALL,
+    STREAM_DEBUG,
+    STREAM_WARNING,
+    STREAM_FATAL,
+    STREAM_RENDER,
+    STREAM_STATISTIC,
+    STREAM_COUNT
+};
 
 // When the settings may ask for a command, and what a failed one may ask for.
 enum command_at {

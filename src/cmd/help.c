@@ -249,8 +249,10 @@ static const char man_tail[] =
     ".TP\n.B POVINI\nAn INI file read before the command line.\n"
     ".TP\n.B NO_COLOR\nNo colour in messages.\n"
     ".SH SIGNALS\n"
-    "The first SIGINT or SIGTERM ends the rendering after the tiles in hand (not those with\n"
-    "rays through functions that take long) and writes what there is; a second one ends the program at once.\n";
+    "The first SIGINT or SIGTERM ends the rendering after the tiles in hand (not those "
+    "with\n"
+    "rays through functions that take long) and writes what there is; a second one ends "
+    "the program at once.\n";
 
 int man_print(FILE *out)
 {

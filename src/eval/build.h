@@ -45,7 +45,7 @@ struct builder {
     struct pointer_list objects, fogs, rainbows, medias, past_defaults;
     struct pointer_list cameras; // if one of them is to be chosen
     bool gamma_set, noise_set;
-    struct image_file *images; // read so far
+    struct image_file *images;  // read so far
     uint8_t warned[WORD_COUNT]; // read but not rendered: told once
 };
 

@@ -97,7 +97,8 @@ static void bokeh(struct args *a, struct camera *c)
     const struct ast *block = args_next(a);
     struct args in = args_of(a->b, block, a);
     if (args_at_block(&in) == WORD_pigment)
-        c->bokeh = build_pigment(&in, args_next(&in), a->b->default_texture->layer->pigment);
+        c->bokeh =
+            build_pigment(&in, args_next(&in), a->b->default_texture->layer->pigment);
     if (in.at)
         args_unknown(&in, NULL, 0);
 }
@@ -105,8 +106,8 @@ static void bokeh(struct args *a, struct camera *c)
 // Whether an object is a mesh and nothing else; its faces are in the space of *out.
 static bool mesh_of(const struct object *o, struct camera_mesh *out)
 {
-    if (o->kind != OBJECT_SHAPE || (strcmp(o->ops->keyword, "mesh") != 0 &&
-                                    strcmp(o->ops->keyword, "mesh2") != 0))
+    if (o->kind != OBJECT_SHAPE ||
+        (strcmp(o->ops->keyword, "mesh") != 0 && strcmp(o->ops->keyword, "mesh2") != 0))
         return false;
     *out = (struct camera_mesh){o->shape, o->transform};
     return true;
@@ -148,8 +149,9 @@ static void mesh_camera(struct args *a, struct camera *c)
     if (args_at_number(&in))
         args_float(&in, "largest distance", &m->max_distance);
     if (rays < 1 || rays > 1000000 || way < 0 || way > MESH_CAMERA_UV)
-        args_error(&in, block->where,
-                   "mesh_camera takes 1 to 1000000 rays a pixel and a distribution of 0 to 3");
+        args_error(
+            &in, block->where,
+            "mesh_camera takes 1 to 1000000 rays a pixel and a distribution of 0 to 3");
     meshes(&in, block, m);
     m->smooth = args_take(&in, WORD_smooth);
     if (in.at)
@@ -161,8 +163,9 @@ static void mesh_camera(struct args *a, struct camera *c)
     m->rays = (uint32_t)rays;
     m->way = (enum mesh_camera_way)way;
     if (m->way == MESH_CAMERA_UV && !m->mesh->mesh->face_uv)
-        args_error(&in, block->where,
-                   "distribution 3 finds faces by uv_vectors, which the first mesh has not");
+        args_error(
+            &in, block->where,
+            "distribution 3 finds faces by uv_vectors, which the first mesh has not");
     mesh_camera_finish(m, a->b->arena);
     c->kind = CAMERA_MESH;
     c->mesh = m;

@@ -23,7 +23,8 @@ void build_density_file(struct args *a, struct pattern *p)
         args_error(a, where, arena_printf(arena, "'%s' cannot be read", path));
     else if (!density_grid_init(g, (const uint8_t *)data, size))
         args_error(a, where,
-                   arena_printf(arena, "'%s' is damaged: its length does not fit its sizes",
+                   arena_printf(arena,
+                                "'%s' is damaged: its length does not fit its sizes",
                                 path));
     else
         p->density = g;

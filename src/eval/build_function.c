@@ -1,8 +1,7 @@
 #include "eval/build.h"
 #include "eval/function.h"
 
-const struct pigment *builder_function_pigment(struct builder *b,
-                                               const struct ast *block)
+const struct pigment *builder_function_pigment(struct builder *b, const struct ast *block)
 {
     static const struct pigment bare;
     struct args top = args_list(b, block, block, "function", NULL);
@@ -11,9 +10,9 @@ const struct pigment *builder_function_pigment(struct builder *b,
 
 static bool is_refused(enum word w)
 {
-    static const enum word words[] = {WORD_square, WORD_triangular, WORD_tiling,
-                                      WORD_pavement, WORD_slope, WORD_aoi,
-                                      WORD_average, WORD_facets, WORD_uv_mapping,
+    static const enum word words[] = {WORD_square,    WORD_triangular, WORD_tiling,
+                                      WORD_pavement,  WORD_slope,      WORD_aoi,
+                                      WORD_average,   WORD_facets,     WORD_uv_mapping,
                                       WORD_image_map, WORD_bump_map};
     for (size_t i = 0; i < ARRAY_COUNT(words); i++)
         if (words[i] == w)
@@ -21,8 +20,7 @@ static bool is_refused(enum word w)
     return false;
 }
 
-const struct pattern *builder_function_pattern(struct builder *b,
-                                               const struct ast *block)
+const struct pattern *builder_function_pattern(struct builder *b, const struct ast *block)
 {
     struct args top = args_list(b, block, block, "function", NULL);
     struct args in = args_of(b, block, &top);

@@ -275,7 +275,8 @@ bool build_pattern(struct args *a, struct body *body)
     enum word block = args_at_block(a), w = block ? block : args_at_word(a);
     if (!word_is_pattern(a->b, w))
         return false;
-    const bool bitmap = w == WORD_image_map || w == WORD_bump_map || w == WORD_image_pattern;
+    const bool bitmap =
+        w == WORD_image_map || w == WORD_bump_map || w == WORD_image_pattern;
     const struct pattern_ops *ops = a->b->pattern[bitmap ? WORD_image_pattern : w];
     if (w == WORD_average) {
         args_next(a);
@@ -423,7 +424,7 @@ static bool map_allowed(struct args *a, struct body *body, enum body_kind kind,
     const char *why = body->kind != kind ? "this map has no place here"
                       : body->list       ? "a map cannot follow a list of entries"
                       : body->bitmap && kind != BODY_NORMAL ? "an image takes no map"
-                      : body->plain      ? "a plain colour takes no map"
+                      : body->plain ? "a plain colour takes no map"
                       : body->average && !with_average
                           ? "this map cannot be used with average"
                           : NULL;

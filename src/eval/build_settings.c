@@ -85,7 +85,8 @@ static void subsurface(struct args *a, struct settings *s)
         if (args_take(&in, WORD_samples)) {
             if (args_int(&in, "samples", &n) && args_int(&in, "samples", &m)) {
                 if (n < 1 || m < 1 || n > 1000000 || m > 1000000)
-                    args_error(&in, where, "subsurface takes 1 to 1000000 samples of each kind");
+                    args_error(&in, where,
+                               "subsurface takes 1 to 1000000 samples of each kind");
                 s->subsurface.samples_diffuse = (int)n;
                 s->subsurface.samples_single = (int)m;
             }

@@ -277,7 +277,8 @@ static bool binary(struct run *r, const struct calc_op *op)
         a->n[0] = of_two(r, op, a->n[0], b->n[0]);
         return true;
     }
-    if (!a->width || !b->width || (a->width != b->width && a->width != 1 && b->width != 1))
+    if (!a->width || !b->width ||
+        (a->width != b->width && a->width != 1 && b->width != 1))
         return false;
     number_widen(a->n, &a->width, b->width);
     number_widen(b->n, &b->width, a->width);
@@ -375,9 +376,9 @@ static bool names_fit(struct eval *e, const struct calc *c)
         const struct calc_op *op = &c->op[i];
         if (op->code == CALC_NAME) {
             struct place p = symbols_place(e->symbols, op->name);
-            if (p.array ? p.array->kind != VALUE_NUMBER || !p.array->set[p.index]
-                        : !p.symbol ||
-                              (!symbol_number(p.symbol) && !symbol_string(p.symbol)))
+            if (p.array
+                    ? p.array->kind != VALUE_NUMBER || !p.array->set[p.index]
+                    : !p.symbol || (!symbol_number(p.symbol) && !symbol_string(p.symbol)))
                 return false;
         } else if (op->code == CALC_ELEMENT) {
             const struct array_value *a = array_of(e, op->name);

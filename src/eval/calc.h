@@ -50,7 +50,12 @@ struct calc_macro {
     uint8_t outer;       // as calc_op.macro
 };
 
-enum { CALC_OPS_MAX = 128, CALC_STACK_MAX = 40, CALC_RANDOM_MAX = 16, CALC_MACROS_MAX = 8 };
+enum {
+    CALC_OPS_MAX = 128,
+    CALC_STACK_MAX = 40,
+    CALC_RANDOM_MAX = 16,
+    CALC_MACROS_MAX = 8
+};
 
 struct calc {
     uint32_t used;       // tokens

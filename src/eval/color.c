@@ -86,8 +86,11 @@ static bool read_parts(struct eval *e, const struct ast **at, double c[5])
     for (const struct ast *n = *at; n && n->kind == AST_WORD && is_part(n->word);
          n = *at) {
         enum word w = n->word;
-        int i = w == WORD_red ? 0 : w == WORD_green ? 1 : w == WORD_blue ? 2
-                : w == WORD_transmit ? 4 : 3;
+        int i = w == WORD_red        ? 0
+                : w == WORD_green    ? 1
+                : w == WORD_blue     ? 2
+                : w == WORD_transmit ? 4
+                                     : 3;
         if (!n->next) {
             diag_at(e->diags, DIAG_EXPECTED_NUMBER, n->where, "nothing");
             return false;
@@ -133,6 +136,7 @@ bool eval_color(struct eval *e, const struct ast **at, bool rgb_only, struct rgb
         diag_at(e->diags, DIAG_RGB_ONLY, first->where, "");
         c[3] = c[4] = 0;
     }
-    *out = (struct rgbft){(float)c[0], (float)c[1], (float)c[2], (float)c[3], (float)c[4]};
+    *out =
+        (struct rgbft){(float)c[0], (float)c[1], (float)c[2], (float)c[3], (float)c[4]};
     return true;
 }

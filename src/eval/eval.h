@@ -22,14 +22,14 @@ struct eval_options {
     uint32_t library_path_count;
     const char *const *declare; // "NAME=1.5" or "NAME=\"text\""
     uint32_t declare_count;
-    int version;                // 100*f from the command line; 0: none
+    int version; // 100*f from the command line; 0: none
     double clock;
     bool clock_set;
     int image_width, image_height;
     const char *input_name;
     bool output_alpha;
     bool pov_patches; // bicubic patches are the triangles that POV-Ray draws
-    uint32_t camera; // the scene's n-th, and from the first on again; 0: the last
+    uint32_t camera;  // the scene's n-th, and from the first on again; 0: the last
     // Limits for scenes of unknown origin: tokens read, those of loops and macros each
     // time anew, and bytes of all that is kept meanwhile. 0: none.
     uint64_t steps_max;
@@ -68,9 +68,9 @@ struct eval_options {
 
 // One evaluation of one scene file. Everything that is not in a struct of its own.
 struct eval {
-    struct arena *arena;      // the scene's: values, objects
-    struct arena *parse;      // scratch until the scene is read
-    struct arena *nodes;      // the stream's: good as long as the node at hand
+    struct arena *arena; // the scene's: values, objects
+    struct arena *parse; // scratch until the scene is read
+    struct arena *nodes; // the stream's: good as long as the node at hand
     struct source_map *sources;
     struct diag_sink *diags;
     const struct eval_options *options;
@@ -79,15 +79,15 @@ struct eval {
     uint32_t asked; // how often whether to go on
     struct builder *builder;
     struct scene *scene;
-    int version;              // in force now, 100*f
+    int version; // in force now, 100*f
     bool version_seen;
-    uint32_t *random;         // streams of seed(), by index
+    uint32_t *random; // streams of seed(), by index
     uint32_t random_count, random_capacity;
-    uint32_t depth;            // nesting of the expression being evaluated
+    uint32_t depth;                   // nesting of the expression being evaluated
     struct deprecation *deprecations; // names still to be warned of
-    char *line[3];             // of #debug, #render, #statistics: not ended yet
-    struct scene_file *files;  // opened by the scene, newest first
-    bool file_refused;         // the last file looked for is there but may not be read
+    char *line[3];                    // of #debug, #render, #statistics: not ended yet
+    struct scene_file *files;         // opened by the scene, newest first
+    bool file_refused; // the last file looked for is there but may not be read
 };
 
 // Parses and evaluates the file into *scene. False when an error was reported.
@@ -113,8 +113,7 @@ bool ast_is_color_start(const struct ast *n);
 // Reads a colour phrase (`rgb <1,0,0> filter 0.5`, a colour identifier, a plain
 // expression) from the items at *at and advances *at past it. rgb_only: the places
 // of spec/language 2.6 that drop filter and transmit.
-bool eval_color(struct eval *e, const struct ast **at, bool rgb_only,
-                struct rgbft *out);
+bool eval_color(struct eval *e, const struct ast **at, bool rgb_only, struct rgbft *out);
 
 // The value of a right side: a list of items as stream_host.declare gets it.
 const struct value *eval_rvalue(struct eval *e, const struct ast *items);

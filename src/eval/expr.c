@@ -64,7 +64,9 @@ static double now_constant(struct eval *e, enum word w)
 {
     switch (w) {
     case WORD_pi: return 3.14159265358979323846;
-    case WORD_true: case WORD_yes: case WORD_on: return 1;
+    case WORD_true:
+    case WORD_yes:
+    case WORD_on: return 1;
     case WORD_clock: return (double)(float)e->options->clock;
     case WORD_clock_on: return e->options->clock_set;
     case WORD_version: return e->version / 100.0;
@@ -167,7 +169,8 @@ static bool binary(struct eval *e, const struct ast *n, int wanted, double *out,
     number_widen(out, width, q);
     number_widen(b, &q, *width);
     for (int i = 0; i < *width; i++)
-        out[i] = arith ? arithmetic(e, n, out[i], b[i]) : eval_compare(n->op, out[i], b[i]);
+        out[i] =
+            arith ? arithmetic(e, n, out[i], b[i]) : eval_compare(n->op, out[i], b[i]);
     return true;
 }
 
@@ -188,9 +191,13 @@ static bool conditional(struct eval *e, const struct ast *n, int wanted, double 
 int member_index(enum word w)
 {
     switch (w) {
-    case WORD_y: case WORD_v: case WORD_green: return 1;
-    case WORD_z: case WORD_blue: return 2;
-    case WORD_t: case WORD_filter: return 3;
+    case WORD_y:
+    case WORD_v:
+    case WORD_green: return 1;
+    case WORD_z:
+    case WORD_blue: return 2;
+    case WORD_t:
+    case WORD_filter: return 3;
     case WORD_transmit: return 4;
     case WORD_gray: return -1;
     default: return 0;
@@ -426,9 +433,15 @@ bool ast_is_number(const struct ast *n)
     if (!n)
         return false;
     switch (n->kind) {
-    case AST_NUMBER: case AST_CONSTANT: case AST_VECTOR: case AST_VECTOR3: case AST_UNARY:
+    case AST_NUMBER:
+    case AST_CONSTANT:
+    case AST_VECTOR:
+    case AST_VECTOR3:
+    case AST_UNARY:
     case AST_BINARY:
-    case AST_CONDITIONAL: case AST_MEMBER: case AST_APPLY: return true;
+    case AST_CONDITIONAL:
+    case AST_MEMBER:
+    case AST_APPLY: return true;
     case AST_VALUE:
         return n->op == OP_FAILED || (n->value && n->value->kind == VALUE_NUMBER);
     case AST_CALL: return !word_is_string_function(n->word);

@@ -7,7 +7,8 @@
 
 // Wanted width 1 first, then widened: the contexts that take a whole expression
 // (spec/language 2.3 and 2.4, "full").
-bool eval_full(struct eval *e, const struct ast *n, int wanted, double out[5], int *width);
+bool eval_full(struct eval *e, const struct ast *n, int wanted, double out[5],
+               int *width);
 bool eval_truth(double v);
 bool eval_compare(int op, double a, double b); // also '&' and '|'
 int member_index(enum word w);                 // of `.x`, `.red` ...; -1: `.gray`

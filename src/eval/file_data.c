@@ -58,7 +58,8 @@ static struct datum_text string_lexeme(struct file_data *d)
     size_t begin = ++d->at;
     while (d->at < d->len && here(d) != '"')
         d->at += here(d) == '\\' && d->at + 1 < d->len ? 2 : 1;
-    struct datum_text l = {.kind = KIND_STRING, .text = d->text + begin, .len = d->at - begin};
+    struct datum_text l = {
+        .kind = KIND_STRING, .text = d->text + begin, .len = d->at - begin};
     d->at++;
     return l;
 }

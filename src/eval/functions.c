@@ -78,8 +78,8 @@ bool eval_call(struct eval *e, const struct ast *n, struct call_result *out)
     const char *kind = f->arguments;
     uint32_t i = 0;
     for (const struct ast *a = list; a; a = a->next, i++) {
-        if (!read_argument(e, a, *kind, n->word == WORD_file_exists,
-                           n->word == WORD_vstr, &arg[i]))
+        if (!read_argument(e, a, *kind, n->word == WORD_file_exists, n->word == WORD_vstr,
+                           &arg[i]))
             return false;
         if (kind[1])
             kind++;
@@ -123,7 +123,7 @@ PLAIN(degrees, a * 180 / pi)
 PLAIN(exp, det_exp(a))
 PLAIN(floor, floor(a))
 PLAIN(int, number_to_int(a))
-PLAIN(radians, a * pi / 180)
+PLAIN(radians, a *pi / 180)
 PLAIN(seed, random_seed(c->e, a))
 PLAIN(sin, det_sin(a))
 PLAIN(sinh, det_sinh(a))

@@ -130,9 +130,9 @@ static void add_declared(struct eval *e, const struct include *home, bool macro,
 
 static struct declared_names declared_names(struct eval *e, bool macro)
 {
-    struct declared_names d = {arena_new_array(e->parse, const char *, NAMES_MAX),
-                               arena_new_array(e->parse, const struct include *, NAMES_MAX),
-                               0};
+    struct declared_names d = {
+        arena_new_array(e->parse, const char *, NAMES_MAX),
+        arena_new_array(e->parse, const struct include *, NAMES_MAX), 0};
     const struct include_list *l = list_includes(e);
     for (size_t i = 0; i < l->count; i++)
         add_declared(e, &l->file[i], macro, &d);

@@ -214,10 +214,7 @@ struct place symbols_place_for(struct symbol_tables *t, struct name *name, bool 
     return place_of(make_entry_of(t, name, local ? t->depth - 1 : 0));
 }
 
-const struct value *symbol_value(const struct symbol *s)
-{
-    return s->value;
-}
+const struct value *symbol_value(const struct symbol *s) { return s->value; }
 
 const struct value *symbol_number(const struct symbol *s)
 {

@@ -37,8 +37,8 @@ static const char *const kind_names[] = {
 
 const char *value_kind_name(const struct value *v)
 {
-    static const char *const numbers[] = {"number",     "float",      "uv vector",
-                                          "vector",     "4-D vector", "colour"};
+    static const char *const numbers[] = {"number", "float",      "uv vector",
+                                          "vector", "4-D vector", "colour"};
     if (!v)
         return "undeclared name";
     if (v->kind == VALUE_NUMBER && v->width <= 5)

@@ -12,15 +12,29 @@ enum value_kind {
     VALUE_NONE,
     VALUE_NUMBER, // width 1 float .. 5 colour
     VALUE_STRING,
-    VALUE_FUNCTION, VALUE_SPLINE,
+    VALUE_FUNCTION,
+    VALUE_SPLINE,
     VALUE_ARRAY,
-    VALUE_OBJECT,   // const struct object * (lights too)
-    VALUE_TEXTURE,  // const struct texture *
-    VALUE_PIGMENT, VALUE_NORMAL, VALUE_FINISH, VALUE_INTERIOR, VALUE_MATERIAL,
-    VALUE_MEDIA, VALUE_DENSITY,
-    VALUE_COLOR_MAP, VALUE_PIGMENT_MAP, VALUE_NORMAL_MAP, VALUE_SLOPE_MAP,
-    VALUE_TEXTURE_MAP, VALUE_DENSITY_MAP,
-    VALUE_TRANSFORM, VALUE_CAMERA, VALUE_FOG, VALUE_RAINBOW, VALUE_SKY_SPHERE,
+    VALUE_OBJECT,  // const struct object * (lights too)
+    VALUE_TEXTURE, // const struct texture *
+    VALUE_PIGMENT,
+    VALUE_NORMAL,
+    VALUE_FINISH,
+    VALUE_INTERIOR,
+    VALUE_MATERIAL,
+    VALUE_MEDIA,
+    VALUE_DENSITY,
+    VALUE_COLOR_MAP,
+    VALUE_PIGMENT_MAP,
+    VALUE_NORMAL_MAP,
+    VALUE_SLOPE_MAP,
+    VALUE_TEXTURE_MAP,
+    VALUE_DENSITY_MAP,
+    VALUE_TRANSFORM,
+    VALUE_CAMERA,
+    VALUE_FOG,
+    VALUE_RAINBOW,
+    VALUE_SKY_SPHERE,
     VALUE_FILE,
     VALUE_MACRO,
 };
@@ -31,8 +45,8 @@ struct array_value; // eval/array.h: shared, mutable through #declare A[i] only
 // Immutable once made, in the scene arena; names point at values.
 struct value {
     enum value_kind kind;
-    uint8_t width;    // VALUE_NUMBER: 1..5; 5 is a colour, rounded to single precision
-    bool deprecated;  // `#declare deprecated`
+    uint8_t width;   // VALUE_NUMBER: 1..5; 5 is a colour, rounded to single precision
+    bool deprecated; // `#declare deprecated`
     bool warned;
     union {
         double n[5]; // colour: red green blue filter transmit

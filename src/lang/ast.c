@@ -40,9 +40,7 @@ struct ast *ast_copy(struct arena *a, const struct ast *node)
     n->next = NULL;
     switch (node->kind) {
     case AST_UNARY:
-    case AST_MEMBER:
-        n->left = ast_copy(a, node->left);
-        break;
+    case AST_MEMBER: n->left = ast_copy(a, node->left); break;
     case AST_VECTOR3: {
         double *v = arena_new_array(a, double, 3);
         memcpy(v, node->vector, 3 * sizeof *v);
@@ -53,8 +51,7 @@ struct ast *ast_copy(struct arena *a, const struct ast *node)
         n->left = ast_copy(a, node->left);
         n->right = ast_copy(a, node->right);
         break;
-    default:
-        n->list = copy_list(a, node->list);
+    default: n->list = copy_list(a, node->list);
     }
     return n;
 }
@@ -76,24 +73,20 @@ static void print_head(const struct ast *n, FILE *out)
 {
     char buffer[2];
     static const char *const kinds[] = {
-        [AST_NUMBER] = "number",   [AST_STRING] = "string",
-        [AST_VALUE] = "value",     [AST_UNDECLARED] = "undeclared",
-        [AST_WORD] = "word",       [AST_CONSTANT] = "constant",
-        [AST_VECTOR] = "vector",   [AST_VECTOR3] = "vector",
-        [AST_BULK] = "vectors",    [AST_UNARY] = "unary",
-        [AST_BINARY] = "binary",   [AST_CONDITIONAL] = "conditional",
-        [AST_MEMBER] = "member",   [AST_CALL] = "call",
-        [AST_APPLY] = "apply",     [AST_INDEX] = "index",
-        [AST_BLOCK] = "block",     [AST_ENTRY] = "entry",
+        [AST_NUMBER] = "number", [AST_STRING] = "string",
+        [AST_VALUE] = "value",   [AST_UNDECLARED] = "undeclared",
+        [AST_WORD] = "word",     [AST_CONSTANT] = "constant",
+        [AST_VECTOR] = "vector", [AST_VECTOR3] = "vector",
+        [AST_BULK] = "vectors",  [AST_UNARY] = "unary",
+        [AST_BINARY] = "binary", [AST_CONDITIONAL] = "conditional",
+        [AST_MEMBER] = "member", [AST_CALL] = "call",
+        [AST_APPLY] = "apply",   [AST_INDEX] = "index",
+        [AST_BLOCK] = "block",   [AST_ENTRY] = "entry",
     };
     fputs(kinds[n->kind], out);
     switch (n->kind) {
-    case AST_NUMBER:
-        fprintf(out, " %.17g", n->number);
-        break;
-    case AST_STRING:
-        fprintf(out, " \"%.*s\"", (int)n->len, n->text);
-        break;
+    case AST_NUMBER: fprintf(out, " %.17g", n->number); break;
+    case AST_STRING: fprintf(out, " \"%.*s\"", (int)n->len, n->text); break;
     case AST_VALUE:
     case AST_UNDECLARED:
     case AST_APPLY:
@@ -105,21 +98,16 @@ static void print_head(const struct ast *n, FILE *out)
     case AST_CONSTANT:
     case AST_MEMBER:
     case AST_CALL:
-    case AST_BLOCK:
-        fprintf(out, " %s", word_text((enum word)n->word));
-        break;
+    case AST_BLOCK: fprintf(out, " %s", word_text((enum word)n->word)); break;
     case AST_UNARY:
-    case AST_BINARY:
-        fprintf(out, " %s", op_text(n->op, buffer));
-        break;
+    case AST_BINARY: fprintf(out, " %s", op_text(n->op, buffer)); break;
     case AST_VECTOR3:
         fprintf(out, " %.17g %.17g %.17g", n->vector[0], n->vector[1], n->vector[2]);
         break;
     case AST_BULK:
     case AST_VECTOR:
     case AST_CONDITIONAL:
-    case AST_ENTRY:
-        break;
+    case AST_ENTRY: break;
     }
     if (n->comma_after)
         fputs(" ,", out);

@@ -8,7 +8,7 @@
 #include "lang/token.h"
 
 struct arena;
-struct bulk; // lang/bulk.h
+struct bulk;  // lang/bulk.h
 struct value; // eval/value.h; opaque here
 
 // What the parser makes of the text. Blocks are generic: a keyword and the items in
@@ -28,18 +28,18 @@ struct value; // eval/value.h; opaque here
 //  - `max_trace_level 5` at scene level: AST_BLOCK of that word with the one item.
 //  - `defined(NAME)` is an AST_NUMBER, 0 or 1: it is decided when read.
 enum ast_kind {
-    AST_NUMBER,      // number
-    AST_STRING,      // text, len: between the quotes, escapes unresolved
-    AST_VALUE,       // value: a declared name as it was when read, an array element,
-                     // a finished call, a finished object; text/len: the name, if any
-    AST_UNDECLARED,  // text, len: a name nobody declared
-    AST_WORD,        // word: a reserved word standing as an item (`rgb`, `rotate`, `open`)
-    AST_CONSTANT,    // word: x y z t u v pi clock true false yes no on off version ...
-    AST_VECTOR,      // list: 2..5 components (more for matrix and poly)
-    AST_VECTOR3,     // vector: three components, written as plain numbers
-    AST_BULK,        // bulk: all vectors of a block of mesh2
-    AST_UNARY,       // op ('-' '!' '+'), left
-    AST_BINARY,      // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
+    AST_NUMBER,     // number
+    AST_STRING,     // text, len: between the quotes, escapes unresolved
+    AST_VALUE,      // value: a declared name as it was when read, an array element,
+                    // a finished call, a finished object; text/len: the name, if any
+    AST_UNDECLARED, // text, len: a name nobody declared
+    AST_WORD,       // word: a reserved word standing as an item (`rgb`, `rotate`, `open`)
+    AST_CONSTANT,   // word: x y z t u v pi clock true false yes no on off version ...
+    AST_VECTOR,     // list: 2..5 components (more for matrix and poly)
+    AST_VECTOR3,    // vector: three components, written as plain numbers
+    AST_BULK,       // bulk: all vectors of a block of mesh2
+    AST_UNARY,      // op ('-' '!' '+'), left
+    AST_BINARY,     // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
     AST_CONDITIONAL, // list: condition, if true, if false
     AST_MEMBER,      // left, word: .x .red .gray ...
     AST_CALL,        // word: a built-in function; list: arguments

@@ -40,10 +40,7 @@ bool directive_skip(struct stream *s, uint32_t depth, bool stop_at_else,
     return false;
 }
 
-static void pop_frame(struct stream *s)
-{
-    s->frame_count--;
-}
+static void pop_frame(struct stream *s) { s->frame_count--; }
 
 static void report_open_frame(struct stream *s)
 {
@@ -133,7 +130,7 @@ static void run_if(struct stream *s, struct token word)
 {
     stream_push_frame(s, FRAME_IF, &word);
     const uint32_t frames = s->frame_count;
-    bool taken = word.word == WORD_if ? truth(s)
+    bool taken = word.word == WORD_if      ? truth(s)
                  : word.word == WORD_ifdef ? is_defined(s, "#ifdef")
                                            : !is_defined(s, "#ifndef");
     if (!taken && still_open(s, frames))
@@ -199,7 +196,8 @@ static void run_switch(struct stream *s, struct token word)
             pop_frame(s);
             return;
         }
-        if (stop.word == WORD_else || (case_matches(s, (enum word)stop.word, value) && ok))
+        if (stop.word == WORD_else ||
+            (case_matches(s, (enum word)stop.word, value) && ok))
             return;
     }
 }
@@ -224,8 +222,8 @@ static void run_while(struct stream *s, struct token word)
 
 static struct lvalue for_variable(const struct token *t)
 {
-    return (struct lvalue){.name = t->text, .len = t->len, .where = t->where,
-                           .local = true};
+    return (struct lvalue){
+        .name = t->text, .len = t->len, .where = t->where, .local = true};
 }
 
 static bool for_head(struct stream *s, struct lvalue *variable, double bound[3])
@@ -364,13 +362,14 @@ static void run_middle(struct stream *s, struct token word)
 static enum word unknown(struct stream *s, struct token word)
 {
     static const char *const names[] = {
-        "break", "case", "debug", "declare", "default", "else", "elseif", "end", "error",
-        "fclose", "fopen", "for", "if", "ifdef", "ifndef", "include", "local", "macro",
-        "range", "read", "render", "statistics", "switch", "undef", "version", "warning",
-        "while", "write"};
+        "break",      "case",    "debug",  "declare", "default", "else",  "elseif",
+        "end",        "error",   "fclose", "fopen",   "for",     "if",    "ifdef",
+        "ifndef",     "include", "local",  "macro",   "range",   "read",  "render",
+        "statistics", "switch",  "undef",  "version", "warning", "while", "write"};
     const char *near = NULL;
-    static const char *const foreign[][2] = { // not slips for what is closest to them
-        {"fi", "end"}, {"endif", "end"}, {"elif", "elseif"},
+    static const char *const foreign[][2] = {
+        // not slips for what is closest to them
+        {"fi", "end"},      {"endif", "end"},      {"elif", "elseif"},
         {"set", "declare"}, {"define", "declare"}, {"import", "include"}};
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (word.len == strlen(foreign[i][0]) &&
@@ -379,51 +378,42 @@ static enum word unknown(struct stream *s, struct token word)
     if (!near && word.len)
         near = diag_closest(word.text, word.len, names, sizeof names / sizeof *names);
     const char *hint = near ? arena_printf(s->nodes, "did you mean '#%s'?", near) : NULL;
-    diag_hint(s->diags, DIAG_UNKNOWN_DIRECTIVE, word.where, hint, (int)word.len, word.text);
+    diag_hint(s->diags, DIAG_UNKNOWN_DIRECTIVE, word.where, hint, (int)word.len,
+              word.text);
     return near ? word_find(near, strlen(near)) : WORD_NONE;
 }
 
 static void dispatch(struct stream *s, struct token word)
 {
     switch (word.word) {
-    case WORD_if: case WORD_ifdef: case WORD_ifndef:
-        run_if(s, word);
-        break;
-    case WORD_else: case WORD_elseif: case WORD_end: case WORD_case: case WORD_range:
-        run_middle(s, word);
-        break;
-    case WORD_switch:
-        run_switch(s, word);
-        break;
-    case WORD_while:
-        run_while(s, word);
-        break;
-    case WORD_for:
-        run_for(s, word);
-        break;
-    case WORD_break:
-        run_break(s, word);
-        break;
-    case WORD_macro:
-        macro_define(s, word);
-        break;
-    case WORD_declare: case WORD_local:
-        directive_declare(s, word);
-        break;
-    case WORD_include:
-        directive_include(s, word);
-        break;
-    case WORD_version:
-        directive_version(s, word);
-        break;
-    case WORD_default:
-        directive_default(s, word);
-        break;
-    case WORD_undef: case WORD_debug: case WORD_warning: case WORD_error:
-    case WORD_render: case WORD_statistics: case WORD_fopen: case WORD_fclose:
-    case WORD_read: case WORD_write:
-        directive_output(s, word);
-        break;
+    case WORD_if:
+    case WORD_ifdef:
+    case WORD_ifndef: run_if(s, word); break;
+    case WORD_else:
+    case WORD_elseif:
+    case WORD_end:
+    case WORD_case:
+    case WORD_range: run_middle(s, word); break;
+    case WORD_switch: run_switch(s, word); break;
+    case WORD_while: run_while(s, word); break;
+    case WORD_for: run_for(s, word); break;
+    case WORD_break: run_break(s, word); break;
+    case WORD_macro: macro_define(s, word); break;
+    case WORD_declare:
+    case WORD_local: directive_declare(s, word); break;
+    case WORD_include: directive_include(s, word); break;
+    case WORD_version: directive_version(s, word); break;
+    case WORD_default: directive_default(s, word); break;
+    case WORD_undef:
+    case WORD_debug:
+    case WORD_warning:
+    case WORD_error:
+    case WORD_render:
+    case WORD_statistics:
+    case WORD_fopen:
+    case WORD_fclose:
+    case WORD_read:
+    case WORD_write: directive_output(s, word); break;
     default:
         word.word = unknown(s, word);
         if (word.word != WORD_NONE) // else the rest of it would give more errors

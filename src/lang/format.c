@@ -136,8 +136,7 @@ static int indent_of(const struct format *f, uint32_t end)
         depth--;
     else if (continues_after(f->last) && first && f->tokens[i].kind != '{')
         depth++;
-    for (; i < f->count && f->tokens[i].begin < end && is_closer(f->tokens[i].kind);
-         i++)
+    for (; i < f->count && f->tokens[i].begin < end && is_closer(f->tokens[i].kind); i++)
         depth--;
     return depth < 0 ? 0 : depth > DEPTH_MAX ? DEPTH_MAX : depth;
 }

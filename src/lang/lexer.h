@@ -12,8 +12,8 @@ enum { LEX_TEXT_MAX = 65535 }; // bytes of a name or string (token.len)
 // From malloc, with one of kind 0 (the end) after the last
 // of *count. Loops and macros then rewind an index instead of scanning text again.
 struct lexeme *lex_file(const struct source_map *sources, uint32_t file,
-                       struct diag_sink *diags, const struct word_table *words,
-                       struct arena *vectors, uint32_t *count);
+                        struct diag_sink *diags, const struct word_table *words,
+                        struct arena *vectors, uint32_t *count);
 
 // The kind of a reserved word's token. Functions are TOK_CALL1 and so on only before a '('
 // (the stream sees to that): `sin` is also a kind of julia_fractal.

@@ -157,9 +157,10 @@ static void run_message(struct stream *s, struct token word)
 static struct ast *lvalue_node(struct stream *s, const struct lvalue *name)
 {
     struct name_info info = s->host.lookup(s->host.user, name->name, name->len);
-    struct ast *n = ast_new(s->nodes, name->index    ? AST_INDEX
-                                      : info.value ? AST_VALUE
-                                                     : AST_UNDECLARED,
+    struct ast *n = ast_new(s->nodes,
+                            name->index  ? AST_INDEX
+                            : info.value ? AST_VALUE
+                                         : AST_UNDECLARED,
                             name->where);
     n->text = name->name;
     n->len = (uint16_t)name->len;
@@ -195,7 +196,8 @@ static bool open_items(struct stream *s, struct ast_list *items)
         return false;
     struct token mode = raw_peek(s);
     if (mode.word != WORD_read && mode.word != WORD_write && mode.word != WORD_append) {
-        diag_at(s->diags, DIAG_EXPECTED_IN, mode.where, "read, write or append", "#fopen");
+        diag_at(s->diags, DIAG_EXPECTED_IN, mode.where, "read, write or append",
+                "#fopen");
         return false;
     }
     raw_take(s);
@@ -238,10 +240,7 @@ void directive_output(struct stream *s, struct token word)
     case WORD_fopen:
     case WORD_fclose:
     case WORD_read:
-    case WORD_write:
-        run_file(s, word);
-        break;
-    default:
-        run_message(s, word);
+    case WORD_write: run_file(s, word); break;
+    default: run_message(s, word);
     }
 }

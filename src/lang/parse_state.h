@@ -18,10 +18,10 @@ struct parse_block {
 struct parse {
     struct stream *in;
     struct arena *arena;
-    int start;          // the pseudo-token that says what to read, until it is read
-    bool bounded;       // a right side or argument: it ends where no operator follows
-    bool function;      // in a function body, '<' is always "less than"
-    bool operand;       // the last token completed an operand
+    int start;     // the pseudo-token that says what to read, until it is read
+    bool bounded;  // a right side or argument: it ends where no operator follows
+    bool function; // in a function body, '<' is always "less than"
+    bool operand;  // the last token completed an operand
     bool after_period;
     bool failed;
     int nest;           // open ( [ {

@@ -52,15 +52,9 @@ void stream_free(struct stream *s)
     arena_free(s->nodes);
 }
 
-struct arena *stream_arena(struct stream *s)
-{
-    return s->nodes;
-}
+struct arena *stream_arena(struct stream *s) { return s->nodes; }
 
-struct diag_sink *stream_diags(struct stream *s)
-{
-    return s->diags;
-}
+struct diag_sink *stream_diags(struct stream *s) { return s->diags; }
 
 // An include file read again with the same text is not scanned again.
 static const struct lexed *lex_once(struct stream *s, uint32_t file)
@@ -72,7 +66,8 @@ static const struct lexed *lex_once(struct stream *s, uint32_t file)
             memcmp(o->text, f->text, f->len) == 0)
             return &s->lexed[i];
     }
-    s->lexed = stream_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
+    s->lexed =
+        stream_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
     struct lexed *l = &s->lexed[s->lexed_count++];
     l->file = file;
     struct arena *vectors = s->host.calculate ? s->arena : NULL;
@@ -86,11 +81,14 @@ static const struct lexed *lex_once(struct stream *s, uint32_t file)
 void stream_push_file(struct stream *s, uint32_t file)
 {
     const struct lexed *l = lex_once(s, file);
-    s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
-                             sizeof *s->cursors);
+    s->cursors =
+        stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
     s->cursors[s->cursor_count++] =
-        (struct cursor){.tokens = l->tokens, .slots = l->slots, .count = l->count,
-                        .file = l->file, .text = s->sources->file[l->file]->text,
+        (struct cursor){.tokens = l->tokens,
+                        .slots = l->slots,
+                        .count = l->count,
+                        .file = l->file,
+                        .text = s->sources->file[l->file]->text,
                         .frames = s->frame_count};
     s->includes++;
 }
@@ -105,8 +103,10 @@ struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
     s->frames =
         stream_grow(s->frames, s->frame_count, &s->frame_capacity, sizeof *s->frames);
     struct frame *f = &s->frames[s->frame_count++];
-    *f = (struct frame){.kind = kind, .opener = opener->where,
-                        .word = (enum word)opener->word, .cursor = s->cursor_count - 1};
+    *f = (struct frame){.kind = kind,
+                        .opener = opener->where,
+                        .word = (enum word)opener->word,
+                        .cursor = s->cursor_count - 1};
     return f;
 }
 
@@ -204,10 +204,7 @@ enum word raw_word(struct stream *s)
     return (enum word)raw_peek(s).word;
 }
 
-struct token raw_peek_second(struct stream *s)
-{
-    return peek(s, s->pending_set ? 0 : 1);
-}
+struct token raw_peek_second(struct stream *s) { return peek(s, s->pending_set ? 0 : 1); }
 
 static void take(struct stream *s, struct token *out)
 {
@@ -239,7 +236,13 @@ static bool may_go_on_after(const struct stream *s, const struct cursor *c)
     if (c == &s->cursors[0])
         return false;
     switch (peek(s, c->count - c->at).kind) {
-    case ',': case '}': case '>': case ')': case ';': case ']': case TOK_WORD:
+    case ',':
+    case '}':
+    case '>':
+    case ')':
+    case ';':
+    case ']':
+    case TOK_WORD:
     case TOK_LITERAL: return false;
     default: return true;
     }
@@ -297,7 +300,8 @@ bool raw_expect_name(struct stream *s, struct token *name, const char *where)
         return true;
     }
     if (name->word != WORD_NONE) {
-        diag_at(s->diags, DIAG_RESERVED_WORD, name->where, word_text((enum word)name->word));
+        diag_at(s->diags, DIAG_RESERVED_WORD, name->where,
+                word_text((enum word)name->word));
         raw_take(s);
     } else {
         diag_at(s->diags, DIAG_EXPECTED_IN, name->where, "a name", where);
@@ -348,26 +352,40 @@ static struct token defined(struct stream *s, struct token t)
 static int call_token(enum word w)
 {
     switch (w) {
-    case WORD_abs: case WORD_ceil: case WORD_floor: case WORD_cos: case WORD_sin:
-    case WORD_tan: case WORD_atan: case WORD_cosh: case WORD_sinh: case WORD_tanh:
-    case WORD_asinh: case WORD_acosh: case WORD_atanh: case WORD_exp: case WORD_acos:
-    case WORD_asin: case WORD_degrees: case WORD_radians: case WORD_int: case WORD_ln:
-    case WORD_log: case WORD_sqrt: case WORD_rand: case WORD_seed:
-        return TOK_CALL1;
-    case WORD_pwr: case WORD_internal:
-        return TOK_CALL;
-    default:
-        break;
+    case WORD_abs:
+    case WORD_ceil:
+    case WORD_floor:
+    case WORD_cos:
+    case WORD_sin:
+    case WORD_tan:
+    case WORD_atan:
+    case WORD_cosh:
+    case WORD_sinh:
+    case WORD_tanh:
+    case WORD_asinh:
+    case WORD_acosh:
+    case WORD_atanh:
+    case WORD_exp:
+    case WORD_acos:
+    case WORD_asin:
+    case WORD_degrees:
+    case WORD_radians:
+    case WORD_int:
+    case WORD_ln:
+    case WORD_log:
+    case WORD_sqrt:
+    case WORD_rand:
+    case WORD_seed: return TOK_CALL1;
+    case WORD_pwr:
+    case WORD_internal: return TOK_CALL;
+    default: break;
     }
     switch (word_class(w)) {
     case CLASS_FLOAT_FUNCTIONS:
     case CLASS_VECTOR_FUNCTIONS:
-    case CLASS_ONLY_INSIDE__FUNCTION:
-        return TOK_CALL;
-    case CLASS_STRING_FUNCTIONS:
-        return TOK_STRING_CALL;
-    default:
-        return TOK_WORD;
+    case CLASS_ONLY_INSIDE__FUNCTION: return TOK_CALL;
+    case CLASS_STRING_FUNCTIONS: return TOK_STRING_CALL;
+    default: return TOK_WORD;
     }
 }
 
@@ -386,14 +404,9 @@ static bool bind_name(struct stream *s, struct token *t)
         s->host.deprecated(s->host.user, t->text, t->len, t->where);
     t->value = held(s, &info);
     switch (info.class) {
-    case NAME_UNDECLARED:
-        t->value = NULL;
-        break;
-    case NAME_VALUE:
-        break;
-    case NAME_STRING:
-        t->kind = TOK_STRING_NAME;
-        break;
+    case NAME_UNDECLARED: t->value = NULL; break;
+    case NAME_VALUE: break;
+    case NAME_STRING: t->kind = TOK_STRING_NAME; break;
     case NAME_FUNCTION:
         t->kind = next_kind(s) == '(' ? TOK_FUNCTION_NAME : TOK_OTHER_NAME;
         break;
@@ -401,12 +414,8 @@ static bool bind_name(struct stream *s, struct token *t)
         t->kind = next_kind(s) == '[' ? TOK_ARRAY_NAME : TOK_OTHER_NAME;
         break;
     case NAME_OBJECT:
-    case NAME_BLOCK:
-        t->kind = TOK_OTHER_NAME;
-        break;
-    case NAME_MACRO:
-        macro_call(s, *t, info.macro);
-        return false;
+    case NAME_BLOCK: t->kind = TOK_OTHER_NAME; break;
+    case NAME_MACRO: macro_call(s, *t, info.macro); return false;
     }
     return true;
 }

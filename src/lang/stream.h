@@ -14,7 +14,7 @@ struct value;
 // to take what follows ('(' after a function, '[' after an array).
 enum name_class {
     NAME_UNDECLARED,
-    NAME_VALUE,    // number, vector, colour, or anything copied whole
+    NAME_VALUE, // number, vector, colour, or anything copied whole
     NAME_STRING,
     NAME_FUNCTION, // declared function or spline: NAME '(' starts a call
     NAME_ARRAY,    // NAME '[' starts a subscript
@@ -71,8 +71,8 @@ struct calc_place {
 };
 
 struct calc_result {
-    uint32_t used; // tokens
-    int width;     // 0: failed
+    uint32_t used;             // tokens
+    int width;                 // 0: failed
     double number;             // width 1
     const struct value *value; // wider
 };
@@ -104,7 +104,7 @@ struct stream_host {
     const char *(*undeclared)(void *user, const char *name, size_t len,
                               enum undeclared_kind kind, const char *word);
     void (*deprecated)(void *user, const char *name, size_t len, struct span where);
-    bool (*number)(void *user, const struct ast *expr, double *out); // width 1
+    bool (*number)(void *user, const struct ast *expr, double *out);      // width 1
     bool (*string)(void *user, const struct ast *expr, const char **out); // terminated
     bool (*path)(void *user, const struct ast *expr, const char **out);   // no escapes
     bool (*is_declared)(void *user, const struct lvalue *name); // #ifdef, defined()
@@ -119,8 +119,9 @@ struct stream_host {
     // `name`: the host's, from name_of. False: nothing has happened.
     void *(*name_of)(void *user, const char *name, size_t len);
     bool (*advance)(void *user, void *name, double by, double *out);
-    bool (*declare_array)(void *user, const struct lvalue *to, const struct ast *sizes,
-                          const struct ast *elements); // elements: nested AST_ENTRY or NULL
+    bool (*declare_array)(
+        void *user, const struct lvalue *to, const struct ast *sizes,
+        const struct ast *elements); // elements: nested AST_ENTRY or NULL
     // The short way for what is simple; NULL: everything goes through the grammar.
     enum calc_outcome (*calculate)(void *user, const struct calc_place *at,
                                    struct calc_result *out);

@@ -65,7 +65,7 @@ struct unknown_name {
 
 struct stream {
     const struct unknown_name *unknown; // newest first
-    struct arena *arena; // of the caller: macro definitions
+    struct arena *arena;                // of the caller: macro definitions
     struct arena *nodes; // AST, wound back after each statement and directive
     struct source_map *sources;
     struct word_table words;
@@ -82,9 +82,9 @@ struct stream {
     struct arena_mark statement;
     int runs; // of the grammar, inside each other
     double version;
-    bool old_macro; // a macro below version 3.1 was reported
+    bool old_macro;     // a macro below version 3.1 was reported
     bool old_semicolon; // and a missing ';' below 3.5
-    uint64_t steps; // tokens taken, those of loops and macros each time anew
+    uint64_t steps;     // tokens taken, those of loops and macros each time anew
     bool stopped;
 };
 

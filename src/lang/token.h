@@ -24,7 +24,7 @@ struct lexeme {
     union {
         double number;
         const struct lexed_vector *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
-        const struct bulk *bulk; // TOK_BULK: the contents of a block of mesh2
+        const struct bulk *bulk;           // TOK_BULK: the contents of a block of mesh2
         struct {
             uint32_t len;    // of all others: bytes of the text
             uint32_t tokens; // of a TOK_LITERAL: how many it stands for
@@ -111,6 +111,6 @@ static inline uint32_t word_hash_add(uint32_t h, char c)
 }
 enum word word_table_find_hashed(const struct word_table *t, const char *text, size_t len,
                                  uint32_t hash);
-const char *const *word_list(void);                // WORD_COUNT - 1 texts, sorted
+const char *const *word_list(void); // WORD_COUNT - 1 texts, sorted
 
 #endif

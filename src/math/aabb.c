@@ -77,7 +77,8 @@ struct aabb aabb_pad(struct aabb a)
                          vec3(pad_up(a.max.x), pad_up(a.max.y), pad_up(a.max.z))};
 }
 
-struct aabb aabb_around(struct vec3 centre, const double half[3], const struct transform *t)
+struct aabb aabb_around(struct vec3 centre, const double half[3],
+                        const struct transform *t)
 {
     const double c[3] = {centre.x, centre.y, centre.z};
     const double offset[3] = {t->offset.x, t->offset.y, t->offset.z};

@@ -19,7 +19,8 @@ struct aabb aabb_meet(struct aabb a, struct aabb b);
 struct aabb aabb_add(struct aabb a, struct vec3 p);
 // Around the centre moved by t, `half` the extents along the axes after it; grown by what
 // their rounding (a few operations) may be off.
-struct aabb aabb_around(struct vec3 centre, const double half[3], const struct transform *t);
+struct aabb aabb_around(struct vec3 centre, const double half[3],
+                        const struct transform *t);
 struct aabb aabb_transform(struct aabb a, const struct transform *t);
 bool aabb_is_empty(struct aabb a);
 bool aabb_is_finite(struct aabb a);

@@ -140,8 +140,8 @@ static unsigned node_touches(const struct bvh8_node *n, const float lo[3],
 #ifdef __SSE2__
     for (int half = 0; half < 8; half += 4) {
         __m128 in = _mm_cmple_ps(_mm_loadu_ps(&n->box[0][half]), _mm_set1_ps(hi[0]));
-        in = _mm_and_ps(in, _mm_cmpge_ps(_mm_loadu_ps(&n->box[3][half]),
-                                         _mm_set1_ps(lo[0])));
+        in = _mm_and_ps(in,
+                        _mm_cmpge_ps(_mm_loadu_ps(&n->box[3][half]), _mm_set1_ps(lo[0])));
         for (int a = 1; a < 3; a++) {
             __m128 from = _mm_loadu_ps(&n->box[a][half]);
             __m128 to = _mm_loadu_ps(&n->box[3 + a][half]);

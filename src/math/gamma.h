@@ -5,7 +5,7 @@
 // error of n roundings in a row (Higham, Accuracy and Stability, 3.1). Every tolerance
 // in geometry is one of these times a length that stands in the same expression.
 #define ROUNDOFF 0x1p-53
-#define GAMMA(n) ((n) * ROUNDOFF / (1 - (n) * ROUNDOFF))
+#define GAMMA(n) ((n)*ROUNDOFF / (1 - (n)*ROUNDOFF))
 
 // Whether a direction whose largest component is `size` runs along a plane: `down`, its
 // component across the plane, is no more than its own rounding error. Such a crossing

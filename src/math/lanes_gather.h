@@ -24,9 +24,8 @@ LANES_INLINE struct real8 r8_gather(const double *p, struct real8 at)
 LANES_INLINE struct real8 r8_lookup16(const double *table, struct real8 at)
 {
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    return (struct real8){_mm512_permutex2var_pd(_mm512_loadu_pd(table),
-                                                 _mm512_cvttpd_epi64(at.a),
-                                                 _mm512_loadu_pd(table + 8))};
+    return (struct real8){_mm512_permutex2var_pd(
+        _mm512_loadu_pd(table), _mm512_cvttpd_epi64(at.a), _mm512_loadu_pd(table + 8))};
 #else
     return r8_gather(table, at);
 #endif

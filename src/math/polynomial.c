@@ -14,12 +14,12 @@ enum { BERNSTEIN_MAX = 8 };
 // Inlined where the degree is a constant, so that the loops unroll: the quartics of tori
 // and blobs are solved for every ray.
 #define UNROLLED static inline __attribute__((always_inline))
-#define UNROLL _Pragma("GCC unroll 8")
+#define UNROLL   _Pragma("GCC unroll 8")
 
 UNROLLED double value(const double *c, int degree, double t)
 {
     double v = c[degree];
-UNROLL
+    UNROLL
     for (int i = degree - 1; i >= 0; i--)
         v = v * t + c[i];
     return v;
@@ -54,7 +54,7 @@ UNROLLED double magnitude(const double *c, int degree, double t)
 {
     double v = fabs(c[degree]);
     t = fabs(t);
-UNROLL
+    UNROLL
     for (int i = degree - 1; i >= 0; i--)
         v = v * t + fabs(c[i]);
     return v;
@@ -108,30 +108,30 @@ UNROLLED int bernstein(const double *c, int degree, double lo, double hi, double
 {
     double size = 0;
     const double width = hi - lo;
-UNROLL
+    UNROLL
     for (int i = 0; i <= degree; i++)
         b[i] = c[i];
-UNROLL
+    UNROLL
     for (int i = 0; i < degree; i++) // Taylor shift to lo
-UNROLL
-        for (int k = degree - 1; k >= i; k--)
-            b[k] += lo * b[k + 1];
+        UNROLL
+    for (int k = degree - 1; k >= i; k--)
+        b[k] += lo * b[k + 1];
     double scale = 1;
-UNROLL
+    UNROLL
     for (int i = 0; i <= degree; i++) { // to [0, 1], over the binomials
         b[i] *= scale;
         scale *= width * ((i + 1.) / (degree - i));
         size += fabs(b[i]);
     }
-UNROLL
+    UNROLL
     for (int i = 0; i < degree; i++) // sums of the scaled powers
-UNROLL
-        for (int k = degree; k > i; k--)
-            b[k] += b[k - 1];
+        UNROLL
+    for (int k = degree; k > i; k--)
+        b[k] += b[k - 1];
     const double noise =
         64 * roundoff * (size + magnitude(c, degree, fmax(fabs(lo), fabs(hi))));
     int changes = 0;
-UNROLL
+    UNROLL
     for (int i = 0; i <= degree; i++) {
         if (!(fabs(b[i]) > noise))
             return -1;
@@ -154,7 +154,7 @@ UNROLLED bool between_roots(double (*chain)[POLYNOMIAL_DEGREE_MAX + 1], int degr
     enum { STEPS = 4 };
     const double sign = b[0] > 0 ? 1 : -1;
     int lowest = 1;
-UNROLL
+    UNROLL
     for (int i = 2; i < degree; i++)
         if (sign * b[i] < sign * b[lowest])
             lowest = i;
@@ -165,7 +165,8 @@ UNROLL
         const double bend = sign * value(chain[2], degree - 2, t);
         if (v < -2 * degree * roundoff * magnitude(chain[0], degree, t)) {
             const double reach = sqrt(slope * slope - 2 * v * bend);
-            *at = (struct middle){t, t - (slope + reach) / bend, t - (slope - reach) / bend};
+            *at = (struct middle){t, t - (slope + reach) / bend,
+                                  t - (slope - reach) / bend};
             if (!(at->left > lo && at->left < t))
                 at->left = 0.5 * (lo + t);
             if (!(at->right > t && at->right < hi))
@@ -244,8 +245,8 @@ static int quadratic_stops(const double c[3], double lo, double hi, double root[
 
 // Sign changes of c on (lo, hi), given those of its derivative d.
 UNROLLED int refine(const double *c, const double *d, int degree, double lo, double hi,
-                  const double *stop, int stops, double *root, bool *first_rising,
-                  double enough)
+                    const double *stop, int stops, double *root, bool *first_rising,
+                    double enough)
 {
     int n = 0;
     double a = lo;

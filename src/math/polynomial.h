@@ -33,8 +33,8 @@ double polynomial_root_error(const double *coefficient, int degree, double t,
                              double error);
 
 // The one root between lo and hi, where the sign changes from - to + if it is rising.
-double polynomial_root_between(const double *coefficient, int degree, double lo, double hi,
-                               bool rising);
+double polynomial_root_between(const double *coefficient, int degree, double lo,
+                               double hi, bool rising);
 
 double polynomial_value(const double *coefficient, int degree, double t);
 

@@ -21,7 +21,7 @@ struct transform {
 extern const struct transform transform_identity;
 
 struct transform transform_translate(struct vec3 by);
-struct transform transform_scale(struct vec3 by); // no component may be zero
+struct transform transform_scale(struct vec3 by);       // no component may be zero
 struct transform transform_rotate(struct vec3 degrees); // about x, then y, then z
 struct transform transform_rotate_axis(struct vec3 axis, double radians);
 // Rows 0-2 linear, row 3 offset. False when singular.

@@ -11,11 +11,11 @@ enum crossing { CROSS_ENTER, CROSS_EXIT, CROSS_TOUCH };
 
 struct boundary {
     double t;
-    double dt;      // bound on the error of t; two boundaries whose [t-dt, t+dt]
-                    // overlap are coincident
-    double u, v;    // the shape's own parameters of the point, for normal and uv
-    uint32_t part;  // the shape's own number of the face: box side, cap, triangle
-    uint32_t leaf;  // filled by the caller of intersect: index into world leaves
+    double dt;        // bound on the error of t; two boundaries whose [t-dt, t+dt]
+                      // overlap are coincident
+    double u, v;      // the shape's own parameters of the point, for normal and uv
+    uint32_t part;    // the shape's own number of the face: box side, cap, triangle
+    uint32_t leaf;    // filled by the caller of intersect: index into world leaves
     uint32_t own;     // within CSG, where dt may be wider: 1 + the place of the shape's
                       // own dt (trace/scratch.h); else 0
     uint8_t crossing; // enum crossing
@@ -29,12 +29,13 @@ struct boundary {
 struct boundary_list {
     struct boundary *at;
     uint32_t count, capacity;
-    bool first_only; // by the caller: what lies beyond the first drawn crossing with
-                     // t_min < t < t_max of the ray need not be found
+    bool first_only;      // by the caller: what lies beyond the first drawn crossing with
+                          // t_min < t < t_max of the ray need not be found
     uint64_t evaluations; // of functions, added up by shapes that are made of them
-    const volatile bool *cancel; // once set, shapes whose search may take long give it up;
-                                 // NULL: they never do
-    bool cut;                    // one did: what it found is worth nothing
+    const volatile bool
+        *cancel; // once set, shapes whose search may take long give it up;
+                 // NULL: they never do
+    bool cut;    // one did: what it found is worth nothing
 };
 
 // Asked by searches that may take long, now and then.

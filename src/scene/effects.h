@@ -32,8 +32,8 @@ struct photon_settings {
     double radius[4]; // < 0: chosen automatically
     double expand_increase;
     int expand_min;
-    int max_trace_level;  // 0: the scene's
-    double adc_bailout;   // < 0: the scene's
+    int max_trace_level; // 0: the scene's
+    double adc_bailout;  // < 0: the scene's
     const char *load_file, *save_file;
 };
 

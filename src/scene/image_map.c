@@ -103,8 +103,8 @@ static inline int inside(int i, int size, bool once)
     return i < 0 ? i + size : i;
 }
 
-static inline float sample(const struct image_map *m, const struct texels *t, int x, int y,
-                    int k)
+static inline float sample(const struct image_map *m, const struct texels *t, int x,
+                           int y, int k)
 {
     const double raw = texels_raw(t, x, y, k);
     if (m->decoded)
@@ -137,7 +137,8 @@ struct sum {
     bool indexed;
 };
 
-static inline void add(struct sum *s, const struct image_map *m, int x, int y, double weight)
+static inline void add(struct sum *s, const struct image_map *m, int x, int y,
+                       double weight)
 {
     int index;
     const struct rgbft c = fetch(m, x, y, &index);

@@ -16,7 +16,7 @@ struct light {
     struct vec3 location;
     struct rgb color;
     bool parallel, shadowless;
-    struct vec3 point_at, axis; // axis: unit(point_at - location)
+    struct vec3 point_at, axis;        // axis: unit(point_at - location)
     double radius, falloff, tightness; // degrees for spots, units for cylinders
     double fade_distance, fade_power;
     // area lights

@@ -221,7 +221,8 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
     const double add = gradient                             ? 0.4925
                        : generator == NOISE_RANGE_CORRECTED ? 1.05242 * 0.48985582
                                                             : 0.5;
-    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK, v->hi * scale + add + NOISE_VALUE_SLACK);
+    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK,
+                  v->hi * scale + add + NOISE_VALUE_SLACK);
     const bool cut = v->lo < 0 || v->hi > 1;
     for (int k = 0; k < 3; k++) {
         slope[k] = interval(slope[k].lo * scale - NOISE_SLOPE_SLACK,

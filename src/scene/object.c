@@ -4,7 +4,8 @@
 
 #include "base/arena.h"
 
-static struct object *object_new(struct arena *a, enum object_kind kind, struct span where)
+static struct object *object_new(struct arena *a, enum object_kind kind,
+                                 struct span where)
 {
     struct object *o = arena_new_struct(a, struct object);
     o->kind = kind;
@@ -62,7 +63,8 @@ static void move_attached(struct arena *a, struct attached_texture *x,
         x->transform = transform_join(a, x->transform, t);
 }
 
-static const struct object *const *move_all(struct arena *a, const struct object *const *list,
+static const struct object *const *move_all(struct arena *a,
+                                            const struct object *const *list,
                                             uint32_t count, const struct transform *t)
 {
     const struct object **moved = arena_alloc(a, count * sizeof *moved);
@@ -110,7 +112,10 @@ static void push(struct frame_list *l, const struct object *o)
     l->at[l->count++] = o;
 }
 
-static bool is_inverse(const struct object *o) { return (o->flags & OBJECT_INVERSE) != 0; }
+static bool is_inverse(const struct object *o)
+{
+    return (o->flags & OBJECT_INVERSE) != 0;
+}
 
 // The node and its first children down to a leaf.
 static struct frame_list first_chain(const struct object *o)

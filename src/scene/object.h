@@ -63,7 +63,7 @@ struct object {
     const struct light *light;
 
     const struct transform *transform; // everything inside -> outside of this node
-    struct attached_texture texture; // outermost space of this node
+    struct attached_texture texture;   // outermost space of this node
     struct attached_texture interior_texture;
     const struct interior *interior; // NULL: inherit
     unsigned flags;                  // enum object_flags

@@ -75,8 +75,8 @@ static void print_light(const struct light *l, FILE *out, int indent)
     indent_by(out, indent);
     fputs("light_source { ", out);
     shape_print_vec3(out, l->location);
-    fprintf(out, ", rgb <%.9g, %.9g, %.9g>%s%s }\n", (double)l->color.r, (double)l->color.g,
-            (double)l->color.b, l->shadowless ? " shadowless" : "",
+    fprintf(out, ", rgb <%.9g, %.9g, %.9g>%s%s }\n", (double)l->color.r,
+            (double)l->color.g, (double)l->color.b, l->shadowless ? " shadowless" : "",
             l->parallel ? " parallel" : "");
 }
 

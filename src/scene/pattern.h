@@ -27,8 +27,15 @@ struct turbulence {
 };
 
 enum warp_kind {
-    WARP_TRANSFORM, WARP_TURBULENCE, WARP_REPEAT, WARP_BLACK_HOLE, WARP_PLANAR,
-    WARP_CYLINDRICAL, WARP_SPHERICAL, WARP_TOROIDAL, WARP_CUBIC,
+    WARP_TRANSFORM,
+    WARP_TURBULENCE,
+    WARP_REPEAT,
+    WARP_BLACK_HOLE,
+    WARP_PLANAR,
+    WARP_CYLINDRICAL,
+    WARP_SPHERICAL,
+    WARP_TOROIDAL,
+    WARP_CUBIC,
 };
 
 // One step from the point outside towards the pattern's own space (spec/textures
@@ -38,13 +45,13 @@ struct warp {
     const struct warp *next;
     struct transform transform; // WARP_TRANSFORM: applied inverse
     struct turbulence turbulence;
-    struct vec3 repeat, offset, flip;       // repeat; black_hole: repeat
-    struct vec3 center;                     // black_hole
-    double radius, strength, falloff;       // black_hole
-    bool inverse;                           // black_hole
-    int type;                               // black_hole
-    struct vec3 uncertainty;                // black_hole: turbulence vector
-    struct vec3 orientation;                // planar..toroidal
+    struct vec3 repeat, offset, flip;        // repeat; black_hole: repeat
+    struct vec3 center;                      // black_hole
+    double radius, strength, falloff;        // black_hole
+    bool inverse;                            // black_hole
+    int type;                                // black_hole
+    struct vec3 uncertainty;                 // black_hole: turbulence vector
+    struct vec3 orientation;                 // planar..toroidal
     double dist_exp, major_radius, distance; // distance: planar
 };
 
@@ -80,10 +87,10 @@ enum pattern_plain {
 // it. value is the raw value of spec/textures 5.1, before frequency, phase, wave.
 struct pattern_ops {
     const char *keyword;
-    enum wave wave;       // wave type that the keyword sets
-    float frequency;      // 1, or 0 for list and bitmap patterns
-    int list;             // >0: takes that many list entries (checker 2)
-    bool own_turbulence;  // the classic turbulence acts inside value, not as a warp
+    enum wave wave;      // wave type that the keyword sets
+    float frequency;     // 1, or 0 for list and bitmap patterns
+    int list;            // >0: takes that many list entries (checker 2)
+    bool own_turbulence; // the classic turbulence acts inside value, not as a warp
     void (*init)(struct pattern *p); // defaults of its parameters; NULL: all zero
     double (*value)(const struct pattern *p, struct vec3 at,
                     const struct pattern_context *c);
@@ -118,28 +125,28 @@ struct pattern {
     enum wave wave;
     float exponent; // WAVE_POLY
     float frequency, phase;
-    int noise_generator; // 1..3; 0: as `defaults` say
+    int noise_generator;                     // 1..3; 0: as `defaults` say
     const struct pattern_defaults *defaults; // NULL: generator 2, 10 waves
-    const struct warp *warps;             // front first
-    const struct turbulence *turbulence;  // the classic element, always last; NULL: none
+    const struct warp *warps;                // front first
+    const struct turbulence *turbulence; // the classic element, always last; NULL: none
     // parameters, by pattern
-    struct vec3 vector;      // gradient, slope direction, brick_size, crackle form, julia c
-    struct vec3 vector2;     // slope altitude
+    struct vec3 vector;  // gradient, slope direction, brick_size, crackle form, julia c
+    struct vec3 vector2; // slope altitude
     double low, high, low2, high2; // slope
-    bool point_at;           // slope
-    float value[4];          // mortar; agate_turb; quilted controls; facets size, coords
-    float metric, offset;    // crackle
-    bool solid;              // crackle
-    int integer[4];          // iterations, spiral arms, magnet type, tiling number,
-                             // pavement sides tiles pattern form
+    bool point_at;                 // slope
+    float value[4];       // mortar; agate_turb; quilted controls; facets size, coords
+    float metric, offset; // crackle
+    bool solid;           // crackle
+    int integer[4];       // iterations, spiral arms, magnet type, tiling number,
+                          // pavement sides tiles pattern form
     int exterior_type, interior_type; // fractals; pavement exterior, interior
     double exterior_factor, interior_factor;
     int fractal_exponent;
-    const struct object *object;      // object pattern
-    const struct pigment *pigment;    // pigment_pattern
-    const struct pigment_tape *tape;  // the same, compiled; NULL: its maps nest too deeply
-    const struct image_map *image;    // image_pattern
-    const struct paving_map *paving;  // pavement, once it is finished
+    const struct object *object;     // object pattern
+    const struct pigment *pigment;   // pigment_pattern
+    const struct pigment_tape *tape; // the same, compiled; NULL: its maps nest too deeply
+    const struct image_map *image;   // image_pattern
+    const struct paving_map *paving; // pavement, once it is finished
     const struct density_grid *density; // density_file; interpolation in integer[0]
     // function pattern: evaluates user code at a point
     double (*function)(const void *data, struct vec3 p);

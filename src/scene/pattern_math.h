@@ -18,9 +18,9 @@ double pattern_wave(const struct pattern *p, double v);
 
 // The small functions that the formulas of spec/textures are written in (section 0).
 
-#define PATTERN_PI   3.14159265358979323846
+#define PATTERN_PI      3.14159265358979323846
 #define QUICK_SINE_MOST 1e5
-#define PATTERN_EDGE 1e-10 // EPS of the specification: part of the pictures
+#define PATTERN_EDGE    1e-10 // EPS of the specification: part of the pictures
 
 static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 

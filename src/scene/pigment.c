@@ -77,8 +77,7 @@ static bool color_at(const struct pigment *p, struct vec3 place,
     case PIGMENT_MAP:
         c = pattern_context_of(at);
         place = pattern_warp(p->pattern, place);
-        return blend_pigments(p, pattern_value_at(p->pattern, place, &c), place, at,
-                              out);
+        return blend_pigments(p, pattern_value_at(p->pattern, place, &c), place, at, out);
     case PIGMENT_AVERAGE:
         return average_pigments(p->map, pattern_warp(p->pattern, place), at, out);
     case PIGMENT_IMAGE:

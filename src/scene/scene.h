@@ -76,7 +76,7 @@ struct scene {
     uint32_t media_count;
     const struct object *const *object; // top level, in written order, lights too
     uint32_t object_count;
-    struct attached_texture default_texture; // of objects that have none
+    struct attached_texture default_texture;        // of objects that have none
     const struct past_default *const *past_default; // in written order
     uint32_t past_default_count;
 };

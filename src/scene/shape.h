@@ -23,7 +23,7 @@ enum shape_flags {
     SHAPE_STURM = 4,   // accepts the modifier `sturm`
     SHAPE_HIERARCHY = 8,
     SHAPE_CONVEX = 16, // at most one ENTER and one EXIT on any line
-    SHAPE_UV = 32, // surface fills uv; otherwise uv is the world x and y of the hit
+    SHAPE_UV = 32,     // surface fills uv; otherwise uv is the world x and y of the hit
     // Which rays a bounded_by { } culls, as in POV-Ray: those that miss its box, or its
     // shape. With neither, none.
     SHAPE_BOUND_BOX = 64,
@@ -40,7 +40,8 @@ struct surface_point {
     bool want_uv;   // by the caller: mapping a sphere costs more than meeting it
 };
 
-typedef void shape_texture_visit(void *user, const struct texture *texture, double weight);
+typedef void shape_texture_visit(void *user, const struct texture *texture,
+                                 double weight);
 
 // What a kind of shape can do. Each src/scene/shapes/NAME.c defines one table,
 // NAME_ops; shapes.def lists it. Shapes are in their own coordinates: the
@@ -77,7 +78,8 @@ struct shape_ops {
     // and the state at t_min must stay right; most shapes ignore them). A line that
     // no boundary meets is wholly inside or wholly outside: only `inside` tells
     // which, and only for a shape that is not bounded can it be inside.
-    void (*intersect)(const void *shape, const struct ray *ray, struct boundary_list *out);
+    void (*intersect)(const void *shape, const struct ray *ray,
+                      struct boundary_list *out);
 
     // The first drawn crossing with t_min < t < t_max, for shapes that find it much
     // faster than all crossings (a mesh that stands alone). NULL: use intersect.

@@ -279,9 +279,8 @@ LANES_INLINE void ramp_quick(const struct pigment_ramp *r, bool few, int channel
     const struct real8 f =
         r8_select(alone, zero, r8_div(r8_sub(v, low), r8_sub(high, low)));
     for (int k = 0; k < channels; k++)
-        f8_store(out[k],
-                 blend8(pick8(r->channel[k], below, few),
-                        pick8(r->channel[k], above, few), f));
+        f8_store(out[k], blend8(pick8(r->channel[k], below, few),
+                                pick8(r->channel[k], above, few), f));
 }
 
 static void ramp_step(const struct pigment_ramp *r, int channels, unsigned live,

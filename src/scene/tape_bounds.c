@@ -420,8 +420,8 @@ void tape_bounds_step(enum tape_op op, const struct tape_slope *a,
     }
 }
 
-void tape_bounds_all(const struct tape *t, const struct tape_slope *argument,
-                     int n, struct tape_slope *out)
+void tape_bounds_all(const struct tape *t, const struct tape_slope *argument, int n,
+                     struct tape_slope *out)
 {
     struct tape_slope r[TAPE_REGISTERS_MAX];
     for (uint32_t i = 0; i < t->constant_count; i++)

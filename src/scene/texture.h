@@ -69,13 +69,17 @@ struct pigment {
 // ---- normal -------------------------------------------------------------
 enum normal_kind {
     NORMAL_PATTERN, // by the pattern's own perturbation or by differences
-    NORMAL_MAP, NORMAL_AVERAGE, NORMAL_SLOPES, NORMAL_BUMP_MAP, NORMAL_UV,
+    NORMAL_MAP,
+    NORMAL_AVERAGE,
+    NORMAL_SLOPES,
+    NORMAL_BUMP_MAP,
+    NORMAL_UV,
 };
 
 struct normal {
     enum normal_kind kind;
-    float amount;  // 0.5
-    float delta;   // `accuracy`, 0.02
+    float amount; // 0.5
+    float delta;  // `accuracy`, 0.02
     bool no_bump_scale;
     struct pattern pattern;
     const struct normal_map *map;
@@ -110,8 +114,8 @@ struct texture_layer {
 };
 
 enum texture_kind {
-    TEXTURE_PLAIN,    // layers, bottom (first written) first
-    TEXTURE_MAP,      // pattern through texture_map (list patterns too)
+    TEXTURE_PLAIN, // layers, bottom (first written) first
+    TEXTURE_MAP,   // pattern through texture_map (list patterns too)
     TEXTURE_AVERAGE,
     TEXTURE_MATERIAL, // material_map: image index chooses the entry of map
     TEXTURE_UV,
@@ -179,8 +183,8 @@ struct interior {
     float caustics; // as stored: 45 times what was written
     struct rgb fade_color;
     double fade_distance, fade_power;
-    float old_refraction; // 1
-    bool hollow;          // filled when the world is compiled
+    float old_refraction;             // 1
+    bool hollow;                      // filled when the world is compiled
     const struct media *const *media; // scene/effects.h; they add up
     uint32_t media_count;
 };

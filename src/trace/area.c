@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "trace/packet.h"
 #include "trace/projected.h"
-#include "trace/shade_kernel.h"
 #include "trace/ray_shaft.h"
+#include "trace/shade_kernel.h"
 
 struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
                        uint32_t hash, int u, int v)
@@ -302,8 +302,7 @@ static bool origins_of(const struct area_around *around,
     *box = aabb_empty();
     for (uint32_t i = 0; i < AREA_PLACES; i++) {
         const struct area_request *a = r[i < count ? i : 0];
-        const double up =
-            vec3_dot(vec3_sub(a->lamp->light->location, a->p), a->ng);
+        const double up = vec3_dot(vec3_sub(a->lamp->light->location, a->p), a->ng);
         if (a->error > 0 && !(fabs(up) > 1.001 * around->radius))
             return false;
         const struct vec3 o = vec3_mad(a->p, (up < 0 ? -2 : 2) * a->error, a->ng);
@@ -321,10 +320,10 @@ static bool nothing_between(const struct tracer *t, const struct area_around *ar
     double origin[3][AREA_PLACES];
     uint32_t object[RAY_SHAFT_OBJECTS];
     struct ray_shaft s = {{origin[0], origin[1], origin[2]},
-                      AREA_PLACES,
-                      OBJECT_NO_SHADOW,
-                      around->box,
-                      around->box};
+                          AREA_PLACES,
+                          OBJECT_NO_SHADOW,
+                          around->box,
+                          around->box};
     return around->known && origins_of(around, r, count, origin, &s.from) &&
            !w->accel->kernels->shaft(w->dark, &s, object) &&
            (!w->clear || !w->accel->kernels->shaft(w->clear, &s, object));

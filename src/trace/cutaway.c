@@ -10,13 +10,13 @@ struct visit {
 };
 
 static struct placed_texture inherited(const struct object *o,
-                                         const struct placed_texture *above,
-                                         const struct transform *world)
+                                       const struct placed_texture *above,
+                                       const struct transform *world)
 {
     if (!o->texture.texture)
         return *above;
     return (struct placed_texture){o->texture.texture,
-                                     transform_then(o->texture.transform, world)};
+                                   transform_then(o->texture.transform, world)};
 }
 
 // The parts of o that hold the point; of a difference the first one alone is asked.

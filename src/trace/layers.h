@@ -17,13 +17,13 @@ struct texture_chain {
 // One evaluated layer of one plain texture.
 struct layer {
     const struct finish *finish;
-    struct vec3 n;        // unit, of this layer
+    struct vec3 n; // unit, of this layer
     struct rgb color;
-    struct rgb filter;    // of the layers above, times the texture's weight
-    float att;            // opacity
-    float trans;          // what the layers above let through
+    struct rgb filter; // of the layers above, times the texture's weight
+    float att;         // opacity
+    float trans;       // what the layers above let through
     bool found;
-    struct rgb pass;      // of the pigment
+    struct rgb pass; // of the pigment
 };
 
 // A surface met by a ray, as the layers see it.
@@ -46,8 +46,7 @@ void surface_view_init(struct surface_view *v, const struct interaction *at,
 
 // Calls `plain` for every plain texture that counts at the point, with its weight.
 typedef void plain_function(void *user, const struct surface_view *v,
-                            const struct texture *texture,
-                            const struct texture_point *at,
+                            const struct texture *texture, const struct texture_point *at,
                             const struct texture_chain *chain, double weight);
 void texture_walk(struct tracer *t, const struct surface_view *v, plain_function *plain,
                   void *user);

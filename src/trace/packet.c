@@ -34,10 +34,10 @@ static struct ray_query query_of(const struct packet *p, int lane)
 {
     const struct ray_batch *r = p->rays;
     const uint32_t i = p->first + (uint32_t)lane;
-    return (struct ray_query){
-        .ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
-                vec3(r->d[0][i], r->d[1][i], r->d[2][i]), r->t_min[i], r->t_max[i]},
-        .hidden_by = r->hidden_by[i]};
+    return (struct ray_query){.ray = {vec3(r->o[0][i], r->o[1][i], r->o[2][i]),
+                                      vec3(r->d[0][i], r->d[1][i], r->d[2][i]),
+                                      r->t_min[i], r->t_max[i]},
+                              .hidden_by = r->hidden_by[i]};
 }
 
 struct search *packet_lane_begin(struct packet *p, int lane)

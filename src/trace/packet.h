@@ -3,8 +3,8 @@
 
 #include "trace/accel.h"
 #include "trace/photon_search.h"
-#include "trace/scratch.h"
 #include "trace/ray_shaft.h"
+#include "trace/scratch.h"
 
 // One ray on its way through the world. The nearest hit so far is kept; among equal
 // distances it is the one of the object declared first.

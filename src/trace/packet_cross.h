@@ -55,12 +55,11 @@ LANES_INLINE struct cross8 cross8_ball(struct vec8 centre, struct real8 r,
     const struct real8 rest = r8_sub(r8_mul(r, r), v8_dot(near, near));
     x.met = r8_lt(r8_set(0), rest);
     const struct real8 reach = r8_sqrt(r8_div(rest, ray->dd));
-    const struct real8 e_p = r8_mul(r8_set(GAMMA(8)),
-                                    r8_add(r8_add(v8_max_abs(oc), v8_max_abs(centre)), r));
-    const struct real8 e = r8_mul(
-        e_p, r8_add(r8_mul(r8_set(4), r), r8_mul(r8_set(2), e_p)));
-    x.dt[0] = x.dt[1] =
-        r8_div(r8_add(e_p, sqrt_error8(rest, e)), r8_sqrt(ray->dd));
+    const struct real8 e_p =
+        r8_mul(r8_set(GAMMA(8)), r8_add(r8_add(v8_max_abs(oc), v8_max_abs(centre)), r));
+    const struct real8 e =
+        r8_mul(e_p, r8_add(r8_mul(r8_set(4), r), r8_mul(r8_set(2), e_p)));
+    x.dt[0] = x.dt[1] = r8_div(r8_add(e_p, sqrt_error8(rest, e)), r8_sqrt(ray->dd));
     x.t[0] = r8_sub(r8_neg(at), reach);
     x.t[1] = r8_add(r8_neg(at), reach);
     return x;
@@ -78,9 +77,8 @@ LANES_INLINE struct cross8 cross8_plane(const struct plane *p, const struct ray8
     const struct real8 down = v8_dot(n, ray->d), speed = v8_max_abs(ray->d);
     x.met = m8_not(runs_along8(down, speed));
     x.t[0] = x.t[1] = r8_div(v8_dot(n, v8_sub(V8_SET(p->point), ray->o)), down);
-    const struct real8 size =
-        r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(p->point))),
-               r8_mul(r8_abs(x.t[0]), speed));
+    const struct real8 size = r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(p->point))),
+                                     r8_mul(r8_abs(x.t[0]), speed));
     x.dt[0] = x.dt[1] = r8_div(r8_mul(r8_set(GAMMA(12)), size), r8_abs(down));
     x.enters = r8_lt(down, r8_set(0));
     x.drawn[1] = m8_of(0);
@@ -147,8 +145,8 @@ LANES_INLINE struct cross8 cross8_box(const struct box *b, const struct ray8 *ra
     x.t[1] = s.out;
     x.dt[0] = r8_div(e, r8_abs(s.in_d));
     x.dt[1] = r8_div(e, r8_abs(s.out_d));
-    x.part[0] = r8_add(r8_add(s.in_axis, s.in_axis),
-                       r8_select(r8_lt(s.in_d, zero), one, zero));
+    x.part[0] =
+        r8_add(r8_add(s.in_axis, s.in_axis), r8_select(r8_lt(s.in_d, zero), one, zero));
     x.part[1] = r8_add(r8_add(s.out_axis, s.out_axis),
                        r8_select(r8_lt(zero, s.out_d), one, zero));
     return x;
@@ -201,8 +199,7 @@ LANES_INLINE struct cross8 cross8_cylinder(const struct cylinder *c,
     const struct mask8 along = runs_along8(r8_sqrt(a), longest);
     const struct real8 s = r8_div(r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y)), a);
     const struct real8 x = r8_sub(o.x, r8_mul(s, d.x)), y = r8_sub(o.y, r8_mul(s, d.y));
-    const struct real8 rest =
-        r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
+    const struct real8 rest = r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
     const struct real8 far = r8_add(r8_mul(o.x, o.x), r8_mul(o.y, o.y));
     v.met = m8_or(m8_without(r8_lt(zero, rest), along),
                   m8_and(along, r8_le(far, r8_set(r * r))));
@@ -211,11 +208,11 @@ LANES_INLINE struct cross8 cross8_cylinder(const struct cylinder *c,
     const struct real8 reach = r8_sqrt(r8_div(rest, a));
     v.t[0] = r8_select(along, r8_set(-INFINITY), r8_sub(r8_neg(s), reach));
     v.t[1] = r8_select(along, r8_set(INFINITY), r8_add(r8_neg(s), reach));
-    const struct real8 e_p = r8_mul(
-        r8_set(GAMMA(16)),
-        r8_add(r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin))),
-                      r8_set(c->length)),
-               r8_set(r)));
+    const struct real8 e_p =
+        r8_mul(r8_set(GAMMA(16)),
+               r8_add(r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin))),
+                             r8_set(c->length)),
+                      r8_set(r)));
     const struct real8 e = r8_mul(e_p, r8_add(r8_set(4 * r), r8_mul(r8_set(2), e_p)));
     const struct real8 side = r8_div(r8_add(e_p, sqrt_error8(rest, e)), r8_sqrt(a));
     const struct real8 cap = r8_div(e_p, r8_abs(d.z));
@@ -230,8 +227,8 @@ LANES_INLINE struct cross8 cross8_cylinder(const struct cylinder *c,
     cap_parts(&v, &caps, later, sooner, CYLINDER_BASE, CYLINDER_TOP, c->open);
     const struct mask8 between = m8_and(r8_le(zero, o.z), r8_le(o.z, r8_set(c->length)));
     v.met = m8_without(v.met, m8_without(caps.across, between));
-    v.met = m8_and(v.met, m8_and(r8_le(v.t[0], v.t[1]),
-                                 r8_lt(r8_set(-INFINITY), v.t[0])));
+    v.met =
+        m8_and(v.met, m8_and(r8_le(v.t[0], v.t[1]), r8_lt(r8_set(-INFINITY), v.t[0])));
     return v;
 }
 
@@ -266,27 +263,29 @@ LANES_INLINE struct cross8 cross8_cone(const struct cone *c, const struct ray8 *
     const struct real8 kz = r8_mul(slope, d.z);
     const struct real8 a =
         r8_sub(r8_add(r8_mul(d.x, d.x), r8_mul(d.y, d.y)), r8_mul(kz, kz));
-    const struct real8 b = r8_sub(r8_add(r8_mul(d.x, near.x), r8_mul(d.y, near.y)),
-                                  r8_mul(kz, rho));
-    const struct real8 cc = r8_sub(
-        r8_add(r8_mul(near.x, near.x), r8_mul(near.y, near.y)), r8_mul(rho, rho));
+    const struct real8 b =
+        r8_sub(r8_add(r8_mul(d.x, near.x), r8_mul(d.y, near.y)), r8_mul(kz, rho));
+    const struct real8 cc =
+        r8_sub(r8_add(r8_mul(near.x, near.x), r8_mul(near.y, near.y)), r8_mul(rho, rho));
     const struct real8 disc = r8_sub(r8_mul(b, b), r8_mul(a, cc));
     const struct mask8 real = r8_lt(zero, disc), flat = r8_eq(a, zero);
-    const struct mask8 hollow = r8_lt(a, zero); // inside the double cone outside the roots
+    const struct mask8 hollow =
+        r8_lt(a, zero); // inside the double cone outside the roots
     struct real8 lo, hi;
     stable_roots8(a, b, cc, r8_sqrt(disc), &lo, &hi);
     x.odd = m8_and(flat, m8_or(m8_not(caps.across), between));
     // The first stretch: between the roots, before them, or all of the line.
     const struct real8 begin =
         r8_select(m8_without(real, hollow), r8_add(lo, shift), r8_neg(infinite));
-    const struct real8 end = r8_select(
-        real, r8_add(r8_select(hollow, lo, hi), shift), infinite);
+    const struct real8 end =
+        r8_select(real, r8_add(r8_select(hollow, lo, hi), shift), infinite);
     struct real8 in = r8_max(begin, slab0), out = r8_min(end, slab1);
     struct mask8 met = m8_and(r8_le(in, out), m8_or(real, hollow));
     // And the one behind them.
     const struct real8 in2 = r8_max(r8_add(hi, shift), slab0), out2 = slab1;
     struct mask8 second = m8_and(m8_and(real, hollow), r8_le(in2, out2));
-    second = m8_and(second, m8_or(m8_not(met), r8_lt(r8_sub(out, in), r8_sub(out2, in2))));
+    second =
+        m8_and(second, m8_or(m8_not(met), r8_lt(r8_sub(out, in), r8_sub(out2, in2))));
     in = r8_select(second, in2, in);
     out = r8_select(second, out2, out);
     met = m8_or(met, second);
@@ -295,20 +294,20 @@ LANES_INLINE struct cross8 cross8_cone(const struct cone *c, const struct ray8 *
     x.met = m8_without(met, x.odd);
 
     const double r = fmax(c->r0, c->r1);
-    const struct real8 e_p = r8_mul(
-        r8_set(GAMMA(24)),
-        r8_add(r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin))),
-                      r8_set(c->length)),
-               r8_set(r)));
-    const struct real8 wide =
-        r8_add(r8_add(r8_set(r), r8_abs(rho)), v8_max_abs(near));
-    const struct real8 e_f = r8_mul(
-        e_p, r8_add(r8_mul(r8_set(4), wide), r8_mul(r8_set(2), e_p)));
+    const struct real8 e_p =
+        r8_mul(r8_set(GAMMA(24)),
+               r8_add(r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin))),
+                             r8_set(c->length)),
+                      r8_set(r)));
+    const struct real8 wide = r8_add(r8_add(r8_set(r), r8_abs(rho)), v8_max_abs(near));
+    const struct real8 e_f =
+        r8_mul(e_p, r8_add(r8_mul(r8_set(4), wide), r8_mul(r8_set(2), e_p)));
     const struct real8 side =
         r8_div(e_f, r8_max(r8_mul(r8_set(2), r8_sqrt(r8_max(disc, zero))),
                            r8_sqrt(r8_mul(r8_abs(a), e_f))));
     const struct real8 cap = r8_div(e_p, r8_abs(d.z));
-    const struct mask8 cap_in = m8_not(r8_lt(slab0, in)), cap_out = m8_not(r8_lt(out, slab1));
+    const struct mask8 cap_in = m8_not(r8_lt(slab0, in)),
+                       cap_out = m8_not(r8_lt(out, slab1));
     x.t[0] = in;
     x.t[1] = out;
     x.dt[0] = r8_select(cap_in, cap, side);
@@ -324,13 +323,12 @@ LANES_INLINE struct vec8 quadric8_times(const struct quadric *s, struct vec8 v)
 {
     const struct real8 half = r8_set(0.5);
     const struct real8 xy = r8_set(s->xy), xz = r8_set(s->xz), yz = r8_set(s->yz);
-    return (struct vec8){
-        r8_add(r8_mul(r8_set(s->xx), v.x),
-               r8_mul(half, r8_add(r8_mul(xy, v.y), r8_mul(xz, v.z)))),
-        r8_add(r8_mul(r8_set(s->yy), v.y),
-               r8_mul(half, r8_add(r8_mul(xy, v.x), r8_mul(yz, v.z)))),
-        r8_add(r8_mul(r8_set(s->zz), v.z),
-               r8_mul(half, r8_add(r8_mul(xz, v.x), r8_mul(yz, v.y))))};
+    return (struct vec8){r8_add(r8_mul(r8_set(s->xx), v.x),
+                                r8_mul(half, r8_add(r8_mul(xy, v.y), r8_mul(xz, v.z)))),
+                         r8_add(r8_mul(r8_set(s->yy), v.y),
+                                r8_mul(half, r8_add(r8_mul(xy, v.x), r8_mul(yz, v.z)))),
+                         r8_add(r8_mul(r8_set(s->zz), v.z),
+                                r8_mul(half, r8_add(r8_mul(xz, v.x), r8_mul(yz, v.y))))};
 }
 
 LANES_INLINE struct real8 quadric8_value(const struct quadric *s, struct vec8 q)
@@ -348,8 +346,7 @@ LANES_INLINE struct cross8 cross8_quadric(const struct quadric *s, const struct 
     const struct vec8 o = v8_mad(oc, shift, d);
     const struct vec8 qd = quadric8_times(s, d), qo = quadric8_times(s, o);
     const struct real8 a = v8_dot(d, qd);
-    const struct real8 b =
-        r8_add(v8_dot(d, qo), r8_mul(r8_set(0.5), v8_dot(linear, d)));
+    const struct real8 b = r8_add(v8_dot(d, qo), r8_mul(r8_set(0.5), v8_dot(linear, d)));
     const struct real8 c =
         r8_add(r8_add(v8_dot(o, qo), v8_dot(linear, o)), r8_set(s->constant));
     const struct real8 disc = r8_sub(r8_mul(b, b), r8_mul(a, c));
@@ -376,8 +373,8 @@ LANES_INLINE struct cross8 cross8_quadric(const struct quadric *s, const struct 
         r8_add(r8_mul(r8_set(GAMMA(24)), r8_add(r8_add(square, r8_mul(slope, size)),
                                                 r8_set(fabs(s->constant)))),
                r8_mul(e_p, r8_add(r8_mul(r8_set(2), slope), r8_mul(r8_set(6), e_p))));
-    const struct real8 dt = r8_div(e_f, r8_max(r8_mul(r8_set(2), root),
-                                               r8_sqrt(r8_mul(r8_abs(a), e_f))));
+    const struct real8 dt =
+        r8_div(e_f, r8_max(r8_mul(r8_set(2), root), r8_sqrt(r8_mul(r8_abs(a), e_f))));
     const struct real8 far = r8_abs(shift), unit = r8_set(GAMMA(4));
     x.t[0] = r8_add(lo, shift);
     x.t[1] = r8_add(hi, shift);
@@ -439,8 +436,10 @@ LANES_INLINE struct cross8 cross8_corners(const struct vec3 p[3], const struct s
     const struct real8 u = edge8(x[2], y[2], x[1], y[1]), zero = r8_set(0);
     const struct real8 v = edge8(x[0], y[0], x[2], y[2]);
     const struct real8 w = edge8(x[1], y[1], x[0], y[0]);
-    const struct mask8 below = m8_or(m8_or(r8_lt(u, zero), r8_lt(v, zero)), r8_lt(w, zero));
-    const struct mask8 above = m8_or(m8_or(r8_lt(zero, u), r8_lt(zero, v)), r8_lt(zero, w));
+    const struct mask8 below =
+        m8_or(m8_or(r8_lt(u, zero), r8_lt(v, zero)), r8_lt(w, zero));
+    const struct mask8 above =
+        m8_or(m8_or(r8_lt(zero, u), r8_lt(zero, v)), r8_lt(zero, w));
     const struct real8 det = r8_add(r8_add(u, v), w);
     c.met = m8_without(m8_not(m8_and(below, above)), r8_eq(det, zero));
     if (!m8_bits(c.met))
@@ -473,13 +472,16 @@ LANES_INLINE struct cross8 cross8_corners(const struct vec3 p[3], const struct s
 // ---- spans of convex shapes -------------------------------------------------------------------
 
 // Odd lanes get the whole line, so that they stay in play until they are looked at.
-LANES_INLINE struct span8 span8_of(const struct cross8 *x, struct mask8 met, struct mask8 odd)
+LANES_INLINE struct span8 span8_of(const struct cross8 *x, struct mask8 met,
+                                   struct mask8 odd)
 {
     const struct real8 infinite = r8_set(INFINITY), zero = r8_set(0);
     return (struct span8){r8_select(odd, r8_neg(infinite), x->t[0]),
                           r8_select(odd, infinite, x->t[1]),
-                          r8_select(odd, zero, x->dt[0]), r8_select(odd, zero, x->dt[1]),
-                          m8_or(met, odd), m8_of(0)};
+                          r8_select(odd, zero, x->dt[0]),
+                          r8_select(odd, zero, x->dt[1]),
+                          m8_or(met, odd),
+                          m8_of(0)};
 }
 
 LANES_INLINE struct span8 span8_cone(const struct cone *c, const struct ray8 *ray,

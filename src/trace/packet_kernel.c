@@ -293,8 +293,9 @@ static void begin(struct eight *e, struct packet *p, const struct ray_batch *r,
     e->t_max = r8_load(r->t_max + first);
     e->sheared = e->boxed = false;
     const struct real8 longest = v8_max_abs(e->ray.d);
-    e->inverse = (struct vec8){inverse8(e->ray.d.x, longest), inverse8(e->ray.d.y, longest),
-                               inverse8(e->ray.d.z, longest)};
+    e->inverse =
+        (struct vec8){inverse8(e->ray.d.x, longest), inverse8(e->ray.d.y, longest),
+                      inverse8(e->ray.d.z, longest)};
 }
 
 // The rays from `first` to the end of the batch, fewer than eight, with copies of the first
@@ -451,5 +452,5 @@ static bool carve(struct search *f, uint32_t object, struct boundary *out, bool 
 }
 
 const struct packet_kernels OF_ISA(packet_kernels_) = {
-    ISA_TEXT, trace_closest8, trace_occluded8,         crossings,
-    walk,     carve,          shaft_objects, &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};
+    ISA_TEXT,      trace_closest8,          trace_occluded8,       crossings, walk, carve,
+    shaft_objects, &OF_ISA(shape_kernels_), OF_ISA(photon_search_)};

@@ -84,8 +84,9 @@ static bool shaft_meets_box(const struct shaft_sides *v, const struct aabb *b)
     double near = 0, far = 1;
     for (int a = 0; a < 6; a++) {
         const struct shaft_side *s = &v->side[a];
-        const double face = a < 3 ? vec3_axis(b->min, a) - vec3_axis(v->origin, a)
-                                  : vec3_axis(b->max, a - 3) - vec3_axis(v->origin, a - 3);
+        const double face = a < 3
+                                ? vec3_axis(b->min, a) - vec3_axis(v->origin, a)
+                                : vec3_axis(b->max, a - 3) - vec3_axis(v->origin, a - 3);
         const double at = (face - s->from) * s->inverse;
         if (side_begins(s, a))
             near = fmax(at, near);
@@ -120,10 +121,9 @@ static bool shaft_beside(const struct leaf *l, const struct ray_shaft *s)
     const struct vec3 half = vec3_scale(0.5, vec3_sub(s->to.max, s->to.min));
     const struct vec3 centre = vec3_scale(0.5, vec3_add(s->to.min, s->to.max));
     const double end = vec3_dot(n, vec3_sub(centre, p->point));
-    const double reach =
-        fabs(n.x) * half.x + fabs(n.y) * half.y + fabs(n.z) * half.z +
-        shaft_margin *
-            (shaft_most(&s->from) + shaft_most(&s->to) + vec3_max_abs(p->point));
+    const double reach = fabs(n.x) * half.x + fabs(n.y) * half.y + fabs(n.z) * half.z +
+                         shaft_margin * (shaft_most(&s->from) + shaft_most(&s->to) +
+                                         vec3_max_abs(p->point));
     if (!l->transform->identity || !(fabs(end) > reach))
         return false;
     const struct real8 zero = r8_set(0);
@@ -242,8 +242,8 @@ static bool shaft_of_rays(const struct ray_batch *r, uint32_t first, uint32_t en
 // What neighbouring shadow rays may meet.
 struct shaft_search {
     uint32_t object[RAY_SHAFT_OBJECTS], count; // as shaft_objects
-    uint32_t end;                          // of the rays that this is known of
-    uint32_t skip, failed;                 // shafts of rays that go apart are not tried
+    uint32_t end;                              // of the rays that this is known of
+    uint32_t skip, failed; // shafts of rays that go apart are not tried
 };
 
 // Goes on to the rays from `first` on.
@@ -264,7 +264,9 @@ static void shaft_search_at(struct shaft_search *f, const struct world *w,
         return;
     if (shaft_of_rays(r, first, end, &s))
         f->count = shaft_objects(w, &s, f->object);
-    f->failed = f->count != RAY_SHAFT_MANY ? 0 : f->failed < SKIPS ? 2 * f->failed + 1 : SKIPS;
+    f->failed = f->count != RAY_SHAFT_MANY ? 0
+                : f->failed < SKIPS        ? 2 * f->failed + 1
+                                           : SKIPS;
     f->skip = f->failed;
 }
 

@@ -4,11 +4,11 @@
 // The crossings of eight lines with one convex shape, operation by operation as in
 // scene/shapes/NAME.c, so that every t has the same bits.
 #include "math/gamma.h"
+#include "math/lanes.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/sphere.h"
-#include "math/lanes.h"
 
 struct ray8 {
     struct vec8 o, d;
@@ -46,8 +46,7 @@ LANES_INLINE struct ray8 ray8_of(struct vec8 o, struct vec8 d)
 // RUNS_ALONG of math/gamma.h
 LANES_INLINE struct mask8 runs_along8(struct real8 down, struct real8 size)
 {
-    return m8_without(m8_of(255),
-                      r8_lt(r8_mul(r8_set(GAMMA(12)), size), r8_abs(down)));
+    return m8_without(m8_of(255), r8_lt(r8_mul(r8_set(GAMMA(12)), size), r8_abs(down)));
 }
 
 // Where errors are not wanted the compiler drops what computes them.
@@ -70,10 +69,9 @@ LANES_INLINE struct span8 span8_sphere(const struct sphere *s, const struct ray8
     // sqrt_error(rest, e) < 1.5 e / sqrt(rest), and sqrt(rest) = reach |d|.
     const struct real8 e_p = r8_mul(
         r8_set(GAMMA(9)), r8_add(v8_max_abs(oc), r8_set(vec3_max_abs(s->centre) + r)));
-    const struct real8 e =
-        r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
-    const struct real8 root = r8_div(
-        r8_mul(r8_mul(r8_set(1.5 + 0x1p-20), e), ray->per_length), reach);
+    const struct real8 e = r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
+    const struct real8 root =
+        r8_div(r8_mul(r8_mul(r8_set(1.5 + 0x1p-20), e), ray->per_length), reach);
     x.in_e = x.out_e = r8_mul(r8_add(e_p, root), ray->per_length);
     return x;
 }
@@ -83,16 +81,14 @@ LANES_INLINE struct span8 span8_plane(const struct plane *p, const struct ray8 *
     const struct vec8 n = V8_SET(p->normal);
     const struct real8 down = v8_dot(n, ray->d);
     const struct real8 t = r8_div(v8_dot(n, v8_sub(V8_SET(p->point), ray->o)), down);
-    struct span8 x = {.met = m8_without(m8_of(255),
-                                        runs_along8(down, v8_max_abs(ray->d)))};
-    x.clear =
-        r8_le(r8_mul(r8_set(clear_slope), v8_max_abs(ray->d)), r8_abs(down));
+    struct span8 x = {.met =
+                          m8_without(m8_of(255), runs_along8(down, v8_max_abs(ray->d)))};
+    x.clear = r8_le(r8_mul(r8_set(clear_slope), v8_max_abs(ray->d)), r8_abs(down));
     const struct mask8 enters = r8_lt(down, r8_set(0));
     x.in = r8_select(enters, t, r8_set(-INFINITY));
     x.out = r8_select(enters, r8_set(INFINITY), t);
-    const struct real8 size =
-        r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(p->point))),
-               r8_mul(r8_abs(t), v8_max_abs(ray->d)));
+    const struct real8 size = r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(p->point))),
+                                     r8_mul(r8_abs(t), v8_max_abs(ray->d)));
     x.in_e = x.out_e = r8_div(r8_mul(r8_set(GAMMA(13)), size), r8_abs(down));
     return x;
 }
@@ -114,13 +110,11 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     const struct mask8 along = runs_along8(r8_sqrt(a), longest);
     const struct real8 s = r8_div(r8_add(r8_mul(d.x, o.x), r8_mul(d.y, o.y)), a);
     const struct real8 x = r8_sub(o.x, r8_mul(s, d.x)), y = r8_sub(o.y, r8_mul(s, d.y));
-    const struct real8 rest =
-        r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
+    const struct real8 rest = r8_sub(r8_set(r * r), r8_add(r8_mul(x, x), r8_mul(y, y)));
     struct span8 v = {.met = r8_lt(r8_set(0), rest)};
     if (m8_bits(along)) {
         const struct real8 far = r8_add(r8_mul(o.x, o.x), r8_mul(o.y, o.y));
-        v.met = m8_or(m8_without(v.met, along),
-                      m8_and(along, r8_le(far, r8_set(r * r))));
+        v.met = m8_or(m8_without(v.met, along), m8_and(along, r8_le(far, r8_set(r * r))));
     }
     if (!m8_bits(v.met)) {
         v.in = v.out = v.in_e = v.out_e = rest;
@@ -131,9 +125,9 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     const struct real8 reach = r8_sqrt(r8_div(rest, a));
     v.in = r8_select(along, r8_set(-INFINITY), r8_sub(r8_neg(s), reach));
     v.out = r8_select(along, r8_set(INFINITY), r8_add(r8_neg(s), reach));
-    const struct real8 e_p = r8_mul(
-        r8_set(GAMMA(17)),
-        r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin) + c->length + r)));
+    const struct real8 e_p =
+        r8_mul(r8_set(GAMMA(17)),
+               r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin) + c->length + r)));
     const struct real8 e = r8_mul(e_p, r8_add(r8_set(4 * r), r8_add(e_p, e_p)));
     const struct real8 per_a = r8_div(r8_set(1 + 0x1p-40), r8_sqrt(a));
     const struct real8 root =
@@ -141,8 +135,8 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     v.in_e = v.out_e = r8_mul(r8_add(e_p, root), per_a);
 
     const struct mask8 across = runs_along8(d.z, longest);
-    v.clear = m8_and(v.clear, m8_or(across, r8_le(r8_mul(r8_set(clear_slope), longest),
-                                                  r8_abs(d.z))));
+    v.clear = m8_and(
+        v.clear, m8_or(across, r8_le(r8_mul(r8_set(clear_slope), longest), r8_abs(d.z))));
     const struct real8 length = r8_set(c->length);
     const struct real8 inv = r8_div(r8_set(1), d.z);
     const struct real8 ta = r8_mul(r8_sub(r8_set(0), o.z), inv);
@@ -157,10 +151,9 @@ LANES_INLINE struct span8 span8_cylinder(const struct cylinder *c, const struct 
     v.out = r8_select(sooner, t1, v.out);
     v.out_e = r8_select(sooner, cap_e, v.out_e);
     if (m8_bits(across))
-        v.met = m8_without(v.met, m8_without(across, m8_and(r8_le(r8_set(0), o.z),
-                                                            r8_le(o.z, length))));
-    v.met = m8_and(v.met,
-                   m8_and(r8_le(v.in, v.out), r8_lt(r8_set(-INFINITY), v.in)));
+        v.met = m8_without(
+            v.met, m8_without(across, m8_and(r8_le(r8_set(0), o.z), r8_le(o.z, length))));
+    v.met = m8_and(v.met, m8_and(r8_le(v.in, v.out), r8_lt(r8_set(-INFINITY), v.in)));
     return v;
 }
 
@@ -174,10 +167,8 @@ LANES_INLINE void slab8(double min, double max, struct real8 o, struct real8 d,
     struct real8 t0 = r8_min(a, b);
     struct real8 t1 = r8_select(r8_lt(a, b), b, a);
     if (m8_bits(flat)) {
-        const struct mask8 in =
-            m8_and(r8_le(r8_set(min), o), r8_le(o, r8_set(max)));
-        const struct real8 from =
-            r8_select(in, r8_set(-INFINITY), r8_set(INFINITY));
+        const struct mask8 in = m8_and(r8_le(r8_set(min), o), r8_le(o, r8_set(max)));
+        const struct real8 from = r8_select(in, r8_set(-INFINITY), r8_set(INFINITY));
         t0 = r8_select(flat, from, t0);
         t1 = r8_select(flat, r8_neg(from), t1);
     }

@@ -23,8 +23,7 @@ LANES_INLINE struct real8 quartic8_value(const struct quartic8 *c, struct real8 
 
 LANES_INLINE struct real8 quartic8_slope(const struct quartic8 *c, struct real8 t)
 {
-    const struct real8 v =
-        r8_add(r8_mul(r8_mul(r8_set(4), t), t), r8_add(c->c2, c->c2));
+    const struct real8 v = r8_add(r8_mul(r8_mul(r8_set(4), t), t), r8_add(c->c2, c->c2));
     return r8_add(r8_mul(v, t), c->c1);
 }
 
@@ -82,7 +81,8 @@ LANES_INLINE struct polygon8 polygon8_of(const struct quartic8 *c, struct real8 
     }
     const unsigned d1 = sign[0] ^ sign[1], d2 = sign[1] ^ sign[2], d3 = sign[2] ^ sign[3],
                    d4 = sign[3] ^ sign[4];
-    const unsigned any = d1 | d2 | d3 | d4, odd = d1 ^ d2 ^ d3 ^ d4, all = d1 & d2 & d3 & d4;
+    const unsigned any = d1 | d2 | d3 | d4, odd = d1 ^ d2 ^ d3 ^ d4,
+                   all = d1 & d2 & d3 & d4;
     p.none = clear & ~any;
     p.two = clear & any & ~odd & ~all & sign[0];
     p.four = clear & all & sign[0];
@@ -107,13 +107,11 @@ LANES_INLINE struct middle8 middle8_of(const struct quartic8 *c, const struct po
 {
     const struct mask8 second = r8_lt(p->b[2], p->b[1]);
     const struct real8 low = r8_select(second, p->b[2], p->b[1]);
-    const struct real8 lowest =
-        r8_select(r8_lt(p->b[3], low), r8_set(3),
-                  r8_select(second, r8_set(2), r8_set(1)));
+    const struct real8 lowest = r8_select(r8_lt(p->b[3], low), r8_set(3),
+                                          r8_select(second, r8_set(2), r8_set(1)));
     const struct real8 half = r8_set(0.5), two = r8_set(2);
     struct middle8 m = {.t = lo, .left = lo, .right = hi, .found = 0};
-    struct real8 t =
-        r8_add(lo, r8_div(r8_mul(r8_sub(hi, lo), lowest), r8_set(4)));
+    struct real8 t = r8_add(lo, r8_div(r8_mul(r8_sub(hi, lo), lowest), r8_set(4)));
     m.lowest = t;
     for (int i = 0; i < TORUS_MIDDLE_STEPS && lanes; i++) {
         const struct real8 v = quartic8_value(c, t), slope = quartic8_slope(c, t);
@@ -123,8 +121,8 @@ LANES_INLINE struct middle8 middle8_of(const struct quartic8 *c, const struct po
         const unsigned here = lanes & m8_bits(below);
         if (here) {
             const struct mask8 in = m8_of(here);
-            const struct real8 reach = r8_sqrt(
-                r8_sub(r8_mul(slope, slope), r8_mul(r8_mul(two, v), bend)));
+            const struct real8 reach =
+                r8_sqrt(r8_sub(r8_mul(slope, slope), r8_mul(r8_mul(two, v), bend)));
             struct real8 left = r8_sub(t, r8_div(r8_add(slope, reach), bend));
             struct real8 right = r8_sub(t, r8_div(r8_sub(slope, reach), bend));
             left = r8_select(m8_and(r8_lt(lo, left), r8_lt(left, t)), left,
@@ -167,9 +165,11 @@ LANES_INLINE unsigned root8_between(const struct quartic8 *c, struct real8 lo,
         const struct mask8 cube =
             r8_le(r8_mul(r8_mul(step, step), step),
                   r8_mul(r8_mul(r8_set(0x1p-54), r8_abs(next)), r8_mul(last, last)));
-        struct mask8 done = m8_or(r8_eq(next, t), m8_or(r8_le(next, lo), r8_le(hi, next)));
+        struct mask8 done =
+            m8_or(r8_eq(next, t), m8_or(r8_le(next, lo), r8_le(hi, next)));
         done = m8_or(done, r8_le(step, zero));
-        done = m8_or(done, m8_and(cube, m8_and(r8_lt(step, last), r8_lt(last, infinite))));
+        done =
+            m8_or(done, m8_and(cube, m8_and(r8_lt(step, last), r8_lt(last, infinite))));
         const struct mask8 exact = r8_eq(v, zero);
         const struct mask8 end = m8_and(m8_or(done, exact), m8_of(lanes));
         *root = r8_select(end, r8_select(exact, t, next), *root);
@@ -214,7 +214,8 @@ LANES_INLINE void sharpen8(const struct tube8 *v, unsigned lanes, struct real8 *
         done |= i + 1 < TORUS_SHARPEN_STEPS ? still : lanes;
         lanes &= ~still;
     }
-    const struct mask8 near = r8_le(r8_abs(r8_sub(t, *root)), r8_mul(r8_set(4), *root_dt));
+    const struct mask8 near =
+        r8_le(r8_abs(r8_sub(t, *root)), r8_mul(r8_set(4), *root_dt));
     const struct mask8 better = m8_and(m8_of(done), m8_and(near, r8_lt(dt, *root_dt)));
     *root = r8_select(better, t, *root);
     *root_dt = r8_select(better, dt, *root_dt);
@@ -225,16 +226,14 @@ LANES_INLINE void sharpen8(const struct tube8 *v, unsigned lanes, struct real8 *
 LANES_INLINE unsigned root8_error(const struct quartic8 *c, struct real8 t,
                                   struct real8 *dt)
 {
-    const struct real8 error =
-        r8_mul(r8_set(16 * ROUNDOFF), quartic8_magnitude(c, t));
+    const struct real8 error = r8_mul(r8_set(16 * ROUNDOFF), quartic8_magnitude(c, t));
     const struct real8 slope = r8_abs(quartic8_slope(c, t));
     const struct real8 bend = r8_abs(quartic8_bend(c, t));
     *dt = r8_div(error, slope);
     const struct mask8 simple = r8_lt(r8_mul(r8_mul(r8_set(4), *dt), bend), slope);
     const struct real8 twice = r8_add(c->c2, c->c2);
     const struct real8 cubic = r8_mul(r8_mul(r8_mul(r8_set(4), t), t), t);
-    const struct real8 tilt =
-        r8_abs(r8_add(r8_add(cubic, r8_mul(twice, t)), c->c1));
+    const struct real8 tilt = r8_abs(r8_add(r8_add(cubic, r8_mul(twice, t)), c->c1));
     const struct real8 one = r8_div(r8_set(2 * GAMMA(128)), tilt);
     const struct real8 twofold =
         r8_mul(r8_set(2), r8_sqrt(r8_div(r8_set(2 * GAMMA(128)), bend)));
@@ -244,16 +243,16 @@ LANES_INLINE unsigned root8_error(const struct quartic8 *c, struct real8 t,
 }
 
 // The stretch of the chord of the bounding ball within the slab; returns its lanes.
-LANES_INLINE unsigned tube8_chord(const struct tube8 *v, struct real8 oo, struct real8 *lo,
-                                  struct real8 *hi)
+LANES_INLINE unsigned tube8_chord(const struct tube8 *v, struct real8 oo,
+                                  struct real8 *lo, struct real8 *hi)
 {
     const struct real8 reach = r8_sub(r8_set(1), oo), zero = r8_set(0);
     unsigned lanes = m8_bits(r8_lt(zero, reach));
     if (!lanes)
         return 0;
     const double edge = v->r + TORUS_MARGIN * v->r + 0x1p-40;
-    const struct real8 chord = r8_add(r8_add(r8_sqrt(reach), r8_set(TORUS_MARGIN * v->r)),
-                                      r8_set(0x1p-40));
+    const struct real8 chord =
+        r8_add(r8_add(r8_sqrt(reach), r8_set(TORUS_MARGIN * v->r)), r8_set(0x1p-40));
     const struct mask8 down = r8_lt(r8_set(0x1p-20), r8_abs(v->u.y));
     const struct real8 t0 = r8_div(r8_sub(r8_set(-edge), v->o.y), v->u.y);
     const struct real8 t1 = r8_div(r8_sub(r8_set(edge), v->o.y), v->u.y);

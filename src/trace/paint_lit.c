@@ -31,8 +31,7 @@ bool paint_lights_surface(const struct job *job, const struct surface *s)
     // Where light by way of others is collected, the order of hits counts.
     const bool collects =
         job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
-    return !collects &&
-           !(job->shoots && (!s->photons || s->photons->collect)) &&
+    return !collects && !(job->shoots && (!s->photons || s->photons->collect)) &&
            lamps_are_simple(job, &job->lamps[s->light_group]);
 }
 

@@ -21,6 +21,6 @@ enum { RAY_SHAFT_OBJECTS = 4 };
 // The objects that rays along such ways may meet, and their number, or RAY_SHAFT_MANY. Of an object
 // that is not among them no test of a ray, however it rounds, finds a hit.
 typedef uint32_t ray_shaft_function(const struct world *w, const struct ray_shaft *s,
-                                uint32_t object[RAY_SHAFT_OBJECTS]);
+                                    uint32_t object[RAY_SHAFT_OBJECTS]);
 
 #endif

@@ -214,7 +214,8 @@ static struct photons *shot(const struct job *job, const struct photon_store *st
     return s.photons;
 }
 
-struct photons *render_photons(const struct world *w, const struct render_settings *settings,
+struct photons *render_photons(const struct world *w,
+                               const struct render_settings *settings,
                                const struct photon_store *store,
                                const volatile bool *cancel)
 {
@@ -247,7 +248,8 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     for (uint32_t i = 0; progress && progress->have && i < r.tiles_total; i++)
         r.stats.tiles_done += progress->have[i];
     pthread_mutex_init(&r.lock, NULL);
-    const double begin = clock_seconds(CLOCK_MONOTONIC), cpu_begin = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const double begin = clock_seconds(CLOCK_MONOTONIC),
+                 cpu_begin = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     struct photons *photons = NULL;
     if (r.tiles_total && !job.photons)
         job.photons = photons = shot(&job, NULL, progress ? progress->cancel : NULL);

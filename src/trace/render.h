@@ -72,7 +72,8 @@ struct render_stats {
 // The photons of a scene (trace/photons.h), for several jobs; NULL: it has none. The
 // settings are those of the picture; store may be NULL.
 struct photon_store;
-struct photons *render_photons(const struct world *w, const struct render_settings *settings,
+struct photons *render_photons(const struct world *w,
+                               const struct render_settings *settings,
                                const struct photon_store *store,
                                const volatile bool *cancel);
 

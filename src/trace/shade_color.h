@@ -48,9 +48,10 @@ LANES_INLINE struct pattern_packet packet_of(const struct tracer *t,
 }
 
 // m: of the texture, which those of a uv mapped object have not.
-static const struct transform *
-texture_place8(const struct surface *s, const struct transform *m,
-               const struct simple_group *g, double place[3][8])
+static const struct transform *texture_place8(const struct surface *s,
+                                              const struct transform *m,
+                                              const struct simple_group *g,
+                                              double place[3][8])
 {
     if (s->flags & OBJECT_UV_MAPPING) {
         memcpy(place, g->uv, sizeof g->uv);
@@ -87,7 +88,8 @@ static void normals8(const struct tracer *t, const struct surface *s,
     double place[3][8], v[3][8];
     const struct transform *m = texture_place8(s, &s->texture_transform, g, place);
     v8_store(v, v8_inverse_normal(m, before));
-    t->job->kernels->surface->perturb(x->normal, &packet, (const double(*)[8])place, bits, v);
+    t->job->kernels->surface->perturb(x->normal, &packet, (const double(*)[8])place, bits,
+                                      v);
     const struct vec8 n = v8_normal(m, v8_load((const double(*)[8])v));
     v8_store(g->n, v8_select(m8_of(bits), v8_normalize(n), before));
 }
@@ -100,8 +102,8 @@ static void tape8(const struct tracer *t, const struct surface *s,
     double place[3][8];
     float color[5][8];
     texture_place8(s, &s->texture_transform, g, place);
-    const unsigned found = t->job->kernels->surface->colors(x->tape, &packet, (const double(*)[8])place,
-                                           bits, color);
+    const unsigned found = t->job->kernels->surface->colors(
+        x->tape, &packet, (const double(*)[8])place, bits, color);
     g->bare |= bits & ~found;
     if (bits == 255) {
         memcpy(g->color, color, sizeof g->color);

@@ -93,7 +93,8 @@ static struct path path_from(const struct shading *s, struct vec3 d, uint32_t wa
 
 static bool same(struct vec3 a, struct vec3 b)
 {
-    return fabs(a.x - b.x) < NEAR_ZERO && fabs(a.y - b.y) < NEAR_ZERO && fabs(a.z - b.z) < NEAR_ZERO;
+    return fabs(a.x - b.x) < NEAR_ZERO && fabs(a.y - b.y) < NEAR_ZERO &&
+           fabs(a.z - b.z) < NEAR_ZERO;
 }
 
 // The mirror terms of all layers; those along `except` are left out (spec/lighting.md

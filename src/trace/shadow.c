@@ -315,7 +315,8 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
                     walk_end(t, &s[i], b, air_end);
                 else if (walk_on(t, &s[i], &ray, &hit,
                                  t->job->has_media ? dim[i - first] : all,
-                                 job->paint && painted.known[i] ? &painted.pass[i] : NULL))
+                                 job->paint && painted.known[i] ? &painted.pass[i]
+                                                                : NULL))
                     s[left++] = s[i];
                 else
                     b->pass[s[i].ray] = none;

@@ -42,8 +42,8 @@ struct simple_surface {
 struct simple_group {
     _Alignas(64) double d[3][8];
     double p[3][8], error[8]; // of the ray; the point, as struct interaction
-    double n[3][8], ng[3][8];          // n: towards the ray
-    double uv[2][8];                   // where a surface may ask for them
+    double n[3][8], ng[3][8]; // n: towards the ray
+    double uv[2][8];          // where a surface may ask for them
     float color[3][8], att[8], through[3][8];
     uint16_t slot[8];
     uint32_t ray[8];

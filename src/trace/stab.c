@@ -20,8 +20,7 @@ struct stab {
 // The solid's own leaves: their common span. False: it is empty.
 static bool solid_span(struct stab *v, uint32_t object, enum stab_result *result)
 {
-    const struct accel_large *a =
-        accel_large(v->w->accel, &v->w->object[object], object);
+    const struct accel_large *a = accel_large(v->w->accel, &v->w->object[object], object);
     struct boundary_list *list = &v->s->crossings;
     v->s->own_count = 0;
     v->here.t = -INFINITY;
@@ -103,7 +102,10 @@ enum stab_result stab_object(const struct world *w, struct trace_scratch *s,
                              uint32_t object, const struct ray *ray, double limit,
                              struct boundary *out)
 {
-    struct stab v = {.w = w, .s = s, .ray = ray, .tree = &accel_large(w->accel, &w->object[object], object)->leaves};
+    struct stab v = {.w = w,
+                     .s = s,
+                     .ray = ray,
+                     .tree = &accel_large(w->accel, &w->object[object], object)->leaves};
     enum stab_result result;
     if (!solid_span(&v, object, &result))
         return result;

@@ -51,8 +51,8 @@ struct build {
     struct arena *arena;
     const struct scene *scene;
     struct vector leaf, node, object, surface, light, group, group_parent, pending;
-    const struct transform *transform; // the last one stored
-    const struct interior *plain[2];   // of opaque surfaces; [1]: hollow
+    const struct transform *transform;              // the last one stored
+    const struct interior *plain[2];                // of opaque surfaces; [1]: hollow
     const struct attached_texture *default_texture; // of the top-level object at hand
     bool has_transparent;
     // The top-level object at hand, for cutaway_textures; made when one needs it.

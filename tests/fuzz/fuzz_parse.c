@@ -1,7 +1,7 @@
 // Any bytes as a scene: lexer, stream, grammar, evaluation, building and a few rays must
 // report and return.
-#include <stdint.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 #include "base/arena.h"

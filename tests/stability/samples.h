@@ -30,11 +30,14 @@ static const char *const samples[] = {
     "quartic { <1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, "
     "0, "
     "0, 0, 0, 0, 0, 1, 0, 0, 0, -K*K*K*K>",
-    "polynomial { 35, xyz(35, 0, 0): 1, xyz(0, 2, 0): -1, xyz(0, 0, 1): .3, xyz(0, 0, 0): .1 "
+    "polynomial { 35, xyz(35, 0, 0): 1, xyz(0, 2, 0): -1, xyz(0, 0, 1): .3, xyz(0, 0, "
+    "0): .1 "
     "scale K",
-    "polynomial { 35, xyz(34, 0, 0): 1, xyz(0, 34, 0): 1, xyz(0, 0, 34): 1, xyz(1, 0, 0): "
+    "polynomial { 35, xyz(34, 0, 0): 1, xyz(0, 34, 0): 1, xyz(0, 0, 34): 1, xyz(1, 0, "
+    "0): "
     "-.2, xyz(0, 0, 0): -1 scale K",
-    "polynomial { 20, xyz(10, 10, 0): 1, xyz(0, 5, 10): -1, xyz(0, 0, 9): 2, xyz(1, 0, 0): "
+    "polynomial { 20, xyz(10, 10, 0): 1, xyz(0, 5, 10): -1, xyz(0, 0, 9): 2, xyz(1, 0, "
+    "0): "
     "1, xyz(0, 0, 0): -.1 scale K",
     "polynomial { 3, xyz(2, 0, 0): K, xyz(0, 2, 0): K, xyz(0, 1, 2): .5, xyz(0, 0, 2): "
     "K, "

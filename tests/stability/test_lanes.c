@@ -542,7 +542,8 @@ static const char *const carved[] = {
     " inverse } } }",
     "cylinder { -y, y, .4 clipped_by { height_field { function 9, 9 { x*y } scale 2 "
     "translate -1 } } }",
-    "box { <-1, -.7, -1>, <1, .7, 1> clipped_by { height_field { function 9, 9 { x*y } scale "
+    "box { <-1, -.7, -1>, <1, .7, 1> clipped_by { height_field { function 9, 9 { x*y } "
+    "scale "
     "2 translate -1 } } }", // they share sides
     "intersection { object { " BLOB
     " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } plane { -z, 0 } }",

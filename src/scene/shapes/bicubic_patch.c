@@ -231,7 +231,7 @@ static bool has_lanes(const void *shape)
 static struct vec3 normal_at(const struct patch *p, double u, double v)
 {
     struct vec3 at, du, dv, n = {0, 0, 0};
-    for (double move = 0; move < 0.5; move = move > 0 ? 16 * move : 0x1p-20) {
+    for (double move = 0; move<0.5; move = move> 0 ? 16 * move : 0x1p-20) {
         patch_derivatives(p, u + move * (0.5 - u), v + move * (0.5 - v), &at, &du, &dv);
         n = vec3_cross(du, dv);
         const double size = vec3_max_abs(vec3_sub(p->bounds.max, p->bounds.min));

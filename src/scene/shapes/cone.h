@@ -7,7 +7,7 @@
 
 // In the frame: x*x + y*y <= (r0 + slope*z)^2, 0 <= z <= length.
 struct cone {
-    struct frame frame; // origin: the first end; e3: towards the second
+    struct frame frame;           // origin: the first end; e3: towards the second
     double length, r0, r1, slope; // slope = (r1 - r0)/length
     bool open;
 };

@@ -7,7 +7,7 @@
 
 // In the frame: x*x + y*y <= radius*radius, 0 <= z <= length.
 struct cylinder {
-    struct frame frame; // origin: the first end; e3: towards the second
+    struct frame frame;    // origin: the first end; e3: towards the second
     double length, radius; // > 0
     bool open;
 };

@@ -18,7 +18,8 @@ static inline struct vec3 frame_coordinates(const struct frame *f, struct vec3 v
     return vec3(vec3_dot(f->e1, v), vec3_dot(f->e2, v), vec3_dot(f->e3, v));
 }
 
-static inline struct vec3 frame_vector(const struct frame *f, double x, double y, double z)
+static inline struct vec3 frame_vector(const struct frame *f, double x, double y,
+                                       double z)
 {
     return vec3(f->e1.x * x + f->e2.x * y + f->e3.x * z,
                 f->e1.y * x + f->e2.y * y + f->e3.y * z,

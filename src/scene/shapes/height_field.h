@@ -31,7 +31,8 @@ struct height_field {
     float (*ranges)[2];
     double level_from[HEIGHT_LEVELS], level_width[HEIGHT_LEVELS];
     double low, high, water; // in the shape's space
-    double (*normal)[3];     // of `smooth`, at the samples; NULL: too many, made when asked for
+    double (
+        *normal)[3]; // of `smooth`, at the samples; NULL: too many, made when asked for
     bool smooth, under_water;
 };
 

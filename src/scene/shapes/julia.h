@@ -9,9 +9,24 @@
 // The iterations of julia_fractal: h <- f(h) + c on quaternions or on hypercomplex
 // numbers, which are pairs of complex numbers (spec/shapes.md 4.22).
 enum julia_function {
-    JULIA_SQR, JULIA_CUBE, JULIA_EXP, JULIA_RECIPROCAL, JULIA_SIN, JULIA_ASIN, JULIA_SINH,
-    JULIA_ASINH, JULIA_COS, JULIA_ACOS, JULIA_COSH, JULIA_ACOSH, JULIA_TAN, JULIA_ATAN,
-    JULIA_TANH, JULIA_ATANH, JULIA_LN, JULIA_PWR,
+    JULIA_SQR,
+    JULIA_CUBE,
+    JULIA_EXP,
+    JULIA_RECIPROCAL,
+    JULIA_SIN,
+    JULIA_ASIN,
+    JULIA_SINH,
+    JULIA_ASINH,
+    JULIA_COS,
+    JULIA_ACOS,
+    JULIA_COSH,
+    JULIA_ACOSH,
+    JULIA_TAN,
+    JULIA_ATAN,
+    JULIA_TANH,
+    JULIA_ATANH,
+    JULIA_LN,
+    JULIA_PWR,
 };
 
 struct complex {
@@ -25,9 +40,10 @@ struct julia {
     struct complex power; // of JULIA_PWR
     int iterations;
     double precision;
-    double slice[4], distance; // the hyperplane slice . h = distance, slice of unit length
-    double start[4];           // w = start[3] + start . p
-    double radius, escape;     // everything is within the ball; |h|^2 > escape: outside
+    double slice[4],
+        distance;          // the hyperplane slice . h = distance, slice of unit length
+    double start[4];       // w = start[3] + start . p
+    double radius, escape; // everything is within the ball; |h|^2 > escape: outside
 };
 
 // The number of the first iterate that leaves the ball; j->iterations: none, p is inside.

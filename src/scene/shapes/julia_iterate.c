@@ -13,7 +13,10 @@ static struct complex c_add(struct complex a, struct complex b)
 {
     return cx(a.re + b.re, a.im + b.im);
 }
-static struct complex c_scale(double k, struct complex a) { return cx(k * a.re, k * a.im); }
+static struct complex c_scale(double k, struct complex a)
+{
+    return cx(k * a.re, k * a.im);
+}
 static struct complex c_mul(struct complex a, struct complex b)
 {
     return cx(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re);
@@ -105,30 +108,20 @@ static struct complex apply(const struct julia *j, struct complex z, struct comp
     const struct complex one = {1, 0}, z2 = c_mul(z, z);
     struct complex f, g;
     switch (j->function) {
-    case JULIA_SQR:
-        *d = c_scale(2, z);
-        return z2;
-    case JULIA_CUBE:
-        *d = c_scale(3, z2);
-        return c_mul(z2, z);
+    case JULIA_SQR: *d = c_scale(2, z); return z2;
+    case JULIA_CUBE: *d = c_scale(3, z2); return c_mul(z2, z);
     case JULIA_EXP: return *d = c_exp(z);
     case JULIA_RECIPROCAL:
         f = c_inverse(z);
         *d = c_scale(-1, c_mul(f, f));
         return f;
-    case JULIA_SIN:
-        c_sincos(z, &f, d);
-        return f;
+    case JULIA_SIN: c_sincos(z, &f, d); return f;
     case JULIA_COS:
         c_sincos(z, &g, &f);
         *d = c_scale(-1, g);
         return f;
-    case JULIA_SINH:
-        c_sinhcosh(z, &f, d);
-        return f;
-    case JULIA_COSH:
-        c_sinhcosh(z, d, &f);
-        return f;
+    case JULIA_SINH: c_sinhcosh(z, &f, d); return f;
+    case JULIA_COSH: c_sinhcosh(z, d, &f); return f;
     case JULIA_TAN:
         c_sincos(z, &f, &g);
         g = c_inverse(g);
@@ -157,9 +150,7 @@ static struct complex apply(const struct julia *j, struct complex z, struct comp
         g = c_turn(z);
         f = c_ln(c_div(c_add(one, c_scale(-1, g)), c_add(one, g)));
         return c_scale(0.5, c_turn(f));
-    case JULIA_LN:
-        *d = c_inverse(z);
-        return c_ln(z);
+    case JULIA_LN: *d = c_inverse(z); return c_ln(z);
     case JULIA_PWR: return power(z, j->power, d);
     }
     return *d = cx(0, 0);
@@ -177,7 +168,10 @@ static struct pair pair_of(double x, double y, double z, double w)
     return (struct pair){{x - w, y + z}, {x + w, y - z}};
 }
 
-static double pair_norm(const struct pair *h) { return 0.5 * (c_norm(h->a) + c_norm(h->b)); }
+static double pair_norm(const struct pair *h)
+{
+    return 0.5 * (c_norm(h->a) + c_norm(h->b));
+}
 
 // Half the derivative of |h|^2 when the start moves by s: h moves by slope * s.
 static double growth(const struct pair *h, const struct pair *slope, struct pair s)
@@ -278,7 +272,8 @@ static double norm4(const double h[4])
 }
 
 // The same for squares, which most julia_fractals are of.
-static int square_escape(const struct julia *j, struct vec3 p, double *step, double *length)
+static int square_escape(const struct julia *j, struct vec3 p, double *step,
+                         double *length)
 {
     const double c0 = j->c[0], c1 = j->c[1], c2 = j->c[2], c3 = j->c[3];
     double x = p.x, y = p.y, z = p.z, w = w_at(j, p), product = 1, scale = 1;

@@ -23,10 +23,11 @@ struct mesh {
     uint32_t (*face_texture)[3]; // NULL, or of each corner; UINT32_MAX: the object's
     const struct texture **texture;
     uint32_t texture_count;
-    const struct texture *whole; // that of all faces; NULL: they have not one and the same
+    const struct texture
+        *whole; // that of all faces; NULL: they have not one and the same
     uint32_t vertex_count, normal_count, uv_count, face_count;
     uint32_t zero_normals; // that were read and replaced
-    bool solid;                 // inside_vector was given
+    bool solid;            // inside_vector was given
     struct vec3 inside_vector;
     struct aabb bounds;
     struct bvh8 tree; // over the faces

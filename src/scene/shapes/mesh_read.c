@@ -10,7 +10,8 @@
 #include "scene/shapes/mesh.h"
 
 // An array that doubles in the arena.
-static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacity, size_t size)
+static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacity,
+                   size_t size)
 {
     if (count < *capacity)
         return old;
@@ -58,7 +59,8 @@ static bool finish(struct mesh *m, struct args *args)
     }
     if (m->zero_normals) {
         char text[80];
-        snprintf(text, sizeof text, "normals without length: %u; <1, 0, 0> is taken for each",
+        snprintf(text, sizeof text,
+                 "normals without length: %u; <1, 0, 0> is taken for each",
                  m->zero_normals);
         args_warn(args, text);
     }
@@ -409,8 +411,8 @@ static bool read_indices(struct args *block, struct arena *a, uint32_t limit,
 }
 
 // Faces without indices of their own use those of the corners, if the counts agree.
-static bool default_indices(struct mesh *m, struct args *args, bool normals, uint32_t given,
-                            uint32_t (**index)[3])
+static bool default_indices(struct mesh *m, struct args *args, bool normals,
+                            uint32_t given, uint32_t (**index)[3])
 {
     const uint32_t n = normals ? m->normal_count : m->uv_count;
     if (n == 0 || given == m->face_count)
@@ -430,9 +432,10 @@ static bool default_indices(struct mesh *m, struct args *args, bool normals, uin
         *index = all;
         return true;
     }
-    args_reject(args, normals ? "the counts of normals and vertices differ and there are no "
-                                "normal_indices"
-                              : "uv_indices are missing or their count differs");
+    args_reject(args, normals
+                          ? "the counts of normals and vertices differ and there are no "
+                            "normal_indices"
+                          : "uv_indices are missing or their count differs");
     return false;
 }
 
@@ -453,8 +456,7 @@ static bool build_mesh2(void *shape, struct args *args)
         else if ((block = args_block(args, "texture_list")))
             ok = read_texture_list(m, block, a);
         else if ((block = args_block(args, "face_indices")))
-            ok = read_indices(block, a, m->vertex_count, m,
-                              &m->face, &m->face_count);
+            ok = read_indices(block, a, m->vertex_count, m, &m->face, &m->face_count);
         else if ((block = args_block(args, "uv_indices")))
             ok = read_indices(block, a, m->uv_count, NULL, &m->face_uv, &uvs);
         else if ((block = args_block(args, "normal_indices")))
@@ -485,7 +487,7 @@ static bool build_mesh2(void *shape, struct args *args)
         .closest = mesh_closest,                                                         \
         .surface = mesh_surface,                                                         \
         .texture = mesh_texture,                                                         \
-        .textures_at = mesh_textures_at,                                                         \
+        .textures_at = mesh_textures_at,                                                 \
         .print = mesh_print,                                                             \
     }
 

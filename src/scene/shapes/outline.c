@@ -8,9 +8,8 @@
 
 void outline_init(struct outline *o, struct arena *arena)
 {
-    *o = (struct outline){.arena = arena,
-                          .min = {HUGE_VAL, HUGE_VAL},
-                          .max = {-HUGE_VAL, -HUGE_VAL}};
+    *o = (struct outline){
+        .arena = arena, .min = {HUGE_VAL, HUGE_VAL}, .max = {-HUGE_VAL, -HUGE_VAL}};
 }
 
 static void widen(struct outline *o, struct vec2 p)
@@ -180,7 +179,8 @@ static int extrema(const struct cubic *f, double w[2])
 static bool beside(const struct cubic *f, double end)
 {
     const double a = f->c[0], b = a + f->c[1] / 3, c = b + (f->c[1] + f->c[2]) / 3;
-    const double noise = GAMMA(16) * (fabs(a) + fabs(f->c[1]) + fabs(f->c[2]) + fabs(end));
+    const double noise =
+        GAMMA(16) * (fabs(a) + fabs(f->c[1]) + fabs(f->c[2]) + fabs(end));
     return (a > noise && b > noise && c > noise && end > noise) ||
            (a < -noise && b < -noise && c < -noise && end < -noise);
 }
@@ -223,7 +223,8 @@ bool outline_inside(const struct outline *o, struct vec2 p)
     for (uint32_t i = 0; i < o->count; i++) {
         double w[OUTLINE_ROOTS];
         const struct outline_segment *s = &o->segment[i];
-        if (fabs(s->middle.v - p.v) > s->radius + GAMMA(32) * (fabs(s->middle.v) + fabs(p.v)))
+        if (fabs(s->middle.v - p.v) >
+            s->radius + GAMMA(32) * (fabs(s->middle.v) + fabs(p.v)))
             continue;
         for (int n = outline_roots(s, k, w); n > 0; n--)
             in ^= outline_point(s, w[n - 1]).u > p.u;

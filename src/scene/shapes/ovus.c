@@ -49,8 +49,8 @@ static struct aabb bounds(const void *shape)
     double r = fmax(s->part[OVUS_BOTTOM].r, s->top);
     if (arc->v >= s->joint[0] && arc->v <= s->joint[1]) // the widest place is on the arc
         r = fmax(r, arc->r - arc->h);
-    const double low = fmin(-s->part[OVUS_BOTTOM].r + s->part[OVUS_BOTTOM].v,
-                            s->bottom - s->top);
+    const double low =
+        fmin(-s->part[OVUS_BOTTOM].r + s->part[OVUS_BOTTOM].v, s->bottom - s->top);
     return aabb_pad((struct aabb){vec3(-r, low, -r), vec3(r, s->bottom + s->top, r)});
 }
 
@@ -74,8 +74,9 @@ static bool build(void *shape, struct args *args)
         return false;
     }
     if (s->top >= 2 * s->bottom)
-        args_warn(args, "the top radius is at least twice the bottom radius: the ovus is a "
-                        "sphere");
+        args_warn(args,
+                  "the top radius is at least twice the bottom radius: the ovus is a "
+                  "sphere");
     make_parts(s);
     make_ball(s);
     return true;
@@ -100,7 +101,8 @@ struct line {
     double noise; // bound on the error of the distance
 };
 
-static double distance(const struct line *l, const struct ovus_part *k, double t, double *slope)
+static double distance(const struct line *l, const struct ovus_part *k, double t,
+                       double *slope)
 {
     const struct vec3 p = vec3_mad(l->o, t, l->d);
     const double rho = sqrt(p.x * p.x + p.z * p.z), q = rho + k->h, w = p.y - k->v;
@@ -225,7 +227,8 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     (void)b;
     const struct ovus *s = shape;
     const struct ovus_part *k = &s->part[part_at(s, p.y)];
-    const double rho = sqrt(p.x * p.x + p.z * p.z), grow = rho > 0 ? (rho + k->h) / rho : 0;
+    const double rho = sqrt(p.x * p.x + p.z * p.z),
+                 grow = rho > 0 ? (rho + k->h) / rho : 0;
     const struct vec3 n = vec3_normalize(vec3(grow * p.x, p.y - k->v, grow * p.z));
     out->p = p;
     out->ng = out->ns = vec3_dot(n, n) > 0 ? n : vec3(0, 1, 0);
@@ -249,7 +252,8 @@ static void print(const void *shape, FILE *out)
 const struct shape_ops ovus_ops = {
     .keyword = "ovus",
     .size = sizeof(struct ovus),
-    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_CONVEX | SHAPE_BOUND_BOX,
+    .flags = SHAPE_SOLID | SHAPE_BOUNDED | SHAPE_STURM | SHAPE_UV | SHAPE_CONVEX |
+             SHAPE_BOUND_BOX,
     .build = build,
     .bounds = bounds,
     .inside = inside,

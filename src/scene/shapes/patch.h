@@ -22,7 +22,7 @@ struct patch_leaf {
     // How far derivatives are from their means, in parts of du, dv and n: the largest
     // coefficient of either derivative, both added.
     double bend[3];
-    double own[3][2];              // its extent along n_dv, du_n, n, from the middle
+    double own[3][2];                  // its extent along n_dv, du_n, n, from the middle
     _Atomic(struct patch_half *) half; // made when a line needs them (patch_halves)
 };
 

@@ -13,8 +13,7 @@ static const double pi = 3.14159265358979323846;
 static bool build(void *shape, struct args *args)
 {
     struct sphere *s = shape;
-    if (!args_vec3(args, "centre", &s->centre) ||
-        !args_float(args, "radius", &s->radius))
+    if (!args_vec3(args, "centre", &s->centre) || !args_float(args, "radius", &s->radius))
         return false;
     s->radius = fabs(s->radius);
     s->to_uv = transform_identity.linear;

@@ -6,8 +6,8 @@
 
 struct sphere {
     struct vec3 centre;
-    double radius;      // > 0
-    struct mat3 to_uv;  // turns a direction back into the sphere's own frame
+    double radius;     // > 0
+    struct mat3 to_uv; // turns a direction back into the sphere's own frame
 };
 
 #endif

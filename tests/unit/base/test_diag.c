@@ -27,8 +27,9 @@ static void text_style_underlines_the_place(void **state)
     source_map_init(&map, a);
     const char *text = "sphere {\n  0, oops\n}\n";
     uint32_t file = source_add(&map, "a.scn", text, strlen(text), (struct span){0});
-    struct diag d = {DIAG_NOT_BUILT, SEV_ERROR, {file, 14, 18, 0}, {0}, "no such word",
-                     "did you mean 'open'?"};
+    struct diag d = {DIAG_NOT_BUILT,    SEV_ERROR,
+                     {file, 14, 18, 0}, {0},
+                     "no such word",    "did you mean 'open'?"};
     struct printed p = {0};
     FILE *out = open_memstream(&p.text, &p.len);
     diag_print(out, &map, &d, DIAG_TEXT, false);

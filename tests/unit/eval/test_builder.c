@@ -46,11 +46,12 @@ static void camera_items_combine_in_a_fixed_order(void **state)
     (void)state;
     struct arena *a = arena_new(1 << 16);
     struct scene s = {0};
-    assert_int_equal(read_scene(a,
-                                "#version 3.7; global_settings{assumed_gamma 1}\n"
-                                "camera{look_at <0,0,5> angle 90 location <0,0,-5> right 2*x}",
-                                &s),
-                     0);
+    assert_int_equal(
+        read_scene(a,
+                   "#version 3.7; global_settings{assumed_gamma 1}\n"
+                   "camera{look_at <0,0,5> angle 90 location <0,0,-5> right 2*x}",
+                   &s),
+        0);
     assert_near(s.camera.direction.z, 1, 1e-15);
     assert_near(s.camera.right.x, 2, 1e-15);
     assert_near(s.camera.up.y, 1, 1e-15);

@@ -85,17 +85,22 @@ static const char *const scripts[][2] = {
     {"#macro M(P) #declare P = 7; #end #declare Q = 1; M(Q) #debug str(Q,0,0)", "7"},
     {"#macro M(P) #declare P = 7; #end #declare Q = 1; M((Q)) #debug str(Q,0,0)", "1"},
     {"#declare A = array[2][2] {{1,2},{3,4}} #declare B = A; #declare B[1][0] = 9;"
-     "#debug str(A[1][0]*10+B[1][0],0,0)", "39"},
-    {"#declare F = function(n){sum(i,1,n,i*i)} #debug vstr(3,<F(3),F(2.5),F(0)>,\" \",0,0)",
+     "#debug str(A[1][0]*10+B[1][0],0,0)",
+     "39"},
+    {"#declare F = function(n){sum(i,1,n,i*i)} #debug vstr(3,<F(3),F(2.5),F(0)>,\" "
+     "\",0,0)",
      "14 5 0"},
     {"#declare F = function{x>1 & y<2 | z}"
-     "#debug vstr(3,<F(2,1,0),F(0,1,3),F(2,3,0)>,\" \",0,0)", "1 1 0"},
+     "#debug vstr(3,<F(2,1,0),F(0,1,3),F(2,3,0)>,\" \",0,0)",
+     "1 1 0"},
     {"#declare F = function{2*-x + -(y) - +z} #debug str(F(1,2,3),0,0)", "-7"},
     {"#declare S = spline{natural_spline 0,0 1,1 2,0 3,5}"
-     "#debug vstr(3,<S(.5).x,S(1.5).x,S(2.5).x>,\" \",0,2)", "0.85 0.20 1.85"},
+     "#debug vstr(3,<S(.5).x,S(1.5).x,S(2.5).x>,\" \",0,2)",
+     "0.85 0.20 1.85"},
     {"#declare F = function{internal(61)} #declare G = function{internal(57)}"
      "#declare H = function(a,b){F(a,b,0,1) + G(a,b,0)}"
-     "#debug vstr(3,<F(3,4,0,1),G(3,4,0),H(3,4)>,\" \",0,2)", "4.00 5.00 9.00"},
+     "#debug vstr(3,<F(3,4,0,1),G(3,4,0),H(3,4)>,\" \",0,2)",
+     "4.00 5.00 9.00"},
     {"#declare F = function{pigment{rgb <1,.5,.25>}} #declare P = function{pigment{}}"
      "#declare G = function(a){F(a,a,a).gray + P(a,a,a).red + F(0,0,0).transmit}"
      "#debug vstr(3,<F(0,0,0).gray,F(1,1,1).y,G(1)>,\" \",0,6)",
@@ -108,16 +113,20 @@ static const char *const scripts[][2] = {
      " sine_wave}} #declare X = function{pattern{checker scale .3}}"
      "#declare L = function{pattern{leopard}}"
      "#debug concat(str(S(.1,.2,.7),0,12),str(X(.1,.2,.7),2,0),str(X(.4,.2,.1),2,0),"
-     "str(L(.1,.3,.7),0,12))", "0.976496856000 0 10.120078723301"},
+     "str(L(.1,.3,.7),0,12))",
+     "0.976496856000 0 10.120078723301"},
     {"#debug \"a\\nb\"", "a\nb"},
     // The right side ends before the macro that gives it does.
-    {"#macro V() <1,2,3>; #end #macro M() #local A = V() #debug vstr(3,A,\",\",0,0) #end M()",
+    {"#macro V() <1,2,3>; #end #macro M() #local A = V() #debug vstr(3,A,\",\",0,0) #end "
+     "M()",
      "1,2,3"},
     {"#macro V() #local A = 5; <A,2,3>; #end #declare A = V() #debug vstr(3,A,\",\",0,0)",
      "5,2,3"},
     {"#macro T() transform{rotate x} #end #macro M() #local A = T(); #ifdef(A)"
-     " #debug \"there\" #end #end M()", "there"},
-    {"#declare A = <1,2#>; #default { normal { bumps bump_size 2 } } #debug str(A.v,0,0)", "2"},
+     " #debug \"there\" #end #end M()",
+     "there"},
+    {"#declare A = <1,2#>; #default { normal { bumps bump_size 2 } } #debug str(A.v,0,0)",
+     "2"},
     {"#ifdef(lambert) #debug \"yes\" #else #debug \"no\" #end", "yes"},
 };
 
@@ -138,11 +147,17 @@ static void errors_are_reported_once(void **state)
 {
     (void)state;
     static const char *const bad[] = {
-        "#declare A = sqrt(-1);", "#declare A = 1 + ln(0)*2;", "#debug str(sqrt(-1),0,0)",
-        "#declare F = function(a){a} #declare A = F(1,2);", "sphere { <0,sqrt(-1),0>, 1 }",
-        "#declare A = <1,sqrt(-1),3>;", "#declare A = concat(chr(70000),\"x\");",
-        "sphere { 0, sqrt(-1) pigment { rgb 1 } }", "sphere { 0, 1 translate ln(0) }",
-        "#if (sqrt(-1)) #end", "#debug concat(\"a\",str(sqrt(-1),0,0))",
+        "#declare A = sqrt(-1);",
+        "#declare A = 1 + ln(0)*2;",
+        "#debug str(sqrt(-1),0,0)",
+        "#declare F = function(a){a} #declare A = F(1,2);",
+        "sphere { <0,sqrt(-1),0>, 1 }",
+        "#declare A = <1,sqrt(-1),3>;",
+        "#declare A = concat(chr(70000),\"x\");",
+        "sphere { 0, sqrt(-1) pigment { rgb 1 } }",
+        "sphere { 0, 1 translate ln(0) }",
+        "#if (sqrt(-1)) #end",
+        "#debug concat(\"a\",str(sqrt(-1),0,0))",
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         struct output o;
@@ -168,7 +183,8 @@ static void version_sets_noise(void **state)
     assert_true(run("#declare F = function{internal(76)} #macro S()"
                     " #debug concat(str(F(.3,.4,.5),0,8),\"\\n\") #end"
                     " S() #version 3.1; S() #version 3.7; S()"
-                    " global_settings{noise_generator 3} S() #version 3.1; S()", &o));
+                    " global_settings{noise_generator 3} S() #version 3.1; S()",
+                    &o));
     assert_string_equal(o.text, "0.47587127\n0.41903170\n0.47587127\n"
                                 "0.67807531\n0.67807531\n");
 }
@@ -177,8 +193,11 @@ static void errors_are_reported(void **state)
 {
     (void)state;
     static const char *const bad[] = {
-        "#declare A = B;",        "#declare A = array[2]; #declare A[2] = 1;",
-        "#local A = A + 1;",      "#declare A = sqrt(-1);", "#declare F = function{internal(79)}",
+        "#declare A = B;",
+        "#declare A = array[2]; #declare A[2] = 1;",
+        "#local A = A + 1;",
+        "#declare A = sqrt(-1);",
+        "#declare F = function{internal(79)}",
         "#declare F = function{pattern{slope y}}",
         "#declare F = function(a){pattern{bozo}}",
         "#error \"stop\" #debug \"more\"",
@@ -193,12 +212,9 @@ static void errors_are_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_values),
-        cmocka_unit_test(check_scripts),
-        cmocka_unit_test(errors_are_reported),
-        cmocka_unit_test(errors_are_reported_once),
-        cmocka_unit_test(lines_are_whole),
-        cmocka_unit_test(version_sets_noise),
+        cmocka_unit_test(check_values),        cmocka_unit_test(check_scripts),
+        cmocka_unit_test(errors_are_reported), cmocka_unit_test(errors_are_reported_once),
+        cmocka_unit_test(lines_are_whole),     cmocka_unit_test(version_sets_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

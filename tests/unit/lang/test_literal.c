@@ -161,8 +161,8 @@ static void print(const struct outcome *o, const char *name)
     for (int i = 0; i < o->statements; i++)
         ast_print(o->statement[i], stderr, 2);
     for (int i = 0; i < o->messages; i++)
-        fprintf(stderr, "  %u-%u: %s\n", o->message[i].where.begin, o->message[i].where.end,
-                o->message[i].text);
+        fprintf(stderr, "  %u-%u: %s\n", o->message[i].where.begin,
+                o->message[i].where.end, o->message[i].text);
 }
 
 static void compare(const char *text)

@@ -34,8 +34,9 @@ struct fake {
 static void emit(void *user, const struct diag *d)
 {
     struct fake *f = user;
-    f->codes[f->diags.errors + f->diags.warnings < 64 ? f->diags.errors + f->diags.warnings
-                                                      : 63] = (int)d->code;
+    f->codes[f->diags.errors + f->diags.warnings < 64
+                 ? f->diags.errors + f->diags.warnings
+                 : 63] = (int)d->code;
 }
 
 static struct symbol *find(struct fake *f, const char *name, size_t len)
@@ -61,12 +62,8 @@ static bool number(void *user, const struct ast *n, double *out)
 {
     double a = 0, b = 0;
     switch (n->kind) {
-    case AST_NUMBER:
-        *out = n->number;
-        return true;
-    case AST_VALUE:
-        *out = n->value->number;
-        return true;
+    case AST_NUMBER: *out = n->number; return true;
+    case AST_VALUE: *out = n->value->number; return true;
     case AST_BINARY:
         if (!number(user, n->left, &a) || !number(user, n->right, &b))
             return false;
@@ -82,8 +79,7 @@ static bool number(void *user, const struct ast *n, double *out)
             return false;
         *out = -a;
         return true;
-    default:
-        return false;
+    default: return false;
     }
 }
 
@@ -232,13 +228,24 @@ static int run(struct fake *f, const char *text)
     struct source_map sources;
     source_map_init(&sources, f->arena);
     uint32_t file = source_add(&sources, "t.pov", text, strlen(text), (struct span){0});
-    struct stream_host host = {
-        .user = f, .lookup = lookup, .number = number, .string = string, .path = string,
-        .is_declared = is_declared, .declare_begin = declare_begin, .declare = declare,
-        .declare_number = declare_number, .undef = undef, .define_macro = define_macro,
-        .enter_scope = enter_scope, .leave_scope = leave_scope,
-        .bind_argument = bind_argument, .finish = finish, .message = message,
-        .version = version, .defaults = defaults};
+    struct stream_host host = {.user = f,
+                               .lookup = lookup,
+                               .number = number,
+                               .string = string,
+                               .path = string,
+                               .is_declared = is_declared,
+                               .declare_begin = declare_begin,
+                               .declare = declare,
+                               .declare_number = declare_number,
+                               .undef = undef,
+                               .define_macro = define_macro,
+                               .enter_scope = enter_scope,
+                               .leave_scope = leave_scope,
+                               .bind_argument = bind_argument,
+                               .finish = finish,
+                               .message = message,
+                               .version = version,
+                               .defaults = defaults};
     struct stream *s = stream_new(f->arena, &sources, file, &f->diags, host);
     int count = 0;
     while (parse_item(s))
@@ -273,10 +280,14 @@ static void branches(void **state)
 {
     (void)state;
     check("#if(1) #debug \"a\" #else #debug \"b\" #end", 0, "a");
-    check("#if(0) #debug \"a\" #elseif(2<3) #debug \"b\" #else #debug \"c\" #end", 0, "b");
-    check("#ifdef(X) #debug \"a\" #end #declare X=1; #ifdef(X) #debug \"b\" #end", 0, "b");
-    check("#switch(2) #case(1) #debug \"1\" #case(2) #debug \"2\" #range(8,9) #debug \"3\" "
-          "#break #else #debug \"4\" #end", 0, "23");
+    check("#if(0) #debug \"a\" #elseif(2<3) #debug \"b\" #else #debug \"c\" #end", 0,
+          "b");
+    check("#ifdef(X) #debug \"a\" #end #declare X=1; #ifdef(X) #debug \"b\" #end", 0,
+          "b");
+    check(
+        "#switch(2) #case(1) #debug \"1\" #case(2) #debug \"2\" #range(8,9) #debug \"3\" "
+        "#break #else #debug \"4\" #end",
+        0, "23");
 }
 
 static void loops(void **state)
@@ -294,7 +305,8 @@ static void macros(void **state)
     check("#macro M(A,B) #if(A=3) #debug \"y\" #end #local A=9; #end M(1+2,0)", 0, "y");
     check("#macro F(N) #if(N<1) #debug \"z\" #else F(N-1) #end #end F(1000)", 0, "z");
     check("#macro F(N) #if(N=0) 1 #else #local R = (F(N-1)); R #end #end "
-          "#declare A = (F(60)); #if(A=1) #debug \"k\" #end", 0, "k");
+          "#declare A = (F(60)); #if(A=1) #debug \"k\" #end",
+          0, "k");
     check("#macro O() } #end union { sphere { 0, 1 O() O()", 1, "");
 }
 
@@ -302,10 +314,12 @@ static void statements(void **state)
 {
     (void)state;
     check("#declare T = texture { } texture { } #declare S = sphere { 0, 1 } S "
-          "object { S rotate <1,2,3>*2 translate -y }", 2, "");
+          "object { S rotate <1,2,3>*2 translate -y }",
+          2, "");
     check("difference { #if(1) union { #end box{<0,0,0><1,1,1>} #if(1) } #end }", 1, "");
     check("#declare F = function (a, b) { a*b < 3 & sin(a)=1 } "
-          "polynomial { 2, xyz(2,0,0):1, xyz(0,0,0):-1 }", 1, "");
+          "polynomial { 2, xyz(2,0,0):1, xyz(0,0,0):-1 }",
+          1, "");
     check("isosurface { function { x*x + select(y<1, 2, 3) - z } }", 1, "");
 }
 
@@ -381,8 +395,7 @@ static void bulk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(branches), cmocka_unit_test(loops), cmocka_unit_test(macros),
-        cmocka_unit_test(statements), cmocka_unit_test(errors),
-        cmocka_unit_test(bulk)};
+        cmocka_unit_test(branches),   cmocka_unit_test(loops),  cmocka_unit_test(macros),
+        cmocka_unit_test(statements), cmocka_unit_test(errors), cmocka_unit_test(bulk)};
     return cmocka_run_group_tests_name("stream", tests, NULL, NULL);
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "image/texels.h"
 #include "eval/formula.h"
+#include "image/texels.h"
 #include "math/transform.h"
 #include "scene/args.h"
 
@@ -208,8 +208,12 @@ const struct texels *args_image(struct args *a, struct transfer *decode)
     uint16_t *at = arena_new_array(a->arena, uint16_t, 63);
     for (int i = 0; i < 63; i++)
         at[i] = (uint16_t)(20000 + (i * 7919) % 40000);
-    *t = (struct texels){.width = 9, .height = 7, .channels = 1, .format = TEXEL_U16,
-                         .max = 65535, .data = at};
+    *t = (struct texels){.width = 9,
+                         .height = 7,
+                         .channels = 1,
+                         .format = TEXEL_U16,
+                         .max = 65535,
+                         .data = at};
     *decode = (struct transfer){TRANSFER_NONE, 1};
     return t;
 }

@@ -63,7 +63,8 @@ static bool first_of(const struct shape_ops *ops, const void *shape, const struc
         }
         if (!ops->closest8(&shape_kernels_base, shape, &rays, 1, false, &hits))
             return false;
-        *first = (struct boundary){.t = hits.t[0], .dt = hits.dt[0], .part = hits.part[0]};
+        *first =
+            (struct boundary){.t = hits.t[0], .dt = hits.dt[0], .part = hits.part[0]};
         return true;
     }
     if (ops->closest)
@@ -156,7 +157,8 @@ static void collapsed_edge_has_a_normal(void **state)
     struct control c;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            c.p[4 * i + j] = vec3(i * cos(j * right_angle / 3) / 3, 0, i * sin(j * right_angle / 3) / 3);
+            c.p[4 * i + j] = vec3(i * cos(j * right_angle / 3) / 3, 0,
+                                  i * sin(j * right_angle / 3) / 3);
     void *shape;
     const struct shape_ops *ops = make_patch(a, &c, &shape);
     const double r[] = {.3, .05, .014, 1e-4, 1e-8, 1e-12, 0};
@@ -199,8 +201,10 @@ static void shared_edge_is_closed(void **state)
         struct vec3 at = {0, 0, 0};
         for (int j = 0; j < 4; j++)
             at = vec3_mad(at, b[j], c[0].p[j]);
-        const struct ray r = ray_to(vec3_add(at, vec3(uniform(&seed) - .5, uniform(&seed) - .5,
-                                                      -2 - 3 * uniform(&seed))), at);
+        const struct ray r =
+            ray_to(vec3_add(at, vec3(uniform(&seed) - .5, uniform(&seed) - .5,
+                                     -2 - 3 * uniform(&seed))),
+                   at);
         bool met = false, first_met = false;
         for (int i = 0; i < 2; i++) {
             struct boundary first;
@@ -291,7 +295,8 @@ static void folded_patches_keep_all_crossings(void **state)
         struct arena *a = arena_new(1 << 16);
         struct control c;
         for (int i = 0; i < 16; i++)
-            c.p[i] = vec3_add(vec3(i % 4 / 3., i / 4 / 3., 0), vec3_scale(.9, in_cube(&seed)));
+            c.p[i] =
+                vec3_add(vec3(i % 4 / 3., i / 4 / 3., 0), vec3_scale(.9, in_cube(&seed)));
         void *shape;
         const struct shape_ops *ops = make_patch(a, &c, &shape);
         for (int k = 0; k < 60; k++) {
@@ -308,11 +313,13 @@ static void folded_patches_keep_all_crossings(void **state)
             l.count = 0;
             ops->intersect(shape, &r, &l);
             if ((int)l.count != f.count)
-                fail_msg("patch %d, ray %d: %u crossings, not %d", n, k, l.count, f.count);
+                fail_msg("patch %d, ray %d: %u crossings, not %d", n, k, l.count,
+                         f.count);
             for (int i = 0; i < f.count; i++) {
                 double near = 1;
                 for (uint32_t m = 0; m < l.count; m++)
-                    near = fmin(near, fabs(l.at[m].u - f.u[i]) + fabs(l.at[m].v - f.v[i]));
+                    near =
+                        fmin(near, fabs(l.at[m].u - f.u[i]) + fabs(l.at[m].v - f.v[i]));
                 assert_true(near < 1e-5);
             }
             most = f.count > most ? f.count : most;
@@ -354,8 +361,9 @@ static void spline_ball(const char *kind, const double (*b)[4], double u, double
         if (kind[0] == 'l')
             out[k] = p0 + u * (p1 - p0);
         else if (kind[0] == 'c')
-            out[k] = p1 + u * ((p2 - p0) / 2 + u * (p0 - 2.5 * p1 + 2 * p2 - p3 / 2 +
-                                                    u * (-p0 + 3 * p1 - 3 * p2 + p3) / 2));
+            out[k] =
+                p1 + u * ((p2 - p0) / 2 + u * (p0 - 2.5 * p1 + 2 * p2 - p3 / 2 +
+                                               u * (-p0 + 3 * p1 - 3 * p2 + p3) / 2));
         else
             out[k] = (p0 + 4 * p1 + p2) / 6 +
                      u * ((p2 - p0) / 2 + u * ((p0 - 2 * p1 + p2) / 2 +
@@ -386,8 +394,8 @@ static void check_sweep(const char *kind, double scale, uint64_t *seed)
     const int segments = kind[0] == 'l' ? BALLS - 1 : BALLS - 3;
     for (int k = 0; k < 40; k++) {
         const struct vec3 d = vec3_normalize(in_cube(seed));
-        const struct ray r = {vec3_mad(vec3_scale(scale, in_cube(seed)), -5 * scale, d), d,
-                              -INFINITY, INFINITY};
+        const struct ray r = {vec3_mad(vec3_scale(scale, in_cube(seed)), -5 * scale, d),
+                              d, -INFINITY, INFINITY};
         double gap[64];
         l.count = 0;
         ops->intersect(shape, &r, &l);
@@ -397,7 +405,7 @@ static void check_sweep(const char *kind, double scale, uint64_t *seed)
         for (int n = 0; n <= segments * STEPS; n++) {
             double c[4];
             const int at = n / STEPS < segments ? n / STEPS : segments - 1;
-            spline_ball(kind, (const double (*)[4])b + at, n / (double)STEPS - at, c);
+            spline_ball(kind, (const double(*)[4])b + at, n / (double)STEPS - at, c);
             const struct vec3 to = vec3_sub(vec3(c[0], c[1], c[2]), r.o);
             const double tau = vec3_dot(to, d);
             const struct vec3 off = vec3_mad(to, -tau, d);
@@ -410,7 +418,8 @@ static void check_sweep(const char *kind, double scale, uint64_t *seed)
                 gap[i + 1] = fmin(gap[i + 1], fabs(tau + h - l.at[i + 1].t));
             }
             if (!held)
-                fail_msg("%s at scale %g: a ball sticks out of what ray %d met", kind, scale, k);
+                fail_msg("%s at scale %g: a ball sticks out of what ray %d met", kind,
+                         scale, k);
         }
         for (uint32_t i = 0; i < l.count; i++)
             if (gap[i] > .02 * scale)
@@ -469,7 +478,8 @@ static void height_field_is_watertight(void **state)
     for (int k = 0; k < 4000; k++) {
         const double i = 1 + (int)(7 * uniform(&seed)), j = 1 + (int)(5 * uniform(&seed));
         const double along = k % 3 ? uniform(&seed) : 0;
-        const double x = k % 2 ? i - along : i, z = k % 2 ? j + along : j + along * (k % 4 / 2);
+        const double x = k % 2 ? i - along : i,
+                     z = k % 2 ? j + along : j + along * (k % 4 / 2);
         struct vec3 top = vec3(fmax(0, fmin(8, x)) / 8, 2, fmax(0, fmin(6, z)) / 6);
         struct vec3 foot = vec3(top.x, -1, top.z);
         if (k % 5 == 0) // aslant over the grid lines
@@ -526,8 +536,10 @@ static void closest_is_the_first_crossing(void **state)
         {"superellipsoid", "<1.4,3>"},
         {"height_field", ""},
         {"height_field", "water_level .6"},
-        {"julia_fractal", "<-.083, 0, -.83, -.025> quaternion sqr max_iteration 6 precision 30"},
-        {"julia_fractal", "<.5, .2, .3, 0> hypercomplex sin max_iteration 5 precision 20"},
+        {"julia_fractal",
+         "<-.083, 0, -.83, -.025> quaternion sqr max_iteration 6 precision 30"},
+        {"julia_fractal",
+         "<.5, .2, .3, 0> hypercomplex sin max_iteration 5 precision 20"},
         {"bicubic_patch", "type 1 <-1,-1,.2>, <-.3,-1,1>, <.3,-1,-1>, <1,-1,.1>, "
                           "<-1,-.3,0>, <-.3,-.3,2>, <.3,-.3,-2>, <1,-.3,.3>, "
                           "<-1,.3,-.5>, <-.3,.3,1>, <.3,.3,-1>, <1,.3,0>, "
@@ -554,10 +566,10 @@ static void closest_is_the_first_crossing(void **state)
             const bool found = first_of(ops, shape, &r, &first);
             // Lanes come by other roundings to it.
             const double slack = want && ops->closest8 ? want->dt + first.dt : 0;
-            if (found != (want != NULL) || (want && (fabs(want->t - first.t) > slack ||
-                                                     want->part != first.part)))
-                fail_msg("%s { %s }: ray %d: %.17g, not %.17g", all[n].word, all[n].text, k,
-                         found ? first.t : NAN, want ? want->t : NAN);
+            if (found != (want != NULL) ||
+                (want && (fabs(want->t - first.t) > slack || want->part != first.part)))
+                fail_msg("%s { %s }: ray %d: %.17g, not %.17g", all[n].word, all[n].text,
+                         k, found ? first.t : NAN, want ? want->t : NAN);
             met += found;
         }
         assert_true(met > 50);

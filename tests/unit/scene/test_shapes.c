@@ -66,7 +66,8 @@ static const struct sample samples[] = {
     {"height_field", ""},
     {"height_field", "smooth water_level .5"},
     {"sphere_sweep", "linear_spline 2, <-1,0,0>, .5, <1,0,0>, .25"},
-    {"sphere_sweep", "linear_spline 3, <-.1,0,0>, 1, <.1,0,0>, 1, <1,.5,0>, 0 tolerance .1"},
+    {"sphere_sweep",
+     "linear_spline 3, <-.1,0,0>, 1, <.1,0,0>, 1, <1,.5,0>, 0 tolerance .1"},
     {"sphere_sweep", "cubic_spline 5, <-1.5,-1,0>, .2, <-.6,-.6,0>, .3, <0,.6,0>, .2, "
                      "<.7,-.6,0>, .1, <1.5,-1,0>, .2"},
     {"sphere_sweep", "b_spline 6, <-1.5,-1,0>, .2, <-.6,-.6,0>, .3, <0,.6,0>, .4, "
@@ -82,14 +83,16 @@ static const struct sample samples[] = {
                       "<.9,0,0>, <.9,0,.6>, <.6,0,.9>, <0,0,.9>"},
     {"isosurface", "function { x * x + y * y + z * z - 0.8 }"},
     {"isosurface", "function { square(sqrt(x * x + z * z) - 0.7) + y * y - 0.04 }"},
-    {"isosurface", "function { sin(6 * x) * cos(6 * y) + sin(6 * y) * cos(6 * z) + sin(6 * "
-                   "z) * cos(6 * x) } contained_by { sphere { <0, 0, 0>, 1 } }"},
+    {"isosurface",
+     "function { sin(6 * x) * cos(6 * y) + sin(6 * y) * cos(6 * z) + sin(6 * "
+     "z) * cos(6 * x) } contained_by { sphere { <0, 0, 0>, 1 } }"},
     {"isosurface", "function { larger(fabs(x), larger(fabs(y), fabs(z))) - 0.7 }"},
     {"isosurface", "function { y - 0.25 * sin(4 * x) } open"},
     {"parametric", "function { cos(x) * cos(y) } function { sin(y) } function { sin(x) * "
                    "cos(y) } <0, -1.57079632679>, <6.28318530718, 1.57079632679>"},
-    {"parametric", "function { x } function { 0.3 * sin(5 * x) * cos(4 * y) } function { y } "
-                   "<-1, -1>, <1, 1> precompute 18"},
+    {"parametric",
+     "function { x } function { 0.3 * sin(5 * x) * cos(4 * y) } function { y } "
+     "<-1, -1>, <1, 1> precompute 18"},
     {"text", NULL}, // needs a font file
 };
 
