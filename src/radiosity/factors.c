@@ -78,7 +78,8 @@ static double pair_of(struct factor_state *s, pair_function *pair, uint32_t i, u
         return 0;
     // From the smaller one: its points see the larger whole.
     const bool turned = a->area > b->area;
-    const double f = turned ? pair(s, j, i) : pair(s, i, j);
+    // No share is above one, whatever a quadrature finds where nodes nearly meet.
+    const double f = fmin(1, turned ? pair(s, j, i) : pair(s, i, j));
     if (f <= 0)
         return 0;
     const double seen = f * pair_visibility(s, i < j ? i : j, i < j ? j : i, f);
