@@ -33,7 +33,7 @@ title_of(scene) = scene eq "cube" ? "Cube" : scene eq "cornell" ? "Cornell box" 
 
 do for [scene in "cube cornell csg room"] {
   set yrange [2e-3:1]
-  set xrange [.05:20]
+  set xrange [.005:20]
   set xlabel "user CPU, s"
   set ylabel "relative rms error"
   set title title_of(scene).": form factors"
@@ -69,7 +69,7 @@ set title "Stability: steps of solvers, 96 patches"
 plot for [k=1:5] get("rho", solver(k)) u (1-$1):2 w lp ls k t solver(k)
 set xlabel "distance / size"
 set ylabel "relative error of F"
-set yrange [1e-9:1e5]
+set yrange [1e-9:1e2]
 set title "Stability: two squares coming close"
 plot for [k=1:6] get("distance", method(k)) u 1:2 w lp ls k t method(k)
 set xlabel "side of the square between two unit squares"
@@ -80,7 +80,7 @@ plot for [k=1:6] get("occluder", method(k)) u 1:2 w lp ls k t method(k)
 # ---- pictures
 p = data."/pictures.tsv"
 shown(scene, program) = sprintf("< awk -F'\\t' '$1==\"%s\" && $2==\"%s\" {print $5, $4}' %s | sort -g", scene, program, p)
-set xrange [.05:200]
+set xrange [.01:200]
 set yrange [5e-3:1]
 set xlabel "user CPU, s"
 set ylabel "relative rms error"
