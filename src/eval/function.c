@@ -311,21 +311,6 @@ static bool builtin(struct compiler *c, const struct ast *n, uint32_t *to)
 
 // ---- declared functions -------------------------------------------------------------
 
-static int part_of(enum word member)
-{
-    switch (member) {
-    case WORD_y:
-    case WORD_v:
-    case WORD_green: return 1;
-    case WORD_z:
-    case WORD_blue: return 2;
-    case WORD_t:
-    case WORD_filter: return 3;
-    case WORD_transmit: return 4;
-    default: return 0;
-    }
-}
-
 static uint32_t gray(struct compiler *c, const uint32_t *v)
 {
     static const double weight[] = {0.297, 0.589, 0.114};
@@ -344,7 +329,8 @@ static bool apply(struct compiler *c, const struct ast *n, enum word member, uin
     if (n->value->kind != VALUE_FUNCTION)
         return refuse(c, n, "a spline");
     const struct tape *f = function_tape(c->e, n->value);
-    const int part = part_of(member), count = count_list(n->list);
+    const int index = member_index(member), part = index > 0 ? index : 0; // 0: gray, too
+    const int count = count_list(n->list);
     if (part >= tape_width(f) || (member == WORD_NONE && tape_width(f) > 1))
         return refuse(c, n, member ? word_text(member) : "a vector");
     if (count != tape_arguments(f))

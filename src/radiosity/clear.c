@@ -6,48 +6,6 @@
 #include "scene/texture.h"
 #include "trace/accel.h"
 
-static bool color_is_clear(struct rgbft c)
-{
-    static const float rounding = 1e-6f; // of the sum
-    return c.filter + c.transmit >= 1 - rounding;
-}
-
-static bool pigment_is_clear(const struct pigment *p)
-{
-    switch (p->kind) {
-    case PIGMENT_SOLID: return color_is_clear(p->color);
-    case PIGMENT_COLORS:
-        for (uint32_t i = 0; i < p->colors->count; i++)
-            if (!color_is_clear(p->colors->color[i]))
-                return false;
-        return true;
-    case PIGMENT_MAP:
-    case PIGMENT_AVERAGE:
-    case PIGMENT_UV:
-        for (uint32_t i = 0; i < p->map->count; i++)
-            if (!pigment_is_clear(p->map->entry[i]))
-                return false;
-        return true;
-    case PIGMENT_NONE:
-    case PIGMENT_IMAGE: break;
-    }
-    return false;
-}
-
-static bool texture_is_clear(const struct texture *x)
-{
-    if (x->kind == TEXTURE_PLAIN) {
-        for (uint32_t i = 0; i < x->layer_count; i++)
-            if (!pigment_is_clear(x->layer[i].pigment))
-                return false;
-        return x->layer_count > 0;
-    }
-    for (uint32_t i = 0; i < x->map->count; i++)
-        if (!texture_is_clear(x->map->entry[i]))
-            return false;
-    return true;
-}
-
 static bool object_is_clear(const struct world *w, const struct world_object *o)
 {
     if (o->opaque || o->mixed)

@@ -91,24 +91,33 @@ static bool color_is_opaque(struct rgbft c)
     return fabsf(c.filter) < OPAQUE_LIMIT && fabsf(c.transmit) < OPAQUE_LIMIT;
 }
 
-static bool pigment_is_opaque(const struct pigment *p)
+static bool color_is_clear(struct rgbft c)
 {
+    static const float rounding = 1e-6f; // of the sum
+    return c.filter + c.transmit >= 1 - rounding;
+}
+
+// Whether all colours of the pigment are so; black, where it has none. An image is known only
+// to be opaque.
+static bool pigment_is(const struct pigment *p, bool (*color_is)(struct rgbft))
+{
+    static const struct rgbft black = {0};
     switch (p->kind) {
-    case PIGMENT_NONE: return true;
-    case PIGMENT_SOLID: return color_is_opaque(p->color);
+    case PIGMENT_NONE: return color_is(black);
+    case PIGMENT_SOLID: return color_is(p->color);
     case PIGMENT_COLORS:
         for (uint32_t i = 0; i < p->colors->count; i++)
-            if (!color_is_opaque(p->colors->color[i]))
+            if (!color_is(p->colors->color[i]))
                 return false;
         return true;
     case PIGMENT_MAP:
     case PIGMENT_AVERAGE:
     case PIGMENT_UV:
         for (uint32_t i = 0; i < p->map->count; i++)
-            if (!pigment_is_opaque(p->map->entry[i]))
+            if (!pigment_is(p->map->entry[i], color_is))
                 return false;
         return true;
-    case PIGMENT_IMAGE: return p->image->opaque;
+    case PIGMENT_IMAGE: return p->image->opaque && color_is(black);
     }
     return false;
 }
@@ -117,12 +126,26 @@ bool texture_is_opaque(const struct texture *x)
 {
     if (x->kind == TEXTURE_PLAIN) {
         for (uint32_t i = 0; i < x->layer_count; i++)
-            if (pigment_is_opaque(x->layer[i].pigment))
+            if (pigment_is(x->layer[i].pigment, color_is_opaque))
                 return true;
         return false;
     }
     for (uint32_t i = 0; i < x->map->count; i++)
         if (!texture_is_opaque(x->map->entry[i]))
+            return false;
+    return true;
+}
+
+bool texture_is_clear(const struct texture *x)
+{
+    if (x->kind == TEXTURE_PLAIN) {
+        for (uint32_t i = 0; i < x->layer_count; i++)
+            if (!pigment_is(x->layer[i].pigment, color_is_clear))
+                return false;
+        return x->layer_count > 0;
+    }
+    for (uint32_t i = 0; i < x->map->count; i++)
+        if (!texture_is_clear(x->map->entry[i]))
             return false;
     return true;
 }

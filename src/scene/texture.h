@@ -174,6 +174,8 @@ struct vec3 texture_entry_normal(const struct texture *x, struct vec3 n);
 bool texture_wants_uv(const struct texture *x);
 // Whether the texture can never let light through (spec/lighting.md 7.1).
 bool texture_is_opaque(const struct texture *x);
+// Whether it lets all light through, everywhere.
+bool texture_is_clear(const struct texture *x);
 
 // ---- interior -----------------------------------------------------------
 struct interior {

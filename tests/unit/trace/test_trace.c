@@ -21,12 +21,6 @@ static const struct texture_layer clear_layer = {.pigment = &clear, .finish = &m
 static const struct texture grey_texture = {.layer = &grey_layer, .layer_count = 1};
 static const struct texture clear_texture = {.layer = &clear_layer, .layer_count = 1};
 
-// Only until the library has its own.
-__attribute__((weak)) bool texture_is_opaque(const struct texture *x)
-{
-    return x->layer[0].pigment->color.transmit == 0;
-}
-
 // ---- scenes ---------------------------------------------------------------------
 
 struct fixture {
