@@ -13,6 +13,7 @@
 
 #include "base/arena.h"
 #include "math/bvh8.h"
+#include "math/next_float.h"
 
 enum {
     BINS = 16,
@@ -452,7 +453,7 @@ static void make_best_tree(struct builder *b, struct range all)
 static float round_down(double v)
 {
     float f = (float)v;
-    return (double)f > v ? nextafterf(f, -INFINITY) : f;
+    return (double)f > v ? float_below(f) : f;
 }
 
 static struct box placed(const struct builder *b, const struct aabb *box)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "math/next_float.h"
 #include "scene/shapes/isosurface.h"
 
 enum {
@@ -10,8 +11,9 @@ enum {
     DEPTH_SMOOTH = 3, // enough where the gradient hardly turns
 };
 
-// The gradient hardly turns in a cell whose bounds of it are this much smaller than itself.
-static const double SMOOTH = 0.35;
+// The gradient hardly turns in a cell whose bounds of it are this much smaller than itself. Halves
+// of a cell cost as much as a hundred rays through it: the last are made where little is known.
+static const double SMOOTH = 1, SMOOTH_AT_LAST = 4;
 // Slopes between samples of an opaque function are taken to be this much too small.
 static const double SAMPLE_MARGIN = 1.25;
 // Cells are widened by this share of their size's order: points on a ray are rounded.
@@ -38,12 +40,10 @@ struct iso_cell *iso_tree_new(struct arena *a)
     return root;
 }
 
-static float rounded_down(double v) { return nextafterf((float)v, -INFINITY); }
-static float rounded_up(double v) { return nextafterf((float)v, INFINITY); }
-
 // Whether the gradient points one way, more or less.
-static bool is_smooth(const struct interval *d)
+static bool is_smooth(const struct interval *d, int depth)
 {
+    const double most = depth == DEPTH_MAX - 1 ? SMOOTH_AT_LAST : SMOOTH;
     double size = 0, spread = 0;
     for (int i = 0; i < 3; i++) {
         const double m = interval_middle(d[i]), w = 0.5 * interval_width(d[i]);
@@ -52,7 +52,7 @@ static bool is_smooth(const struct interval *d)
         size += m * m;
         spread += w * w;
     }
-    return spread < SMOOTH * SMOOTH * size;
+    return spread < most * most * size;
 }
 
 static void set_kind(struct iso_cell *c, struct interval v, const struct interval *d,
@@ -63,12 +63,12 @@ static void set_kind(struct iso_cell *c, struct interval v, const struct interva
     else if (v.hi <= 0)
         c->kind = CELL_INSIDE;
     else
-        c->kind = depth >= DEPTH_MAX || (depth >= DEPTH_SMOOTH && is_smooth(d))
+        c->kind = depth >= DEPTH_MAX || (depth >= DEPTH_SMOOTH && is_smooth(d, depth))
                       ? CELL_LEAF
                       : CELL_BRANCH;
     for (int i = 0; i < 3; i++) {
-        c->slope[i][0] = rounded_down(d[i].lo);
-        c->slope[i][1] = rounded_up(d[i].hi);
+        c->slope[i][0] = float_below((float)d[i].lo);
+        c->slope[i][1] = float_above((float)d[i].hi);
     }
 }
 

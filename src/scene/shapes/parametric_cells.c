@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "math/next_float.h"
 #include "scene/shapes/parametric.h"
 
 enum { DEPTH_MAX = 5 };
@@ -56,8 +57,8 @@ struct uv_cell *uv_tree_new(struct arena *a, const struct parametric *p)
 
 static void set_range(float out[2], double lo, double hi)
 {
-    out[0] = nextafterf((float)lo, -INFINITY);
-    out[1] = nextafterf((float)hi, INFINITY);
+    out[0] = float_below((float)lo);
+    out[1] = float_above((float)hi);
 }
 
 // Bounds of function i over eight cells, by its own bounds and by the mean value form.

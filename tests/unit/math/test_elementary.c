@@ -7,6 +7,7 @@
 
 #include "math/acos_lanes.h"
 #include "math/elementary.h"
+#include "math/next_float.h"
 #include "math/power_lanes.h"
 
 typedef double (*fn)(double);
@@ -212,6 +213,30 @@ static void powers_in_lanes(void **state)
     }
 }
 
+static void assert_neighbours(float f)
+{
+    const float above = float_above(f), below = float_below(f);
+    const float want_above = nextafterf(f, INFINITY),
+                want_below = nextafterf(f, -INFINITY);
+    assert_memory_equal(&above, &want_above, sizeof above);
+    assert_memory_equal(&below, &want_below, sizeof below);
+}
+
+static void neighbours_of_floats(void **state)
+{
+    (void)state;
+    const float odd[] = {FLT_TRUE_MIN, FLT_MIN, FLT_MAX, INFINITY, 1, 0x1.fffffep0f};
+    uint64_t seed = 5;
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        assert_neighbours(odd[i]);
+        assert_neighbours(-odd[i]);
+    }
+    assert_true(float_above(0) == FLT_TRUE_MIN && float_below(0) == -FLT_TRUE_MIN);
+    assert_true(isnan(float_above(NAN)) && isnan(float_below(NAN)));
+    for (int i = 0; i < 10000; i++)
+        assert_neighbours((float)random_argument(&seed));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +247,7 @@ int main(void)
         cmocka_unit_test(special_values),
         cmocka_unit_test(acos_in_lanes),
         cmocka_unit_test(powers_in_lanes),
+        cmocka_unit_test(neighbours_of_floats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
