@@ -41,7 +41,7 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
                              .weight = (float)weight,
                              .trans = 1,
                              .filter = rgb_gray((float)weight)};
-    struct rgb filter = {1, 1, 1};
+    struct rgb filter = {1, 1, 1}, plain = {0, 0, 0};
     for (uint32_t i = x->layer_count; i-- > 0 && r.trans > job->adc_bailout;) {
         struct layer *l = layer_new(s);
         if (v->painted)
@@ -50,13 +50,8 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
             layer_eval(s->t, v, &x->layer[i], at, chain, true, l);
         l->filter = r.filter;
         l->trans = r.trans;
-        if (!job->lights) {
-            // The quickest levels show the plain colour of the top layer.
-            tracer_add(s->t, rgb_mul(rgb_mul(s->path->through, r.filter), l->color));
-            s->layer_count--;
-            return;
-        }
-        if (!s->dark)
+        plain = l->color;
+        if (!s->dark && job->lights)
             add_own(s, l);
         if (!l->found)
             continue;
@@ -71,6 +66,12 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
         filter = rgb_mul(filter, pass);
         r.filter = rgb_scale((float)weight, filter);
         r.trans = fminf(1, fabsf(rgb_grey(filter)));
+    }
+    if (!job->lights) {
+        // The quickest levels show the plain colour of the lowest layer that is seen.
+        s->layer_count = r.begin;
+        tracer_add(s->t, rgb_mul(s->path->through, rgb_scale((float)weight, plain)));
+        return;
     }
     r.end = s->layer_count;
     s->go_on(s, &r);

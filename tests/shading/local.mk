@@ -198,6 +198,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/not-built.txt \
 	%D%/271-layered-reflect.pov \
 	%D%/272-layer-cut.pov \
 	%D%/273-quality1.pov \
+	%D%/274-quality1-layers.pov \
 	%D%/274-quality1-quick.pov \
 	%D%/275-quality3.pov \
 	%D%/276-camera-normal.pov \
