@@ -358,6 +358,20 @@ static void run_middle(struct stream *s, struct token word)
                 word_text((enum word)word.word));
 }
 
+static bool starts_directive(enum word w)
+{
+    static const enum word other[] = {
+        WORD_else,   WORD_elseif,  WORD_end,   WORD_case,    WORD_range,
+        WORD_break,  WORD_declare, WORD_local, WORD_include, WORD_version,
+        WORD_debug,  WORD_warning, WORD_error, WORD_render,  WORD_statistics,
+        WORD_fopen,  WORD_fclose,  WORD_read,  WORD_write,   WORD_undef,
+        WORD_default};
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (w == other[i])
+            return true;
+    return opens(w);
+}
+
 // Returns the directive that is meant, WORD_NONE when none is near.
 static enum word unknown(struct stream *s, struct token word)
 {
@@ -446,8 +460,10 @@ static bool directive_assign(struct stream *s)
 
 void directive_run(struct stream *s, struct token hash)
 {
-    int next = raw_kind(s);
-    if (next < 256 && next != '#' && next != 0) { // POV-Ray passes over it too
+    const int next = raw_kind(s);
+    const enum word w = raw_word(s);
+    // Before other words and marks POV-Ray passes over it, too.
+    if ((w != WORD_NONE && !starts_directive(w)) || (next < 256 && next != 0)) {
         diag_at(s->diags, DIAG_LONE_HASH, hash.where, 0);
         return;
     }

@@ -39,6 +39,21 @@ void parse_undeclared(struct stream *s, const struct token *t, bool call)
     diag_hint(s->diags, DIAG_UNDECLARED, t->where, hint, (int)t->len, t->text);
 }
 
+// What stands for a word of other versions of the language.
+static const char *word_gone(const struct token *t)
+{
+    static const char *const gone[][2] = {
+        {"halo", "POV-Ray has no halos since 3.1: media in an interior replace them"},
+        {"glow", "a word of MegaPOV: emitting media in a hollow object come close"},
+        {"motion_blur", "a word of MegaPOV: average the frames of a short animation"},
+        {"dictionary", "a word of POV-Ray 3.8"},
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
+        if (strlen(gone[i][0]) == t->len && memcmp(gone[i][0], t->text, t->len) == 0)
+            return gone[i][1];
+    return NULL;
+}
+
 void parse_unknown_word(struct stream *s, const struct token *t, bool call)
 {
     // Once for each name: a macro whose include is missing is called many times.
@@ -46,12 +61,12 @@ void parse_unknown_word(struct stream *s, const struct token *t, bool call)
         return;
     if (call)
         stream_set_reported(s, t->text, t->len);
-    const char *hint = NULL, *near = NULL;
-    if (!call)
+    const char *hint = word_gone(t), *near = NULL;
+    if (!call && !hint)
         near = diag_closest(t->text, t->len, word_list(), WORD_COUNT - 1);
     if (near)
         hint = arena_printf(s->nodes, "did you mean '%s'?", near);
-    if (!near)
+    if (!hint)
         hint = undeclared_hint(s, t, call ? UNDECLARED_MACRO : UNDECLARED_VALUE, NULL);
     diag_hint(s->diags, DIAG_UNKNOWN_WORD, t->where, hint, (int)t->len, t->text);
 }
