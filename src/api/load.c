@@ -163,27 +163,42 @@ static void set_declarations(struct lambert_context *ctx, struct eval_options *o
     o->declare_count = (uint32_t)n;
 }
 
-// Where the picture goes, the scene may write too.
-static const char *output_folder(const struct lambert_context *ctx)
+static const char *folder_of(struct lambert_context *ctx, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? arena_strndup(ctx->scene_arena, path, (size_t)(slash + 1 - path))
+                 : ".";
+}
+
+// Where the picture goes: the scene's own files go there, too.
+static const char *output_folder(struct lambert_context *ctx, const char *scene)
 {
     const char *given = lambert_option_text(ctx, "output");
     struct stat s;
     if (!given || !*given)
-        return ".";
+        return folder_of(ctx, scene);
     if (given[strlen(given) - 1] == '/' || (stat(given, &s) == 0 && S_ISDIR(s.st_mode)))
         return given;
-    const char *slash = strrchr(given, '/');
-    if (!slash)
-        return ".";
-    return arena_strndup(ctx->scene_arena, given, (size_t)(slash + 1 - given));
+    return folder_of(ctx, given);
+}
+
+// Where else it may write.
+static void set_write_folders(struct lambert_context *ctx, struct eval_options *o)
+{
+    const char *const *given;
+    size_t n = lambert_option_list(ctx, "permit-write", &given);
+    const char **folder = arena_new_array(ctx->scene_arena, const char *, n + 1);
+    for (size_t i = 0; i < n; i++)
+        folder[i] = given[i];
+    folder[n++] = folder_of(ctx, o->input_name);
+    o->write_folder = folder;
+    o->write_folder_count = (uint32_t)n;
 }
 
 // Where it may read, none for anywhere.
-static void set_folders(struct lambert_context *ctx, struct eval_options *o)
+static void set_read_folders(struct lambert_context *ctx, struct eval_options *o)
 {
     const char *const *given;
-    o->write_folder_count =
-        (uint32_t)lambert_option_list(ctx, "permit-write", &o->write_folder);
     size_t n = lambert_option_list(ctx, "permit-read", &given);
     if (!n && !option_flag(ctx, "restrict-read"))
         return;
@@ -193,11 +208,8 @@ static void set_folders(struct lambert_context *ctx, struct eval_options *o)
         folder[i] = given[i];
     for (uint32_t i = 0; i < o->library_path_count; i++)
         folder[n++] = o->library_path[i];
-    const char *slash = strrchr(o->input_name, '/');
     folder[n++] = ".";
-    folder[n++] = slash ? arena_strndup(ctx->scene_arena, o->input_name,
-                                        (size_t)(slash + 1 - o->input_name))
-                        : ".";
+    folder[n++] = folder_of(ctx, o->input_name);
     o->read_folder = folder;
     o->read_folder_count = (uint32_t)n;
 }
@@ -228,7 +240,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .memory_max = (size_t)option_number(ctx, "max-parse-memory") << 20,
         .message = scene_text,
         .message_user = ctx,
-        .output_folder = output_folder(ctx),
+        .output_folder = output_folder(ctx, path),
     };
     ctx->files_read = NULL;
     if (ctx->state_path || gi_solution(ctx, true) || gi_solution(ctx, false)) {
@@ -237,7 +249,8 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
     }
     set_declarations(ctx, &o);
     set_library_path(ctx, &o);
-    set_folders(ctx, &o);
+    set_write_folders(ctx, &o);
+    set_read_folders(ctx, &o);
     return o;
 }
 

@@ -90,17 +90,16 @@ char *output_name(struct cmd *c, const char *scene, long frame, int digits, int 
         free(base);
         return text_format("%s", given);
     }
-    if (!given)
-        path = base;
+    const char *scene_slash = strrchr(scene, '/');
+    if (!given) // beside the scene, as POV-Ray has it
+        path = text_format("%.*s%s", scene_slash ? (int)(scene_slash + 1 - scene) : 0,
+                           scene, base);
     else if (is_directory(given))
         path = text_format("%s%s%s", given, given[strlen(given) - 1] == '/' ? "" : "/",
                            base);
-    if (path && path != base)
-        free(base);
-    else if (!path) {
-        free(base);
+    else
         path = text_format("%s", given);
-    }
+    free(base);
     if (frame >= 0)
         snprintf(number, sizeof number, "%0*ld", digits, frame);
     // A scene called a.png.pov makes a.png.png, as it must: only given names count.

@@ -5,6 +5,10 @@ small='+W32 +H24 -q'
 
 made() { rm -f "$1" && want=$1 && shift && exits 0 "$lambert" $small "$@" && test -s "$want"; }
 check "named after the scene" made sphere.png sphere.pov
+mkdir sub
+cp sphere.pov sub/lone.pov
+check "beside the scene, wherever that is" made sub/lone.png sub/lone.pov
+check "a name that is given is in the working folder" made named.png sub/lone.pov +Onamed
 check "the extension is added" made x.png sphere.pov -o x
 check "type from the name" made x.exr sphere.pov -o x.exr
 check "another extension stays" made x.5.png sphere.pov +Ox.5

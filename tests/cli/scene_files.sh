@@ -58,6 +58,8 @@ mkdir -p d/below other
 writes() { echo "#fopen F \"$1\" write #write(F,1)" >ok.pov; shift; exits 0 "$lambert" --dump-csg ok.pov "$@"; }
 check "a permitted folder" writes "$work/other/x" -o d/p.png --permit-write other
 check "it is written" test -s other/x
+check "the scene's own folder by its whole name" writes "$work/own" -o d/p.png
+check "it is written there" test -s own
 check "one of several" writes ../other/y -o d/p.png --permit-write d/below --permit-write "$work/other/"
 check "a folder whose name begins alike" outside "$work/other2/x" "cannot be opened\|may write in"
 mkdir other2 && echo '#declare Got = 3;' >other2/in.inc
