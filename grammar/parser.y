@@ -343,7 +343,10 @@ size:
 
 items:
     %empty                              { $$ = NULL; }
-  | items item                          { $$ = append($1, $2); }
+  | items item
+    {
+        $$ = parse_joins(p, $1, $2) ? $1 : append($1, $2);
+    }
   | items ','                           { $$ = $1; COMMA($1, @2); }
   ;
 

@@ -206,6 +206,11 @@ bool args_vectors(struct args *a, struct args_vectors *out)
     return true;
 }
 
+struct mesh_soup *args_faces(struct args *a)
+{
+    return a->at && a->at->kind == AST_FACES ? args_next(a)->faces : NULL;
+}
+
 bool args_at_number(struct args *a) { return a->at && ast_is_number(a->at); }
 
 bool args_at_vector(struct args *a)
@@ -234,7 +239,7 @@ struct args *args_block(struct args *a, const char *word)
     enum word w = args_at_block(a);
     if (w == WORD_NONE || strcmp(word_text(w), word) != 0)
         return NULL;
-    struct args *inner = arena_new_struct(a->b->e->parse, struct args);
+    struct args *inner = arena_new_struct(a->b->e->nodes, struct args);
     *inner = args_of(a->b, args_next(a), a);
     return inner;
 }
@@ -244,7 +249,7 @@ struct args *args_call(struct args *a, const char *word)
     const struct ast *n = a->at;
     if (!n || n->kind != AST_CALL || strcmp(word_text((enum word)n->word), word) != 0)
         return NULL;
-    struct args *inner = arena_new_struct(a->b->e->parse, struct args);
+    struct args *inner = arena_new_struct(a->b->e->nodes, struct args);
     *inner = args_of(a->b, args_next(a), a);
     return inner;
 }

@@ -114,7 +114,7 @@ static const char *closest_word(const char *text, size_t len, const enum word *k
 static const char *item_name(struct args *a, const struct ast *n)
 {
     if (n->kind == AST_WORD || n->kind == AST_BLOCK || n->kind == AST_CONSTANT ||
-        n->kind == AST_CALL)
+        n->kind == AST_CALL || n->kind == AST_FACES)
         return word_text((enum word)n->word);
     if ((n->kind == AST_UNDECLARED || n->kind == AST_VALUE) && n->text && n->len)
         return arena_strndup(a->b->e->parse, n->text, n->len);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "eval/build.h"
+#include "scene/shapes/mesh.h"
 
 // Which block word means what, and what belongs to a whole scene.
 
@@ -172,6 +173,14 @@ const struct value *builder_object(struct builder *b, const struct ast *block)
 {
     struct args top = args_list(b, block, block, "scene", NULL);
     return make(b, VALUE_OBJECT, build_object(&top, block));
+}
+
+void builder_face(struct builder *b, struct mesh_soup *mesh, const struct ast *block)
+{
+    struct args face = args_of(b, block, NULL);
+    mesh_soup_add(mesh, &face, block->word == WORD_smooth_triangle);
+    if (face.failed)
+        mesh_soup_fail(mesh);
 }
 
 static const void *copied(struct builder *b, const void *from, size_t size)

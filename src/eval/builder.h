@@ -13,6 +13,9 @@ struct builder *builder_new(struct eval *e);
 // A finished object block (sphere{}, union{}, object{}, light_source{} ...): an
 // AST_VALUE node holding the object, or NULL after an error.
 const struct value *builder_object(struct builder *b, const struct ast *block);
+// A triangle { } or smooth_triangle { } of a mesh that is being read.
+struct mesh_soup;
+void builder_face(struct builder *b, struct mesh_soup *mesh, const struct ast *block);
 // Any other block that can stand on a right side (texture, pigment, finish,
 // transform, camera, color_map ...). `items` may be several textures in a row.
 const struct value *builder_block(struct builder *b, const struct ast *items);

@@ -13,6 +13,7 @@
 #include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
+#include "scene/shapes/mesh.h"
 
 enum { SCOPES_MAX = 4200 };
 
@@ -453,6 +454,13 @@ static struct ast *finish(void *user, struct ast *n)
     return n;
 }
 
+static void *faces(void *user) { return mesh_soup_new(((struct eval *)user)->nodes); }
+
+static void face(void *user, void *mesh, const struct ast *block)
+{
+    builder_face(((struct eval *)user)->builder, mesh, block);
+}
+
 // ---- messages, version, files --------------------------------------------------
 
 static void tell(struct eval *e, enum word directive, const char *text)
@@ -595,6 +603,8 @@ struct stream_host eval_host(struct eval *e)
         .leave_scope = leave_scope,
         .bind_argument = bind_argument,
         .finish = finish,
+        .faces = faces,
+        .face = face,
         .message = message,
         .version = version,
         .may_go_on = may_go_on,

@@ -73,15 +73,25 @@ static void print_head(const struct ast *n, FILE *out)
 {
     char buffer[2];
     static const char *const kinds[] = {
-        [AST_NUMBER] = "number", [AST_STRING] = "string",
-        [AST_VALUE] = "value",   [AST_UNDECLARED] = "undeclared",
-        [AST_WORD] = "word",     [AST_CONSTANT] = "constant",
-        [AST_VECTOR] = "vector", [AST_VECTOR3] = "vector",
-        [AST_BULK] = "vectors",  [AST_UNARY] = "unary",
-        [AST_BINARY] = "binary", [AST_CONDITIONAL] = "conditional",
-        [AST_MEMBER] = "member", [AST_CALL] = "call",
-        [AST_APPLY] = "apply",   [AST_INDEX] = "index",
-        [AST_BLOCK] = "block",   [AST_ENTRY] = "entry",
+        [AST_NUMBER] = "number",
+        [AST_STRING] = "string",
+        [AST_VALUE] = "value",
+        [AST_UNDECLARED] = "undeclared",
+        [AST_WORD] = "word",
+        [AST_CONSTANT] = "constant",
+        [AST_VECTOR] = "vector",
+        [AST_VECTOR3] = "vector",
+        [AST_BULK] = "vectors",
+        [AST_FACES] = "faces",
+        [AST_UNARY] = "unary",
+        [AST_BINARY] = "binary",
+        [AST_CONDITIONAL] = "conditional",
+        [AST_MEMBER] = "member",
+        [AST_CALL] = "call",
+        [AST_APPLY] = "apply",
+        [AST_INDEX] = "index",
+        [AST_BLOCK] = "block",
+        [AST_ENTRY] = "entry",
     };
     fputs(kinds[n->kind], out);
     switch (n->kind) {
@@ -105,6 +115,7 @@ static void print_head(const struct ast *n, FILE *out)
         fprintf(out, " %.17g %.17g %.17g", n->vector[0], n->vector[1], n->vector[2]);
         break;
     case AST_BULK:
+    case AST_FACES:
     case AST_VECTOR:
     case AST_CONDITIONAL:
     case AST_ENTRY: break;

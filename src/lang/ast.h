@@ -38,8 +38,10 @@ enum ast_kind {
     AST_VECTOR,     // list: 2..5 components (more for matrix and poly)
     AST_VECTOR3,    // vector: three components, written as plain numbers
     AST_BULK,       // bulk: all vectors of a block of mesh2
-    AST_UNARY,      // op ('-' '!' '+'), left
-    AST_BINARY,     // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
+    AST_FACES, // faces: triangles of a mesh, one after the other, that were taken in; word: the
+               // first's
+    AST_UNARY,       // op ('-' '!' '+'), left
+    AST_BINARY,      // op ('+' '-' '*' '/' '<' '>' '=' '&' '|', OP_LE.. ), left, right
     AST_CONDITIONAL, // list: condition, if true, if false
     AST_MEMBER,      // left, word: .x .red .gray ...
     AST_CALL,        // word: a built-in function; list: arguments
@@ -71,6 +73,7 @@ struct ast {
         struct ast *left;
         const double *vector; // VECTOR3
         const struct bulk *bulk;
+        void *faces; // what stream_host.faces returned
     };
     union {
         struct ast *right;

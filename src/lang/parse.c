@@ -236,8 +236,27 @@ int parse_token(struct parse *p, struct span *where)
     return t->kind;
 }
 
+// The block that a triangle is one of the faces of; NULL: it is none.
+static struct parse_block *mesh_around(struct parse *p, enum word word)
+{
+    struct parse_block *outer = p->block_count ? &p->blocks[p->block_count - 1] : NULL;
+    const bool face = outer && !outer->entry && outer->word == WORD_mesh &&
+                      (word == WORD_triangle || word == WORD_smooth_triangle);
+    return face && p->in->host.face ? outer : NULL;
+}
+
+// Before anything is made of a block: what its faces go into stays when they are wound back.
+static void begin_faces(struct parse *p, enum word word)
+{
+    struct parse_block *mesh = mesh_around(p, word);
+    if (mesh && !mesh->faces)
+        mesh->faces = p->in->host.faces(p->in->host.user);
+}
+
 void parse_open(struct parse *p, enum word word, bool entry, struct span where)
 {
+    begin_faces(p, word);
+
     if (p->block_count == p->block_capacity) {
         p->block_capacity = p->block_capacity ? 2 * p->block_capacity : 8;
         p->blocks = realloc(p->blocks, p->block_capacity * sizeof *p->blocks);
@@ -245,7 +264,7 @@ void parse_open(struct parse *p, enum word word, bool entry, struct span where)
             abort();
     }
     p->blocks[p->block_count++] =
-        (struct parse_block){word, entry, p->function, where, arena_mark(p->arena)};
+        (struct parse_block){word, entry, p->function, where, arena_mark(p->arena), NULL};
     p->function = false;
 }
 
@@ -291,12 +310,40 @@ static struct ast *finish_block(struct stream *s, struct ast *node,
     return n;
 }
 
+// Takes a triangle of a mesh in, after which its text, made after the mark, is gone.
+static struct ast *take_face(struct parse *p, const struct parse_block *mesh,
+                             const struct ast *block, struct arena_mark mark)
+{
+    const struct span where = block->where;
+    const uint16_t word = block->word;
+    p->in->host.face(p->in->host.user, mesh->faces, block);
+    arena_rewind(p->arena, mark);
+    p->before_faces = mark;
+    struct ast *n = ast_new(p->arena, AST_FACES, where);
+    n->word = word;
+    n->faces = mesh->faces;
+    return n;
+}
+
+bool parse_joins(struct parse *p, struct ast *last, const struct ast *item)
+{
+    if (item->kind != AST_FACES || !last || last->kind != AST_FACES ||
+        item->faces != last->faces)
+        return false;
+    last->comma_after = 0;
+    arena_rewind(p->arena, p->before_faces);
+    return true;
+}
+
 // At a closing brace.
 struct ast *parse_close(struct parse *p, struct ast *node)
 {
     struct parse_block b = p->blocks[--p->block_count];
     p->function = b.function;
     enum word w = (enum word)node->word;
+    const struct parse_block *mesh = node->kind == AST_BLOCK ? mesh_around(p, w) : NULL;
+    if (mesh)
+        return take_face(p, mesh, node, b.mark);
     if (node->kind != AST_BLOCK || word_class(w) != CLASS_OBJECTS || is_part(p, w))
         return node;
     return finish_block(p->in, node, b.mark);
@@ -313,7 +360,13 @@ static struct ast *literal(struct stream *s, const struct token *t, bool part)
 
 struct ast *parse_literal(struct parse *p)
 {
-    return literal(p->in, p->now, is_part(p, (enum word)p->now->word));
+    const enum word w = (enum word)p->now->word;
+    begin_faces(p, w);
+    const struct parse_block *mesh = mesh_around(p, w);
+    if (!mesh)
+        return literal(p->in, p->now, is_part(p, w));
+    const struct arena_mark mark = arena_mark(p->arena);
+    return take_face(p, mesh, literal_read(p->arena, &p->in->words, p->now), mark);
 }
 
 struct ast *parse_finish(struct parse *p, struct ast *node)

@@ -12,6 +12,7 @@ struct parse_block {
     bool function; // we were in a function body outside
     struct span where;
     struct arena_mark mark;
+    void *faces; // of a mesh: stream_host.faces, from its first triangle on
 };
 
 // One run of the grammar. A directive inside an expression runs another one.
@@ -33,6 +34,7 @@ struct parse {
     struct token slot[2];
     struct parse_block *blocks;
     uint32_t block_count, block_capacity;
+    struct arena_mark before_faces; // the last AST_FACES
     struct ast *result;
 };
 
@@ -56,6 +58,8 @@ struct ast *parse_close(struct parse *p, struct ast *node);
 // Of the token looked at, a TOK_LITERAL.
 struct ast *parse_literal(struct parse *p);
 struct ast *parse_finish(struct parse *p, struct ast *node);
+// Whether an item is more of the one before it, which then stands for both.
+bool parse_joins(struct parse *p, struct ast *last, const struct ast *item);
 // After a value: it may not begin with a bare `t`, which POV-Ray takes for no value there.
 void parse_check_first(struct parse *p, const struct ast *value);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);

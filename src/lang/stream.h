@@ -144,6 +144,11 @@ struct stream_host {
     // subscripts. Blocks that only look like objects (the components of a blob,
     // triangles of a mesh, contained_by shapes, the object pattern) do not come here.
     struct ast *(*finish)(void *user, struct ast *node);
+    // The triangles of a mesh are taken in at their closing tokens, so that none waits for
+    // the last: faces begins such a list, which lives in the stream's arena, and face adds
+    // the finished block. Both NULL: they stay in the mesh's block.
+    void *(*faces)(void *user);
+    void (*face)(void *user, void *faces, const struct ast *block);
 
     // #debug #warning #error #render #statistics
     bool (*message)(void *user, enum word directive, struct span where, const char *text);

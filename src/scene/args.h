@@ -37,6 +37,10 @@ struct args_vectors {
 };
 bool args_vectors(struct args *a, struct args_vectors *out);
 
+// The triangles of a mesh that come next, which were read as they came; or NULL.
+struct mesh_soup;
+struct mesh_soup *args_faces(struct args *a);
+
 // True when the next item can start a number (an optional argument is there).
 bool args_at_number(struct args *a);
 // Whether the next number item is a vector (more than one component).

@@ -9,7 +9,7 @@ liblambert_a_SOURCES += \
 	%D%/shapes/isosurface.h %D%/shapes/isosurface_open.h %D%/shapes/isosurface_tree.c %D%/shapes/isosurface_walk.c \
 	%D%/shapes/extrude.c %D%/shapes/extrude.h %D%/shapes/frame.c %D%/shapes/frame.h \
 	%D%/shapes/height_field.c %D%/shapes/height_field.h %D%/shapes/julia.h %D%/shapes/julia_fractal.c %D%/shapes/julia_iterate.c \
-	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/outline.c %D%/shapes/outline.h \
+	%D%/shapes/lathe.c %D%/shapes/mesh.c %D%/shapes/mesh.h %D%/shapes/mesh_read.c %D%/shapes/mesh_read.h %D%/shapes/mesh_soup.c %D%/shapes/outline.c %D%/shapes/outline.h \
 	%D%/shapes/ovus.c %D%/shapes/ovus.h %D%/shapes/bicubic_patch.c %D%/shapes/patch.h %D%/shapes/patch_meet.c %D%/shapes/patch_pov.c \
 	%D%/shapes/patch_tree.c %D%/shapes/slabs.h %D%/shapes/plane.c %D%/shapes/plane.h %D%/shapes/poly.c %D%/shapes/poly.h %D%/shapes/poly_bounds.c %D%/shapes/poly_roots.c %D%/shapes/polygon.c %D%/shapes/prism.c \
 	%D%/shapes/quadric.c %D%/shapes/quadric.h %D%/shapes/revolve.c %D%/shapes/revolve.h \

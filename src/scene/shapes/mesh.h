@@ -42,6 +42,14 @@ static inline void mesh_corners(const struct mesh *m, uint32_t face, struct vec3
 // Builds the tree; faces without area are left out of it.
 void mesh_finish(struct mesh *m, struct arena *a);
 
+// A mesh { } while it is read, face by face; it is gone with the arena's memory.
+struct mesh_soup;
+struct mesh_soup *mesh_soup_new(struct arena *a);
+// What stands in triangle { } or smooth_triangle { }. After an error, which is reported, it
+// takes no more and there will be no mesh.
+void mesh_soup_add(struct mesh_soup *s, struct args *block, bool smooth);
+void mesh_soup_fail(struct mesh_soup *s);
+
 // The uses of a mesh as a shape: what mesh_ops and mesh2_ops have in common.
 struct aabb mesh_bounds(const void *shape);
 bool mesh_is_solid(const void *shape);

@@ -1,4 +1,4 @@
-// mesh { triangle {} smooth_triangle {} ... } and mesh2 { vertex_vectors {} ... }
+// mesh2 { vertex_vectors {} ... }, and what it has in common with mesh { } when read.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +8,7 @@
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/mesh.h"
+#include "scene/shapes/mesh_read.h"
 
 // An array that doubles in the arena.
 static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacity,
@@ -23,15 +24,13 @@ static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacit
     return p;
 }
 
-// Exporters write <0, 0, 0> where faces around a vertex cancel out. As in POV-Ray that is x;
-// how many there were is said once.
 static const double zero_normal_within = 1e-10;
 
-static struct vec3 normal_read(struct mesh *m, struct vec3 n)
+struct vec3 mesh_read_normal(struct vec3 n, uint32_t *zero_normals)
 {
     if (vec3_max_abs(n) >= zero_normal_within)
         return vec3_normalize(n);
-    m->zero_normals++;
+    ++*zero_normals;
     return vec3(1, 0, 0);
 }
 
@@ -51,7 +50,7 @@ static void *kept(struct arena *a, const void *from, size_t size)
     return memcpy(arena_alloc(a, size), from, size);
 }
 
-static bool finish(struct mesh *m, struct args *args)
+bool mesh_read_finish(struct mesh *m, struct args *args)
 {
     if (m->face_count == 0) {
         args_reject(args, "there are no triangles");
@@ -69,7 +68,7 @@ static bool finish(struct mesh *m, struct args *args)
     return true;
 }
 
-static bool read_inside_vector(struct mesh *m, struct args *args)
+bool mesh_read_inside_vector(struct mesh *m, struct args *args)
 {
     if (!args_vec3(args, "inside_vector", &m->inside_vector))
         return false;
@@ -77,191 +76,6 @@ static bool read_inside_vector(struct mesh *m, struct args *args)
     m->inside_vector = vec3_normalize(m->inside_vector);
     return true;
 }
-
-// ---- mesh -----------------------------------------------------------------------------
-
-// Rows of one size that grow by doubling outside the arena, where what they grew out of
-// would stay.
-struct rows {
-    void *at;
-    uint32_t count, capacity;
-};
-
-static void *rows_add(struct rows *r, size_t size)
-{
-    if (r->count == r->capacity) {
-        r->capacity = r->capacity ? 2 * r->capacity : 64;
-        r->at = realloc(r->at, r->capacity * size);
-        if (!r->at)
-            abort();
-    }
-    return (char *)r->at + r->count++ * size;
-}
-
-// What a mesh is read into; normals, uv coordinates and textures from the first triangle on
-// that has some: those before it are filled in.
-struct soup {
-    struct mesh *m;
-    struct arena *arena;
-    uint32_t textures_capacity;
-    struct rows vertex, normal, uv, face, face_normal, face_uv, face_texture;
-};
-
-// The number of a texture of the mesh, which gets it unless it has it.
-static uint32_t texture_number(struct mesh *m, struct arena *a, const struct texture *x,
-                               uint32_t *capacity)
-{
-    for (uint32_t i = m->texture_count; i-- > 0;)
-        if (m->texture[i] == x)
-            return i;
-    m->texture = grown(a, m->texture, m->texture_count, capacity, sizeof *m->texture);
-    m->texture[m->texture_count] = x;
-    return m->texture_count++;
-}
-
-// texture { T } or texture_list { T T T } of one triangle.
-static bool read_textures(struct soup *s, struct args *block, uint32_t out[3])
-{
-    const struct texture *x;
-    struct args *list = args_block(block, "texture_list");
-    out[0] = out[1] = out[2] = UINT32_MAX;
-    if (list) {
-        for (int i = 0; i < 3; i++) {
-            if (!(x = args_texture(list))) {
-                args_reject(list, "three declared textures are expected");
-                return false;
-            }
-            out[i] = texture_number(s->m, s->arena, x, &s->textures_capacity);
-        }
-    } else if ((x = args_texture(block))) {
-        out[0] = out[1] = out[2] =
-            texture_number(s->m, s->arena, x, &s->textures_capacity);
-    }
-    if (args_end(block) && !args_at_texture(block))
-        return true;
-    args_reject(block, "after the corners of a triangle only uv_vectors, texture { } and "
-                       "texture_list { } may follow");
-    return false;
-}
-
-typedef uint32_t corners[3];
-
-// The row of the face that was just added, in what not all faces have.
-static uint32_t *face_row(const struct soup *s, struct rows *r, uint32_t others)
-{
-    corners *row = NULL;
-    while (r->count < s->face.count) {
-        row = rows_add(r, sizeof *row);
-        (*row)[0] = (*row)[1] = (*row)[2] = others;
-    }
-    return row ? *row : NULL;
-}
-
-static void add_normals(struct soup *s, const struct vec3 n[3])
-{
-    uint32_t *row = face_row(s, &s->face_normal, UINT32_MAX);
-    for (int i = 0; i < 3; i++) {
-        row[i] = s->normal.count;
-        *(struct vec3 *)rows_add(&s->normal, sizeof *n) = normal_read(s->m, n[i]);
-    }
-}
-
-// Corner 0 of the uv coordinates is that of triangles without.
-static void add_uv(struct soup *s, const struct vec2 uv[3])
-{
-    if (!s->uv.count)
-        *(struct vec2 *)rows_add(&s->uv, sizeof *uv) = (struct vec2){0, 0};
-    uint32_t *row = face_row(s, &s->face_uv, 0);
-    for (int i = 0; i < 3; i++) {
-        row[i] = s->uv.count;
-        *(struct vec2 *)rows_add(&s->uv, sizeof *uv) = uv[i];
-    }
-}
-
-static bool read_triangle(struct soup *s, struct args *block, bool smooth)
-{
-    struct vec3 p[3], n[3];
-    struct vec2 uv[3];
-    uint32_t texture[3];
-    for (int i = 0; i < 3; i++)
-        if (!args_vec3(block, "corner", &p[i]) ||
-            (smooth && !args_vec3(block, "normal", &n[i])))
-            return false;
-    const bool mapped = args_word(block, "uv_vectors");
-    for (int i = 0; i < 3 && mapped; i++)
-        if (!args_vec2(block, "uv vector", &uv[i]))
-            return false;
-    uint32_t *face = rows_add(&s->face, sizeof(corners));
-    for (int i = 0; i < 3; i++) {
-        face[i] = s->vertex.count;
-        *(struct vec3 *)rows_add(&s->vertex, sizeof *p) = p[i];
-    }
-    if (smooth)
-        add_normals(s, n);
-    if (mapped)
-        add_uv(s, uv);
-    if (!read_textures(s, block, texture))
-        return false;
-    if (texture[0] != UINT32_MAX)
-        memcpy(face_row(s, &s->face_texture, UINT32_MAX), texture, sizeof texture);
-    return true;
-}
-
-static bool read_soup(struct soup *s, struct args *args)
-{
-    for (;;) {
-        struct args *block;
-        if ((block = args_block(args, "triangle"))) {
-            if (!read_triangle(s, block, false))
-                return false;
-        } else if ((block = args_block(args, "smooth_triangle"))) {
-            if (!read_triangle(s, block, true))
-                return false;
-        } else if (args_word(args, "inside_vector")) {
-            if (!read_inside_vector(s->m, args))
-                return false;
-        } else {
-            return true;
-        }
-    }
-}
-
-// The rows in the arena; NULL when there are none. Frees them.
-static void *rows_keep(struct rows *r, struct arena *a, size_t size)
-{
-    void *all = r->count ? kept(a, r->at, r->count * size) : NULL;
-    free(r->at);
-    return all;
-}
-
-static bool build_mesh(void *shape, struct args *args)
-{
-    struct mesh *m = shape;
-    struct arena *a = args_arena(args);
-    struct soup s = {.m = m, .arena = a};
-    const bool ok = read_soup(&s, args);
-    // Of what not all have, the faces after the last that has some.
-    if (s.face_normal.count)
-        face_row(&s, &s.face_normal, UINT32_MAX);
-    if (s.face_uv.count)
-        face_row(&s, &s.face_uv, 0);
-    if (s.face_texture.count)
-        face_row(&s, &s.face_texture, UINT32_MAX);
-    m->vertex_count = s.vertex.count;
-    m->normal_count = s.normal.count;
-    m->uv_count = s.uv.count;
-    m->face_count = s.face.count;
-    m->vertex = rows_keep(&s.vertex, a, sizeof *m->vertex);
-    m->normal = rows_keep(&s.normal, a, sizeof *m->normal);
-    m->uv = rows_keep(&s.uv, a, sizeof *m->uv);
-    m->face = rows_keep(&s.face, a, sizeof *m->face);
-    m->face_normal = rows_keep(&s.face_normal, a, sizeof *m->face_normal);
-    m->face_uv = rows_keep(&s.face_uv, a, sizeof *m->face_uv);
-    m->face_texture = rows_keep(&s.face_texture, a, sizeof *m->face_texture);
-    return ok && finish(m, args);
-}
-
-// ---- mesh2 -----------------------------------------------------------------------------
 
 static bool read_count(struct args *block, uint32_t *out)
 {
@@ -462,34 +276,17 @@ static bool build_mesh2(void *shape, struct args *args)
         else if ((block = args_block(args, "normal_indices")))
             ok = read_indices(block, a, m->normal_count, NULL, &m->face_normal, &normals);
         else if (args_word(args, "inside_vector"))
-            ok = read_inside_vector(m, args);
+            ok = mesh_read_inside_vector(m, args);
         else
             break;
         if (!ok)
             return false;
     }
     for (uint32_t i = 0; i < m->normal_count; i++)
-        m->normal[i] = normal_read(m, m->normal[i]);
+        m->normal[i] = mesh_read_normal(m->normal[i], &m->zero_normals);
     return default_indices(m, args, false, uvs, &m->face_uv) &&
-           default_indices(m, args, true, normals, &m->face_normal) && finish(m, args);
+           default_indices(m, args, true, normals, &m->face_normal) &&
+           mesh_read_finish(m, args);
 }
 
-#define MESH_OPS(word)                                                                   \
-    const struct shape_ops word##_ops = {                                                \
-        .keyword = #word,                                                                \
-        .size = sizeof(struct mesh),                                                     \
-        .flags = SHAPE_BOUNDED | SHAPE_HIERARCHY | SHAPE_UV | SHAPE_FLAT,                \
-        .build = build_##word,                                                           \
-        .bounds = mesh_bounds,                                                           \
-        .is_solid = mesh_is_solid,                                                       \
-        .inside = mesh_inside,                                                           \
-        .intersect = mesh_intersect,                                                     \
-        .closest = mesh_closest,                                                         \
-        .surface = mesh_surface,                                                         \
-        .texture = mesh_texture,                                                         \
-        .textures_at = mesh_textures_at,                                                 \
-        .print = mesh_print,                                                             \
-    }
-
-MESH_OPS(mesh);
 MESH_OPS(mesh2);

@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "eval/eval.h"
+#include "scene/shapes/mesh.h"
 
 static void ignore(void *user, const struct diag *d)
 {
@@ -69,12 +70,71 @@ static void misplaced_items_are_errors(void **state)
     arena_free(a);
 }
 
+static const struct mesh *only_mesh(const struct scene *s)
+{
+    assert_int_equal(s->object_count, 1);
+    return s->object[0]->shape;
+}
+
+// However its triangles come: all of them, with what they have in common once.
+static void meshes_keep_corners_once(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    struct scene s = {0};
+    const char *text =
+        "#declare T = texture { pigment { rgb x } }\n"
+        "#macro Face(P) smooth_triangle { 0, y, x, y, P, y texture { T } } #end\n"
+        "mesh { inside_vector y triangle { <0,0,0>, <1,0,0>, <0,1,0> },\n"
+        "  triangle { <0,0,0>, <0,1,0>, <0,0,1> uv_vectors <0,0>, <1,0>, <1,1> }\n"
+        "  #for (I, 1, 300) Face(z) #end triangle { x, y, z texture { pigment { rgb y } "
+        "} }"
+        "  pigment { rgb 1 } }";
+    assert_int_equal(read_scene(a, text, &s), 0);
+    const struct mesh *m = only_mesh(&s);
+    assert_int_equal(m->face_count, 303);
+    assert_int_equal(m->vertex_count, 4);
+    assert_int_equal(m->normal_count, 1);
+    assert_int_equal(m->uv_count, 3);
+    assert_int_equal(m->texture_count, 2);
+    assert_int_equal(m->face_normal[1][0], UINT32_MAX);
+    assert_int_equal(m->face_normal[2][0], 0);
+    assert_int_equal(m->face_normal[302][0], UINT32_MAX);
+    assert_int_equal(m->face_texture[1][0], UINT32_MAX);
+    assert_int_equal(m->face_texture[301][2], 0);
+    assert_int_equal(m->face_texture[302][0], 1);
+    assert_near(m->uv[m->face_uv[0][0]].u, 0, 0);
+    assert_near(m->uv[m->face_uv[1][2]].v, 1, 0);
+    assert_true(m->solid);
+    const uint32_t *first = m->face[0], *last = m->face[302];
+    assert_true(first[0] == 0 && first[1] == 1 && first[2] == 2);
+    assert_true(last[0] == 1 && last[1] == 2 && last[2] == 3);
+    arena_free(a);
+}
+
+static void a_wrong_triangle_is_one_error(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    struct scene s = {0};
+    const char *first = "mesh { triangle { 0, \"a\", x } triangle { 0, \"b\", x } }";
+    assert_int_equal(read_scene(a, first, &s), 1);
+    const char *texture = "mesh { triangle { 0, x, y texture { pigment { A } } } }";
+    assert_int_equal(read_scene(a, texture, &s), 1);
+    const char *late =
+        "mesh { triangle { 0, x, y } pigment { rgb 1 } triangle { 0, x, z } }";
+    assert_int_equal(read_scene(a, late, &s), 1);
+    arena_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modifiers_act_in_written_order),
         cmocka_unit_test(camera_items_combine_in_a_fixed_order),
         cmocka_unit_test(misplaced_items_are_errors),
+        cmocka_unit_test(meshes_keep_corners_once),
+        cmocka_unit_test(a_wrong_triangle_is_one_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

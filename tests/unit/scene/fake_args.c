@@ -11,6 +11,7 @@
 #include "image/texels.h"
 #include "math/transform.h"
 #include "scene/args.h"
+#include "scene/shapes/mesh.h"
 
 struct args {
     const char *at;
@@ -128,6 +129,19 @@ struct args *args_block(struct args *a, const char *word)
     inner->parent = a;
     a->at = end;
     return inner;
+}
+
+struct mesh_soup *args_faces(struct args *a)
+{
+    struct mesh_soup *all = NULL;
+    for (;;) {
+        struct args *flat = args_block(a, "triangle");
+        struct args *smooth = flat ? NULL : args_block(a, "smooth_triangle");
+        if (!flat && !smooth)
+            return all;
+        all = all ? all : mesh_soup_new(a->arena);
+        mesh_soup_add(all, flat ? flat : smooth, smooth);
+    }
 }
 
 // Contents up to the closing bracket, and the number behind a colon.
