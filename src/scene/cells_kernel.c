@@ -13,13 +13,15 @@
 
 // Past this a coordinate is near the end of the integers.
 #define NOISE_FAR 4611686018427387904.0
+// Below this a cell and the next are one apart.
+#define CELLS_NEAR 0x1p50
 
 enum { REACH = 2, SLABS = 2 * REACH + 1, ALL_SLABS = 3 };
 
+// `shared`, below: all lanes are in the cell of the first.
 struct cells8 {
-    struct vec8 at;
-    const double *cell;
-    unsigned hash_xy[SLABS][SLABS], z[SLABS];
+    struct vec8 at, cell;
+    unsigned column[SLABS][SLABS][8], z[SLABS][8]; // what they hash to, by lane
     double least[ALL_SLABS][SLABS][8]; // by axis and slab: what a sum is at least
     unsigned near[ALL_SLABS][SLABS];   // the lanes that a slab may be near enough for
     unsigned lanes;
@@ -37,12 +39,13 @@ static inline unsigned wrapped(double v)
     return (unsigned)(fabs(v) < NOISE_FAR ? (int64_t)v : 0) & 4095;
 }
 
-LANES_INLINE void bound_slabs(struct cells8 *s, int axis, struct real8 at, int metric)
+LANES_INLINE void bound_slabs(struct cells8 *s, int axis, struct real8 cell,
+                              struct real8 at, int metric)
 {
     for (int i = 0; i < SLABS; i++) {
-        const double low = s->cell[axis] + (i - REACH);
-        const struct real8 over = r8_sub(r8_set(low), at),
-                           under = r8_sub(at, r8_set(low + 1)), zero = r8_set(0);
+        const struct real8 low = r8_add(cell, r8_set(i - REACH)), zero = r8_set(0);
+        const struct real8 over = r8_sub(low, at),
+                           under = r8_sub(at, r8_add(low, r8_set(1)));
         const struct real8 e = r8_max(zero, r8_max(over, under));
         r8_store(s->least[axis][i], metric == 2 ? r8_mul(e, e) : e);
     }
@@ -60,14 +63,14 @@ LANES_INLINE struct real8 most_of(const struct found8 *f, int count)
     return count == 1 ? f->sum[0] : count == 2 ? f->sum[1] : f->sum[2];
 }
 
-LANES_INLINE void keep8(struct found8 *f, struct real8 sum, struct vec3 q, int rank,
+LANES_INLINE void keep8(struct found8 *f, struct real8 sum, struct vec8 q, int rank,
                         bool place)
 {
     if (place) { // of equal ones that of the cell which is first in lexical order
         const struct mask8 nearer =
             m8_or(r8_lt(sum, f->sum[0]),
                   m8_and(r8_eq(sum, f->sum[0]), r8_lt(r8_set(rank), f->rank)));
-        f->place = v8_select(nearer, V8_SET(q), f->place);
+        f->place = v8_select(nearer, q, f->place);
         f->rank = r8_select(nearer, r8_set(rank), f->rank);
         f->sum[0] = r8_min(f->sum[0], sum);
         return;
@@ -78,8 +81,75 @@ LANES_INLINE void keep8(struct found8 *f, struct real8 sum, struct vec3 q, int r
     f->sum[2] = r8_min(f->sum[2], third);
 }
 
+// ---- the points of cells --------------------------------------------------------------
+
+// Three random numbers from each place in their table on.
+#if defined(__AVX2__)
+LANES_INLINE struct real8 fraction8(__m256i r)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    const struct real8 whole = {_mm512_cvtepu32_pd(r)};
+#else
+    const __m256i half = _mm256_xor_si256(r, _mm256_set1_epi32(INT32_MIN));
+    const struct real8 whole =
+        r8_add((struct real8){_mm256_cvtepi32_pd(_mm256_castsi256_si128(half)),
+                              _mm256_cvtepi32_pd(_mm256_extracti128_si256(half, 1))},
+               r8_set(0x1p31));
+#endif
+    return r8_mul(whole, r8_set(0x1p-32));
+}
+
+LANES_INLINE struct vec8 random8(const unsigned n[8])
+{
+    __m256i row[4];
+    for (int i = 0; i < 4; i++)
+        row[i] = _mm256_inserti128_si256(
+            _mm256_castsi128_si256(
+                _mm_loadu_si128((const __m128i *)(noise_random_table + n[i]))),
+            _mm_loadu_si128((const __m128i *)(noise_random_table + n[i + 4])), 1);
+    const __m256i a = _mm256_unpacklo_epi32(row[0], row[1]),
+                  b = _mm256_unpacklo_epi32(row[2], row[3]),
+                  c = _mm256_unpackhi_epi32(row[0], row[1]),
+                  d = _mm256_unpackhi_epi32(row[2], row[3]);
+    return (struct vec8){fraction8(_mm256_unpacklo_epi64(a, b)),
+                         fraction8(_mm256_unpackhi_epi64(a, b)),
+                         fraction8(_mm256_unpacklo_epi64(c, d))};
+}
+#else
+LANES_INLINE struct vec8 random8(const unsigned n[8])
+{
+    double v[3][8];
+    for (int i = 0; i < 8; i++)
+        for (int a = 0; a < 3; a++)
+            v[a][i] = noise_random_table[n[i] + a] * 0x1p-32;
+    return v8_load((const double(*)[8])v);
+}
+#endif
+
+LANES_INLINE struct vec8 point8(const struct cells8 *s, int i, int j, int k, bool shared)
+{
+    const unsigned *column = s->column[i][j], *z = s->z[k];
+    struct vec8 r;
+    if (shared) {
+        const uint32_t *t = noise_random_table + noise_hash_table[column[0] ^ z[0]];
+        const struct vec3 one = vec3(t[0] * 0x1p-32, t[1] * 0x1p-32, t[2] * 0x1p-32);
+        r = V8_SET(one);
+    } else {
+        unsigned n[8];
+        for (int l = 0; l < 8; l++)
+            n[l] = noise_hash_table[column[l] ^ z[l]];
+        r = random8(n);
+    }
+    return (struct vec8){r8_add(r8_add(s->cell.x, r8_set(i - REACH)), r.x),
+                         r8_add(r8_add(s->cell.y, r8_set(j - REACH)), r.y),
+                         r8_add(r8_add(s->cell.z, r8_set(k - REACH)), r.z)};
+}
+
+// ---- the search -----------------------------------------------------------------------
+
 LANES_INLINE void visit8(const struct cells8 *s, struct found8 *f,
-                         const unsigned char at[3], int metric, int count, bool place)
+                         const unsigned char at[3], int metric, int count, bool place,
+                         bool shared)
 {
     const int i = at[0], j = at[1], k = at[2];
     if (!(s->near[0][i] & s->near[1][j] & s->near[2][k]))
@@ -89,12 +159,7 @@ LANES_INLINE void visit8(const struct cells8 *s, struct found8 *f,
                r8_load(s->least[2][k]));
     if (!counts(s, least, most_of(f, count), place))
         return;
-    const unsigned n = noise_hash_table[s->hash_xy[i][j] ^ s->z[k]];
-    const uint32_t *r = noise_random_table + n;
-    const struct vec3 q = vec3(s->cell[0] + (i - REACH) + r[0] * 0x1p-32,
-                               s->cell[1] + (j - REACH) + r[1] * 0x1p-32,
-                               s->cell[2] + (k - REACH) + r[2] * 0x1p-32);
-    const struct vec8 e = v8_sub(V8_SET(q), s->at);
+    const struct vec8 q = point8(s, i, j, k, shared), e = v8_sub(q, s->at);
     keep8(f,
           metric == 2 ? v8_dot(e, e)
                       : r8_add(r8_add(r8_abs(e.x), r8_abs(e.y)), r8_abs(e.z)),
@@ -118,7 +183,7 @@ static const unsigned char inner[27][3] = {
 enum { FACES_END = 7 };
 
 LANES_INLINE void visit_far8(const struct cells8 *s, struct found8 *f, int axis, int slab,
-                             int metric, int count, bool place)
+                             int metric, int count, bool place, bool shared)
 {
     if (!s->near[axis][slab])
         return;
@@ -128,57 +193,127 @@ LANES_INLINE void visit_far8(const struct cells8 *s, struct found8 *f, int axis,
             at[axis] = (unsigned char)slab;
             at[axis == 0] = (unsigned char)u;
             at[2 - (axis == 2)] = (unsigned char)v;
-            visit8(s, f, at, metric, count, place);
+            visit8(s, f, at, metric, count, place, shared);
         }
 }
 
-LANES_INLINE void search8(struct cells8 *s, struct found8 *f, int metric, int count,
-                          bool place)
+// What the cells along x and y hash to and are numbered, from slab to slab.
+struct numbers8 {
+    unsigned x[SLABS][8], y[SLABS][8];
+};
+
+// What the columns along z of the slabs from..to hash to.
+LANES_INLINE void hash_columns(struct cells8 *s, const struct numbers8 *n, int from,
+                               int to, int lanes)
 {
-    bound_slabs(s, 0, s->at.x, metric);
-    bound_slabs(s, 1, s->at.y, metric);
-    bound_slabs(s, 2, s->at.z, metric);
+    for (int i = from; i <= to; i++)
+        for (int j = from; j <= to; j++)
+            for (int l = 0; l < lanes; l++)
+                s->column[i][j][l] = noise_hash_table[n->x[i][l] ^ n->y[j][l]];
+}
+
+LANES_INLINE void search8(struct cells8 *s, const struct numbers8 *n, struct found8 *f,
+                          int metric, int count, bool place, bool shared)
+{
+    bound_slabs(s, 0, s->cell.x, s->at.x, metric);
+    bound_slabs(s, 1, s->cell.y, s->at.y, metric);
+    bound_slabs(s, 2, s->cell.z, s->at.z, metric);
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < SLABS; i++)
             s->near[a][i] = s->lanes;
+    hash_columns(s, n, 1, SLABS - 2, shared ? 1 : 8);
     for (int i = 0; i < FACES_END; i++)
-        visit8(s, f, inner[i], metric, count, place);
+        visit8(s, f, inner[i], metric, count, place, shared);
     find_near(s, f, count, place);
     for (int i = FACES_END; i < 27; i++)
-        visit8(s, f, inner[i], metric, count, place);
+        visit8(s, f, inner[i], metric, count, place, shared);
     find_near(s, f, count, place);
+    unsigned far = 0;
+    for (int a = 0; a < 3; a++)
+        far |= s->near[a][0] | s->near[a][SLABS - 1];
+    if (!far)
+        return;
+    hash_columns(s, n, 0, SLABS - 1, shared ? 1 : 8);
     for (int axis = 0; axis < 3; axis++) {
-        visit_far8(s, f, axis, 0, metric, count, place);
-        visit_far8(s, f, axis, SLABS - 1, metric, count, place);
+        visit_far8(s, f, axis, 0, metric, count, place, shared);
+        visit_far8(s, f, axis, SLABS - 1, metric, count, place, shared);
     }
 }
 
-static void search_places(struct cells8 *s, struct found8 *f, int metric)
+LANES_INLINE void search_sums(struct cells8 *s, const struct numbers8 *n,
+                              struct found8 *f, int metric, int count, bool place,
+                              bool shared)
 {
-    if (metric == 2)
-        search8(s, f, 2, 1, true);
+    if (metric == 2 && place)
+        search8(s, n, f, 2, 1, true, shared);
+    else if (metric == 2)
+        search8(s, n, f, 2, count, false, shared);
+    else if (place)
+        search8(s, n, f, 1, 1, true, shared);
     else
-        search8(s, f, 1, 1, true);
+        search8(s, n, f, 1, count, false, shared);
 }
 
-static void search_sums(struct cells8 *s, struct found8 *f, int metric, int count)
+// By one cell, that of a lane.
+static void search_shared(struct cells8 *s, int lane, struct found8 *f, int metric,
+                          int count, bool place)
 {
-    if (metric == 2)
-        search8(s, f, 2, count, false);
-    else
-        search8(s, f, 1, count, false);
-}
-
-// Of `lanes` those in the cell of the first.
-LANES_INLINE unsigned sharing(const double p[3][8], unsigned lanes, double cell[3])
-{
-    const int first = __builtin_ctz(lanes);
-    for (int a = 0; a < 3; a++) {
-        const struct real8 c = r8_floor(r8_sub(r8_load(p[a]), r8_set(PATTERN_EDGE)));
-        cell[a] = floor(p[a][first] - PATTERN_EDGE);
-        lanes &= m8_bits(r8_eq(c, r8_set(cell[a])));
+    struct numbers8 n;
+    double cell[3][8];
+    v8_store(cell, s->cell);
+    for (int i = 0; i < SLABS; i++) {
+        n.x[i][0] = noise_hash_table[wrapped(cell[0][lane] + (i - REACH))];
+        n.y[i][0] = wrapped(cell[1][lane] + (i - REACH));
+        s->z[i][0] = wrapped(cell[2][lane] + (i - REACH));
     }
-    return lanes | 1u << first; // no numbers are not the same
+    const struct vec3 one = vec3(cell[0][lane], cell[1][lane], cell[2][lane]);
+    s->cell = f->place = V8_SET(one);
+    search_sums(s, &n, f, metric, count, place, true);
+}
+
+// Each lane by its own; numbers of cells near enough that the next are one more.
+static void search_scattered(struct cells8 *s, struct found8 *f, int metric, int count,
+                             bool place)
+{
+    struct numbers8 n;
+    double cell[3][8];
+    v8_store(cell, s->cell);
+    for (int l = 0; l < 8; l++) {
+        const bool in = s->lanes >> l & 1;
+        const int64_t x = in ? (int64_t)cell[0][l] : 0, y = in ? (int64_t)cell[1][l] : 0,
+                      z = in ? (int64_t)cell[2][l] : 0;
+        for (int i = 0; i < SLABS; i++) {
+            n.x[i][l] = noise_hash_table[(unsigned)(x + i - REACH) & 4095];
+            n.y[i][l] = (unsigned)(y + i - REACH) & 4095;
+            s->z[i][l] = (unsigned)(z + i - REACH) & 4095;
+        }
+    }
+    search_sums(s, &n, f, metric, count, place, false);
+}
+
+LANES_INLINE struct vec8 cells_of(struct vec8 at)
+{
+    const struct real8 edge = r8_set(PATTERN_EDGE);
+    return (struct vec8){r8_floor(r8_sub(at.x, edge)), r8_floor(r8_sub(at.y, edge)),
+                         r8_floor(r8_sub(at.z, edge))};
+}
+
+LANES_INLINE unsigned near_lanes(struct vec8 at)
+{
+    const struct real8 most = r8_set(CELLS_NEAR);
+    return m8_bits(m8_and(m8_and(r8_lt(r8_abs(at.x), most), r8_lt(r8_abs(at.y), most)),
+                          r8_lt(r8_abs(at.z), most)));
+}
+
+// Of `lanes` those in the cell of one of them.
+LANES_INLINE unsigned sharing(struct vec8 c, unsigned lanes, int lane)
+{
+    double cell[3][8];
+    v8_store(cell, c);
+    const struct mask8 same = m8_and(
+        m8_and(r8_eq(c.x, r8_set(cell[0][lane])), r8_eq(c.y, r8_set(cell[1][lane]))),
+        r8_eq(c.z, r8_set(cell[2][lane])));
+    return (lanes & m8_bits(same)) | 1u << lane; // no numbers are not the same
 }
 
 LANES_INLINE void keep_lanes(double to[3][8], struct mask8 m, const struct real8 v[3])
@@ -190,30 +325,27 @@ LANES_INLINE void keep_lanes(double to[3][8], struct mask8 m, const struct real8
 unsigned OF_ISA(noise_nearest_)(const double p[3][8], unsigned lanes, int metric,
                                 int count, double sum[3][8], double place[3][8])
 {
-    double cell[3];
-    lanes = sharing(p, lanes, cell);
-    if (!(lanes & (lanes - 1)))
-        return lanes;
-    struct cells8 s;
-    s.at = v8_load(p), s.cell = cell, s.lanes = lanes;
+    const int first = __builtin_ctz(lanes);
+    struct cells8 s = {.at = v8_load(p)};
+    s.cell = cells_of(s.at);
     const struct real8 far = r8_set(DBL_MAX);
-    struct found8 f = {
-        {far, far, far}, {r8_set(cell[0]), r8_set(cell[1]), r8_set(cell[2])}, r8_set(-1)};
-    for (int i = 0; i < SLABS; i++) {
-        const unsigned hx = noise_hash_table[wrapped(cell[0] + (i - REACH))];
-        for (int j = 0; j < SLABS; j++)
-            s.hash_xy[i][j] = noise_hash_table[hx ^ wrapped(cell[1] + (j - REACH))];
-        s.z[i] = wrapped(cell[2] + (i - REACH));
-    }
-    if (place) {
-        search_places(&s, &f, metric);
-        keep_lanes(place, m8_of(lanes),
+    struct found8 f = {{far, far, far}, s.cell, r8_set(-1)};
+    s.lanes = sharing(s.cell, lanes, first);
+    const bool shared = s.lanes == lanes;
+    if (!shared)
+        s.lanes = lanes & near_lanes(s.at);
+    if (!(s.lanes & (s.lanes - 1)))
+        return 1u << first;
+    if (shared)
+        search_shared(&s, first, &f, metric, count, place != NULL);
+    else
+        search_scattered(&s, &f, metric, count, place != NULL);
+    if (place)
+        keep_lanes(place, m8_of(s.lanes),
                    (struct real8[]){f.place.x, f.place.y, f.place.z});
-    } else {
-        search_sums(&s, &f, metric, count);
-        keep_lanes(sum, m8_of(lanes), f.sum);
-    }
-    return lanes;
+    else
+        keep_lanes(sum, m8_of(s.lanes), f.sum);
+    return s.lanes;
 }
 
 void OF_ISA(noise_powers_)(const double *x, size_t count, double y, bool single,

@@ -45,8 +45,8 @@ struct surface_kernels; // scene/pigment_tape.h
 // points to the random points of the cells around (scene/patterns/cellular.h). Those after
 // the first `count` may be too large. `place`, if not NULL: only the nearest point is wanted,
 // and stored there, of equally near ones that of the cell which is first in lexical order.
-// It is done for those of the points `lanes` that are in the cell of the first, which it
-// returns; if that is one alone, which is sooner done by itself, nothing is stored.
+// It is done for those of the points `lanes` that are not too far off, which it returns; if
+// that is one alone, which is sooner done by itself, nothing is stored.
 typedef unsigned noise_nearest_kernel(const double p[3][8], unsigned lanes, int metric,
                                       int count, double sum[3][8], double place[3][8]);
 noise_nearest_kernel noise_nearest_base, noise_nearest_avx2, noise_nearest_avx512;
