@@ -132,17 +132,60 @@ LANES_INLINE struct real8 poly8_changes(const struct real8 *b, int n, struct rea
     return changes;
 }
 
-// sign: at lo, -1 or 1; 0: what it is right behind. odd: a stretch with any odd number of
-// roots will do. The degree is n, or less where leading coefficients are zero.
+// A quartic is (t^2 + c3/2 t + s)^2 and a parabola, whatever s is, and not below the parabola: with
+// one that opens upwards all roots are between its roots, where `lo` and `hi` go. The s with the
+// least discriminant, by the quartic's resolvent, tells all quartics apart that have no root but for
+// `margin`, which is far more than rounding.
+struct narrowed8 {
+    unsigned none; // lanes without a root
+    unsigned both; // where both ends were moved: mostly there are two roots between them
+};
+
+LANES_INLINE struct narrowed8 quartic8_narrow(const struct real8 *c, struct real8 *lo,
+                                              struct real8 *hi)
+{
+    const struct real8 zero = r8_set(0), half = r8_set(0.5), margin = r8_set(0x1p-20);
+    const struct real8 per = r8_div(r8_set(1), c[4]);
+    const struct real8 c0 = r8_mul(per, c[0]), c1 = r8_mul(per, c[1]),
+                       c2 = r8_mul(per, c[2]), c3 = r8_mul(per, c[3]);
+    const struct real8 invariant = r8_add(
+        r8_mul(c2, c2), r8_mul(r8_set(3), r8_sub(r8_mul(r8_set(4), c0), r8_mul(c1, c3))));
+    const struct real8 s =
+        r8_mul(r8_set(1. / 6), r8_sub(c2, r8_sqrt(r8_max(invariant, zero))));
+    const struct real8 h3 = r8_mul(half, c3), taken = r8_mul(h3, h3), s2 = r8_add(s, s);
+    const struct real8 a_size = r8_add(r8_add(r8_abs(c2), taken), r8_abs(s2));
+    const struct real8 a = r8_sub(r8_sub(r8_sub(c2, taken), s2), r8_mul(margin, a_size));
+    const struct real8 h1 = r8_mul(half, c1), turn = r8_mul(h3, s), ss = r8_mul(s, s);
+    const struct real8 b = r8_sub(h1, turn), c_size = r8_add(r8_abs(c0), ss);
+    const struct real8 b_most =
+        r8_add(r8_abs(b), r8_mul(margin, r8_add(r8_abs(h1), r8_abs(turn))));
+    const struct real8 least = r8_sub(r8_sub(c0, ss), r8_mul(margin, c_size));
+    const struct real8 under = r8_sub(r8_mul(b_most, b_most), r8_mul(a, least));
+    const struct mask8 opens = r8_lt(zero, a);
+    const struct real8 reach = r8_sqrt(r8_max(under, zero));
+    const struct real8 wide = r8_add(reach, r8_mul(margin, r8_add(b_most, reach)));
+    const struct real8 from = r8_div(r8_neg(r8_add(b, wide)), a);
+    const struct real8 to = r8_div(r8_sub(wide, b), a);
+    const struct mask8 later = m8_and(opens, r8_lt(*lo, from));
+    const struct mask8 sooner = m8_and(opens, r8_lt(to, *hi));
+    *lo = r8_select(later, from, *lo);
+    *hi = r8_select(sooner, to, *hi);
+    return (struct narrowed8){m8_bits(m8_and(opens, r8_lt(under, zero))),
+                              m8_bits(m8_and(later, sooner))};
+}
+
+// sign: at lo, -1 or 1; 0: what it is right behind. halved: lanes that begin with half of their
+// stretch. odd: a stretch with any odd number of roots will do. The degree is n, or less where leading coefficients are zero.
 LANES_INLINE struct brackets8 poly8_isolate(const struct real8 *c, int n, struct real8 lo,
                                             struct real8 hi, struct real8 sign,
-                                            unsigned lanes, bool odd,
+                                            unsigned lanes, unsigned halved, bool odd,
                                             const volatile bool *cancel)
 {
     const struct real8 zero = r8_set(0), one = r8_set(1), half = r8_set(0.5);
     const struct real8 width = r8_sub(hi, lo);
     struct real8 b[POLYNOMIAL_DEGREE_MAX + 1];
-    struct real8 from = zero, share = one; // of the width, exact
+    struct real8 from = zero; // of the width, exact, as is
+    struct real8 share = r8_select(m8_of(halved), half, one);
     struct brackets8 r = {lo, hi, lo, sign, 0, 0};
     for (int i = 0; i < LOOKS_MAX && lanes && !(cancel && *cancel); i++) {
         const struct real8 a = r8_add(lo, r8_mul(width, from)), w = r8_mul(width, share);

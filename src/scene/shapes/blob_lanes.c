@@ -186,8 +186,8 @@ static void walk_over8(struct walks *x, unsigned lanes)
     }
     for (int k = 0; k <= N; k++)
         c8[k] = r8_load(c[k]);
-    const struct brackets8 r =
-        poly8_isolate(c8, N, r8_load(lo), r8_load(hi), r8_load(sign), lanes, false, NULL);
+    const struct brackets8 r = poly8_isolate(c8, N, r8_load(lo), r8_load(hi),
+                                             r8_load(sign), lanes, 0, false, NULL);
     if (r.found) {
         const struct real8 root = poly8_refine(c8, N, &r, r.found);
         const struct real8 error =

@@ -142,11 +142,12 @@ struct first8 {
 
 LANES_INLINE struct first8 first_of(const struct poly *s, const struct line_poly8 *p,
                                     int n, const struct lines8 *l, unsigned lanes,
-                                    bool any, const volatile bool *cancel)
+                                    unsigned halved, bool any,
+                                    const volatile bool *cancel)
 {
     struct first8 f;
     const struct brackets8 r = poly8_isolate(
-        p->c, n, l->lo, l->hi, first_sign(s, p, n, l, lanes), lanes, any, cancel);
+        p->c, n, l->lo, l->hi, first_sign(s, p, n, l, lanes), lanes, halved, any, cancel);
     f.below = m8_bits(r8_lt(r.sign, r8_set(0)));
     f.found = r.found;
     f.unsure = r.unsure;
@@ -157,14 +158,14 @@ LANES_INLINE struct first8 first_of(const struct poly *s, const struct line_poly
 
 // The usual degrees by loops that unroll.
 static struct first8 first_root(const struct poly *s, const struct line_poly8 *p,
-                                const struct lines8 *l, unsigned lanes, bool any,
-                                const volatile bool *cancel)
+                                const struct lines8 *l, unsigned lanes, unsigned halved,
+                                bool any, const volatile bool *cancel)
 {
     switch (p->degree) {
-    case 3: return first_of(s, p, 3, l, lanes, any, cancel);
-    case 4: return first_of(s, p, 4, l, lanes, any, cancel);
-    case 6: return first_of(s, p, 6, l, lanes, any, cancel);
-    default: return first_of(s, p, p->degree, l, lanes, any, cancel);
+    case 3: return first_of(s, p, 3, l, lanes, halved, any, cancel);
+    case 4: return first_of(s, p, 4, l, lanes, halved, any, cancel);
+    case 6: return first_of(s, p, 6, l, lanes, halved, any, cancel);
+    default: return first_of(s, p, p->degree, l, lanes, halved, any, cancel);
     }
 }
 
@@ -234,10 +235,16 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
         return 0;
     if (!s->compact)
         clip_to_roots(&p, &l);
+    unsigned halved = 0;
+    if (p.degree == 4) {
+        const struct narrowed8 narrowed = quartic8_narrow(p.c, &l.lo, &l.hi);
+        lanes &= ~narrowed.none;
+        halved = narrowed.both;
+    }
     lanes &= m8_bits(r8_lt(l.lo, l.hi));
     if (!lanes)
         return 0;
-    const struct first8 f = first_root(s, &p, &l, lanes, any, out->cancel);
+    const struct first8 f = first_root(s, &p, &l, lanes, halved, any, out->cancel);
     struct real8 dt = r8_set(0);
     unsigned unsure = f.unsure, found = f.found;
     if (found && !any) {

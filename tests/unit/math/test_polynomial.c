@@ -3,6 +3,7 @@
 #include <stdbool.h>
 
 #include "math/polynomial.h"
+#include "math/polynomial_lanes.h"
 
 // Coefficients of scale * product of (t - r_i).
 static void from_roots(const double *r, int n, double scale, double *c)
@@ -98,6 +99,76 @@ static void bound_holds_all_roots(void **state)
     assert_true(polynomial_root_bound(c, 5) < 1e4);
 }
 
+static double random_in(uint64_t *seed, double lo, double hi)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return lo + (hi - lo) * ((double)(*seed >> 11) * 0x1p-53);
+}
+
+// (t - a)^2 + b, (t - d)^2 + e: roots where b or e are negative; a leading coefficient of any size.
+static void random_quartic(uint64_t *seed, double c[5])
+{
+    const double a = random_in(seed, -5, 5), b = random_in(seed, -1, 3);
+    const double d = random_in(seed, -5, 5), e = random_in(seed, -1, 3);
+    const double p[3] = {a * a + b, -2 * a, 1}, q[3] = {d * d + e, -2 * d, 1};
+    const double size = pow(10, random_in(seed, -6, 3)) * (*seed & 1 << 20 ? 1 : -1);
+    for (int i = 0; i < 5; i++)
+        c[i] = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            c[i + k] += size * p[i] * q[k];
+}
+
+// All roots stay between the narrowed ends, and what has none is nearly always told; the first root
+// is the same when a stretch is begun with its half.
+static void narrowed_quartics_keep_their_roots(void **state)
+{
+    (void)state;
+    uint64_t seed = 1;
+    int without = 0, told = 0;
+    for (int n = 0; n < 20000; n++) {
+        double c[5][8], from[8], to[8], t[2][8];
+        struct real8 v[5], lo = r8_set(-20), hi = r8_set(20);
+        for (int l = 0; l < 8; l++) {
+            double one[5];
+            random_quartic(&seed, one);
+            for (int i = 0; i < 5; i++)
+                c[i][l] = one[i];
+        }
+        for (int i = 0; i < 5; i++)
+            v[i] = r8_load(c[i]);
+        const struct narrowed8 narrowed = quartic8_narrow(v, &lo, &hi);
+        r8_store(from, lo);
+        r8_store(to, hi);
+        const struct real8 sign = r8_copysign(r8_set(1), v[4]);
+        const unsigned left = 255 & ~narrowed.none;
+        const struct brackets8 all = poly8_isolate(v, 4, lo, hi, sign, left, 0, false,
+                                                   NULL),
+                               half = poly8_isolate(v, 4, lo, hi, sign, left,
+                                                    narrowed.both, false, NULL);
+        r8_store(t[0], poly8_refine(v, 4, &all, all.found));
+        r8_store(t[1], poly8_refine(v, 4, &half, half.found));
+        for (int l = 0; l < 8; l++) {
+            const double one[] = {c[0][l], c[1][l], c[2][l], c[3][l], c[4][l]};
+            struct polynomial_root root[4];
+            const int count = polynomial_roots(one, 4, -20, 20, 0, root);
+            without += count == 0;
+            told += narrowed.none >> l & 1;
+            if (narrowed.none >> l & 1)
+                assert_int_equal(count, 0);
+            for (int i = 0; i < count; i++)
+                assert_true(root[i].t > from[l] && root[i].t < to[l]);
+            if ((all.found & half.found) >> l & 1) {
+                assert_true(count > 0);
+                assert_near(t[0][l], root[0].t, 1e-6);
+                assert_near(t[1][l], root[0].t, 1e-6);
+            }
+        }
+        assert_int_equal(all.found & ~half.unsure, half.found & ~all.unsure);
+    }
+    assert_true(told > 0.99 * without);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -105,6 +176,7 @@ int main(void)
         cmocka_unit_test(dt_bounds_the_error),
         cmocka_unit_test(dt_is_finite_at_multiple_roots),
         cmocka_unit_test(bound_holds_all_roots),
+        cmocka_unit_test(narrowed_quartics_keep_their_roots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
