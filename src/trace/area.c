@@ -139,7 +139,10 @@ static void rays_trace(struct tracer *t)
             t->near.slot[i] = (uint16_t)q->slot[ray[i].place];
             t->near.photons[i] = q->photons[ray[i].place];
         }
-        rays_light(t, n, value);
+        if (tracer_gives_up(t))
+            memset(value, 0, n * sizeof *value);
+        else
+            rays_light(t, n, value);
         for (uint32_t i = 0; i < n; i++)
             q->value[ray[i].value] = value[i];
     }

@@ -89,6 +89,11 @@ static void samples_eval_few(struct media_march *m, struct media_sample *sample,
                              uint32_t count)
 {
     struct vec3 scattering[MEDIA_SAMPLES];
+    if (tracer_gives_up(m->t)) {
+        for (uint32_t i = 0; i < count; i++)
+            sample[i].light = sample[i].depth = (struct vec3){0, 0, 0};
+        return;
+    }
     (m->mix->even ? samples_even : samples_points)(m, sample, count, scattering);
     if (m->depth_only)
         return;
@@ -527,7 +532,8 @@ struct media_result media_walk(struct media_march *m)
         uniform(m, &all);
     } else {
         const uint32_t stride = media_stride(m->mix);
-        for (uint32_t k = 0; k < m->interval_count; k += stride) {
+        for (uint32_t k = 0; k < m->interval_count && !tracer_gives_up(m->t);
+             k += stride) {
             const uint32_t end =
                 m->interval_count - k < stride ? m->interval_count : k + stride;
             (method == 3 ? adaptive : straight)(m, k, end, &all);

@@ -233,7 +233,7 @@ static void shoot_from(struct shooting *s, uint32_t object,
         lamp_grid_of(lamp, s->job->world->object[object].bounds.min);
     const uint32_t samples = (uint32_t)l->size1 * (uint32_t)l->size2;
     for (int u = 0; u < l->size1; u++)
-        for (int v = 0; v < l->size2; v++)
+        for (int v = 0; v < l->size2 && !is_cancelled(s); v++)
             if (aim_init(&a, s->job->world, object, target, lamp,
                          lamp_grid_point(lamp, &grid, u, v)))
                 shoot(s, &a, samples);
@@ -257,7 +257,8 @@ static void pairs(struct shooting *s, each_pair *visit)
         const struct lamp *lamp = lamp_of(s->job, w->light[k]);
         for (uint32_t i = 0; i < w->object_count; i++) {
             const struct photon_target *target = target_of(w, &w->object[i]);
-            if (target && !lamp->inert && is_pair(target, w->light[k]))
+            if (target && !lamp->inert && !is_cancelled(s) &&
+                is_pair(target, w->light[k]))
                 visit(s, i, target, lamp);
         }
     }
@@ -358,7 +359,9 @@ struct photons *photons_shoot(const struct job *job, const struct photon_store *
         photons_free(p);
         return NULL;
     }
-    if (store && store->save && !(cancel && *cancel))
+    if (cancel && *cancel) // nobody looks at them: trees of millions take seconds
+        p->surface.count = p->media.count = 0;
+    else if (store && store->save)
         store->save(store->user, p);
     finish(p, job);
     return p;

@@ -254,7 +254,7 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
     rays->count = 0;
     for (int i = 0; i < count; i++)
         pixel[i].open = true;
-    while (blur_round(t, tables, tile, pixel, rays))
+    while (!tracer_gives_up(t) && blur_round(t, tables, tile, pixel, rays))
         ;
     for (int i = 0; i < count; i++) {
         float mean[4];

@@ -252,7 +252,10 @@ const struct sample_sum *tracer_batch(struct tracer *t, const struct vec2 *posit
 {
     uint16_t place[BATCH_SIZE];
     uint32_t made;
-    if (make_rays(t, position, on_lens, count, place, &made)) {
+    if (tracer_gives_up(t)) {
+        wave_sums_reserve(t, count);
+        memset(t->sum, 0, count * sizeof *t->sum);
+    } else if (make_rays(t, position, on_lens, count, place, &made)) {
         begin(t, count);
         wave_sums_reserve(t, count); // all are set by the camera's wave
         if (t->eye_inside)

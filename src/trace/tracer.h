@@ -8,6 +8,7 @@
 #include "math/vec.h"
 #include "trace/intersect.h"
 #include "trace/job.h"
+#include "trace/scratch.h"
 
 struct arena;
 struct simple_group;
@@ -199,6 +200,13 @@ struct tracer_ray {
     bool exists;   // false: the camera sees nothing there
     uint8_t flags; // path_flags
 };
+
+// Asked now and then by what may take long. Once true, whatever is found is worth nothing and
+// nobody looks at it, so that it need not be found.
+static inline bool tracer_gives_up(struct tracer *t)
+{
+    return boundary_list_gives_up(&t->scratch->crossings);
+}
 
 struct tracer *tracer_new(const struct job *job);
 void tracer_free(struct tracer *t);

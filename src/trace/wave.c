@@ -413,7 +413,7 @@ static void wave_trace(struct tracer *t)
         air_wave(t);
     if (t->settled)
         scout_settle(t);
-    for (uint32_t k = 0, end; k < w->count; k = end) {
+    for (uint32_t k = 0, end; k < w->count && !tracer_gives_up(t); k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
             if (t->job->sky_tape)
@@ -443,7 +443,7 @@ static void generation(struct tracer *t, const struct path *path, const uint32_t
                        uint32_t count, struct path_queue *next)
 {
     struct wavefront *w = &t->wave;
-    for (uint32_t begin = 0; begin < count; begin += BATCH_SIZE) {
+    for (uint32_t begin = 0; begin < count && !tracer_gives_up(t); begin += BATCH_SIZE) {
         w->count = count - begin < BATCH_SIZE ? count - begin : BATCH_SIZE;
         w->path = path;
         w->order = order + begin;

@@ -62,6 +62,30 @@ sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }
 END
 check "interrupted within a sample of radiosity { }" stops_soon deep.pov
 
+# One ray takes minutes: 25,000 samples, each of which asks 289 times for a lamp.
+cat >smoke.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <0, 3, -7> look_at 0 }
+light_source { <5, 5, -5> 1 area_light x, y, 17, 17 }
+media { scattering { 2, 0.1 } samples 500, 500 intervals 50 }
+sphere { 0, 1 pigment { rgb 1 } }
+END
+check "interrupted within a medium" stops_soon smoke.pov
+
+# One pixel has 100,000 samples, each of which sends on as many rays as it may.
+cat >lens.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 max_trace_level 100 adc_bailout 0 }
+camera { location <0, 3, -7> look_at 0 aperture 2 focal_point 0 blur_samples 100000 variance 0 }
+light_source { <5, 5, -5> 1 }
+union {
+  #for (I, -3, 3) sphere { x*I*0.7, 1 } #end
+  pigment { rgbt <1, 0.5, 0.5, 0.9> } finish { reflection 0.9 } interior { ior 1.3 }
+}
+END
+check "interrupted within the samples of a lens" stops_soon lens.pov
+
 echo '#declare I = 0; #while (I < 1) #declare J = I; #end' >endless.pov
 reading()
 {
