@@ -136,16 +136,20 @@ static bool is_list(const char *block)
 // What was likely meant by an item that has no place; NULL: nobody knows.
 static const char *misplaced_hint(const struct args *a, const struct ast *n)
 {
+    const bool pigment = strcmp(a->name, "pigment") == 0,
+               texture = strcmp(a->name, "texture") == 0;
     if (n->kind == AST_VALUE && n->value && n->value->kind != VALUE_NUMBER)
         return arena_printf(a->b->e->parse, "it is a %s", value_kind_name(n->value));
     if (is_list(a->name) && n->kind == AST_NUMBER)
         return "entries stand in brackets, as in [0.5 rgb 1]";
+    if (n->kind == AST_STRING && pigment)
+        return "a file stands in its map, as in image_map { png \"NAME\" }";
+    if (texture && n->kind == AST_BLOCK && n->word == WORD_interior)
+        return "an interior stands beside its texture";
     if (n->kind == AST_WORD && n->word == WORD_contained_by)
         return "a '{' is missing after it";
     if (n->kind == AST_WORD && n->word == WORD_type && strcmp(a->name, "fog") == 0)
         return "did you mean 'fog_type'?";
-    const bool pigment = strcmp(a->name, "pigment") == 0,
-               texture = strcmp(a->name, "texture") == 0;
     if (n->kind == AST_CONSTANT &&
         (n->word == WORD_x || n->word == WORD_y || n->word == WORD_z))
         return "a product is written with a *, as in 45*y";

@@ -39,11 +39,12 @@ void parse_undeclared(struct stream *s, const struct token *t, bool call)
     diag_hint(s->diags, DIAG_UNDECLARED, t->where, hint, (int)t->len, t->text);
 }
 
-// What stands for a word of other versions of the language.
+// What stands for a word of other versions or programs.
 static const char *word_gone(const struct token *t)
 {
     static const char *const gone[][2] = {
         {"halo", "POV-Ray has no halos since 3.1: media in an interior replace them"},
+        {"light", "did you mean 'light_source'?"},
         {"glow", "a word of MegaPOV: emitting media in a hollow object come close"},
         {"motion_blur", "a word of MegaPOV: average the frames of a short animation"},
         {"dictionary", "a word of POV-Ray 3.8"},
