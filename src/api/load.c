@@ -170,13 +170,13 @@ static const char *folder_of(struct lambert_context *ctx, const char *path)
                  : ".";
 }
 
-// Where the picture goes: the scene's own files go there, too.
-static const char *output_folder(struct lambert_context *ctx, const char *scene)
+// Where the scene's own files go: where a name of the picture says, else where POV-Ray has them.
+static const char *output_folder(struct lambert_context *ctx)
 {
     const char *given = lambert_option_text(ctx, "output");
     struct stat s;
     if (!given || !*given)
-        return folder_of(ctx, scene);
+        return ".";
     if (given[strlen(given) - 1] == '/' || (stat(given, &s) == 0 && S_ISDIR(s.st_mode)))
         return given;
     return folder_of(ctx, given);
@@ -240,7 +240,7 @@ static struct eval_options eval_settings(struct lambert_context *ctx, const char
         .memory_max = (size_t)option_number(ctx, "max-parse-memory") << 20,
         .message = scene_text,
         .message_user = ctx,
-        .output_folder = output_folder(ctx, path),
+        .output_folder = output_folder(ctx),
     };
     ctx->files_read = NULL;
     if (ctx->state_path || gi_solution(ctx, true) || gi_solution(ctx, false)) {

@@ -17,8 +17,14 @@ printf '\001\377\003AB\377\376\377\001\002\200\003-2' >>want
 check "write and append" reads write.pov
 check "the bytes are POV-Ray's" cmp text want
 mkdir folder
+mv write.pov folder
+rm text
+check "in the working directory without -o" reads folder/write.pov
+check "as POV-Ray has it" cmp text want
+rm text
+mv folder/write.pov .
 check "below the folder of the picture" reads write.pov -o folder/x.png
-check "not in the working directory" cmp folder/text want
+check "not in the working directory then" cmp folder/text want
 
 printf '\377\376s\0p\0h\0e\0r\0e\0' >utf16.pov
 utf16() { exits 1 "$lambert" check utf16.pov && has err "utf16.pov:1:1: error: this file is UTF-16: save it as UTF-8"; }
