@@ -35,11 +35,22 @@ void cmd_warn(struct cmd *c, const char *fmt, ...)
     c->warnings++;
 }
 
+static bool is_shown(struct cmd *c, enum lambert_message_kind kind)
+{
+    const bool text = kind == LAMBERT_SCENE_TEXT;
+    if (kind == LAMBERT_ERROR)
+        return true;
+    if (c->quiet && kind != LAMBERT_WARNING)
+        return false;
+    return lambert_option_number(c->ctx, "console-all") != 0 &&
+           lambert_option_number(c->ctx, text ? "console-debug" : "console-warning") != 0;
+}
+
 static void on_message(void *user, const struct lambert_message *m)
 {
     struct cmd *c = user;
     streams_write(c, m);
-    if (c->quiet && (m->kind == LAMBERT_SCENE_TEXT || m->kind == LAMBERT_NOTE))
+    if (!is_shown(c, m->kind))
         return;
     progress_end(c);
     fputs(m->rendered, stderr);

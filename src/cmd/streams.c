@@ -4,12 +4,33 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char *const stream_options[STREAM_COUNT] = {
     [STREAM_ALL] = "file-all",         [STREAM_DEBUG] = "file-debug",
     [STREAM_WARNING] = "file-warning", [STREAM_FATAL] = "file-fatal",
     [STREAM_RENDER] = "file-render",   [STREAM_STATISTIC] = "file-statistic",
 };
+
+// The file's name; as in POV-Ray one of its own when the option is only turned on. NULL: none.
+static const char *path_of(const struct cmd *c, enum stream i)
+{
+    static const char *const usual[STREAM_COUNT] = {
+        [STREAM_ALL] = "alltext.out",     [STREAM_DEBUG] = "debug.out",
+        [STREAM_WARNING] = "warning.out", [STREAM_FATAL] = "fatal.out",
+        [STREAM_RENDER] = "render.out",   [STREAM_STATISTIC] = "stats.out",
+    };
+    static const char *const on[] = {"on", "true", "yes"},
+                             *off[] = {"off", "false", "no"};
+    const char *path = lambert_option_text(c->ctx, stream_options[i]);
+    for (size_t k = 0; path && k < sizeof on / sizeof *on; k++) {
+        if (strcasecmp(path, on[k]) == 0)
+            return usual[i];
+        if (strcasecmp(path, off[k]) == 0)
+            return NULL;
+    }
+    return path;
+}
 
 static void put(struct cmd *c, enum stream own, const char *text)
 {
@@ -23,7 +44,7 @@ int streams_open(struct cmd *c)
 {
     const char *mode = lambert_option_number(c->ctx, "append-file") ? "a" : "w";
     for (int i = 0; i < STREAM_COUNT; i++) {
-        const char *path = lambert_option_text(c->ctx, stream_options[i]);
+        const char *path = path_of(c, i);
         if (path && !(c->stream[i] = fopen(path, mode)))
             return cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path,
                             strerror(errno));

@@ -141,6 +141,17 @@ more_streams() {
     has stat.txt '^pixels 48,'
 }
 check "Render_File and Statistic_File" more_streams
+usual_names() {
+  printf '#debug "said\\n"\n#warning "beware\\n"\nsphere { 0, 1 }\n' >says.pov
+  exits 0 "$lambert" check says.pov Debug_File=on All_File=True Warning_File=off && has debug.out said &&
+    has alltext.out beware && ! test -e warning.out && ! test -e on
+}
+check "files that are only turned on have the names POV-Ray gives them" usual_names
+silent() { exits 0 "$lambert" check says.pov "$1" && ! grep -q "$2" err && has err "$3"; }
+check "Debug_Console" silent -GD said beware
+check "Warning_Console" silent Warning_Console=off beware said
+all_silent() { exits 0 "$lambert" check says.pov -GA && ! test -s err; }
+check "All_Console" all_silent
 appended() {
   "$lambert" check talk.pov +GDsaid.txt +GP >out 2>err
   test "$(grep -c said said.txt)" = 2
