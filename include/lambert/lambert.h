@@ -149,8 +149,8 @@ LAMBERT_API enum lambert_status lambert_check_file(struct lambert_context *ctx,
 LAMBERT_API enum lambert_status lambert_format_file(struct lambert_context *ctx,
                                                     const char *path, FILE *out);
 
-// The file an interrupted render leaves its finished tiles in, removed when a picture is
-// whole; NULL: none. To be set before loading. With option `save-state` or `continue` tiles
+// The file an interrupted render leaves its finished tiles in, removed when the whole picture
+// has been written; NULL: none. To be set before loading. With option `save-state` or `continue` tiles
 // are written as they are finished; with `continue` those that an interrupted render of the
 // same scene and settings left are taken over.
 LAMBERT_API void lambert_set_state_file(struct lambert_context *ctx, const char *path);

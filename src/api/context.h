@@ -32,6 +32,7 @@ struct lambert_context {
     void *progress_user;
     volatile bool cancel;
     const char *state_path;   // of a render that may be continued; NULL: none
+    bool state_is_over;       // its picture is whole: once that is written, the file goes
     enum lambert_phase phase; // that progress is about
 
     // Of the scene that is loaded.

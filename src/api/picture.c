@@ -1,5 +1,6 @@
 // Pictures as the public interface has them.
 #include "api/context.h"
+#include "api/state.h"
 #include "image/texels.h"
 
 #include <math.h>
@@ -94,6 +95,8 @@ enum lambert_status lambert_image_write(struct lambert_context *ctx,
     double start = context_seconds();
     bool ok = image_write(&image->im, path, &o, ctx->error, sizeof ctx->error);
     ctx->stats.write_seconds += context_seconds() - start;
+    if (ok)
+        render_state_remove(ctx);
     return ok ? LAMBERT_OK : LAMBERT_ERROR_OUTPUT;
 }
 

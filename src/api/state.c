@@ -267,8 +267,14 @@ void render_state_close(struct render_state *s, bool whole)
         write_done(s);
     if (s->file >= 0)
         close(s->file);
-    if (whole)
-        unlink(s->path);
+    s->ctx->state_is_over = whole;
     free(s->have);
     free(s->done);
+}
+
+void render_state_remove(struct lambert_context *ctx)
+{
+    if (ctx->state_is_over && ctx->state_path)
+        unlink(ctx->state_path);
+    ctx->state_is_over = false;
 }

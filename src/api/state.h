@@ -47,7 +47,9 @@ void render_state_open(struct render_state *s, struct lambert_context *ctx,
                        struct image *picture);
 // Adds what the tracer needs to know to its progress functions.
 void render_state_attach(struct render_state *s, struct render_progress *progress);
-// Removes the file when the picture is whole, else writes what is not there yet.
+// Writes what is not there yet, unless the picture is whole.
 void render_state_close(struct render_state *s, bool whole);
+// The last picture was written: removes the file if that was whole.
+void render_state_remove(struct lambert_context *ctx);
 
 #endif

@@ -43,14 +43,30 @@ static int check_output(const char *path)
               : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s': %s", path, strerror(why));
 }
 
+// Where a picture goes that cannot be written where it should: the time it took is not lost.
+static char *refuge_of(const char *path)
+{
+    const char *folder = getenv("TMPDIR"), *slash = strrchr(path, '/');
+    return text_format("%s/lambert-%ld-%s", folder && *folder ? folder : "/tmp",
+                       (long)getpid(), slash ? slash + 1 : path);
+}
+
 static int write_picture(struct cmd *c, const struct lambert_image *image,
                          const char *path)
 {
     enum lambert_status status = lambert_image_write(c->ctx, image, path);
     if (status == LAMBERT_OK)
         return CMD_OK;
-    return cmd_fail(strcmp(path, "-") == 0 ? CMD_IO : CMD_NO_OUTPUT, "%s",
-                    lambert_error(c->ctx));
+    if (strcmp(path, "-") == 0)
+        return cmd_fail(CMD_IO, "%s", lambert_error(c->ctx));
+    char *why = text_format("%s", lambert_error(c->ctx)), *refuge = refuge_of(path);
+    if (lambert_image_write(c->ctx, image, refuge) == LAMBERT_OK)
+        cmd_fail(CMD_NO_OUTPUT, "%s; the picture is in '%s'", why, refuge);
+    else
+        cmd_fail(CMD_NO_OUTPUT, "%s", why);
+    free(why);
+    free(refuge);
+    return CMD_NO_OUTPUT;
 }
 
 static bool asked(struct cmd *c, const char *name)

@@ -87,6 +87,42 @@ stale()
   exits 0 "$lambert" "$@" -q -o a.png && test ! -e $state
 }
 check "a whole picture leaves no old state" stale "$@"
+# reads_slowly COMMAND...: runs it while `lambert` reads the scene "$@" from a pipe, once it has
+# looked at where the picture goes: what it reads is more than a pipe holds.
+mkfifo pipe
+mkdir refuge
+reads_slowly()
+{
+  during=$1
+  shift
+  TMPDIR=$place "$lambert" - "$@" -q <pipe >out 2>err &
+  pid=$!
+  {
+    cat sphere.pov
+    yes '// to fill the pipe' | head -n 20000
+    $during
+  } >pipe
+  wait $pid
+}
+lost() { rm -rf away; }
+taken_in()
+{
+  mkdir away
+  place=$work/refuge
+  reads_slowly lost +W8 +H8 -o away/p.png
+  test $? = 73 && has err "No such file.*the picture is in '$work/refuge/lambert-[0-9]*-p.png'" &&
+    exits 0 "$lambert" sphere.pov +W8 +H8 -q -o p.png && cmp p.png refuge/lambert-*-p.png
+}
+check "a picture that cannot be written where it should is kept elsewhere" taken_in
+in_the_way() { mkdir -p q.png/q; }
+kept_on()
+{
+  place=/nonexistent
+  reads_slowly in_the_way +W8 +H8 +C -o q.png
+  test $? = 73 && has err "cannot write 'q.png'" && test -s q.png.lambert-state && rm -r q.png &&
+    exits 0 "$lambert" - +W8 +H8 +C -q -o q.png <sphere.pov && cmp p.png q.png
+}
+check "nowhere: its state is" kept_on
 check "standard output keeps nothing" exits 0 "$lambert" sphere.pov +W8 +H8 +C -o -
 frames()
 {
