@@ -11,6 +11,7 @@ liblambert_a_SOURCES += \
 	%D%/array.c %D%/array.h %D%/builder.h %D%/calc.c %D%/calc.h %D%/calc_compile.c %D%/color.c %D%/eval.c %D%/eval.h \
 	%D%/expr.c %D%/expr.h %D%/file_data.c %D%/file_data.h %D%/file_io.c %D%/file_io.h \
 	%D%/files.c %D%/formula.c %D%/formula.h %D%/function.c %D%/function.h \
+	%D%/function_compile.c %D%/function_compile.h \
 	%D%/functions.c %D%/functions.def \
 	%D%/functions.h %D%/host.c %D%/include_hint.c %D%/include_hint.h %D%/internal.c %D%/internal.def \
 	%D%/internal.h %D%/internal_noise.c %D%/random.c %D%/spline.c %D%/spline.h \

@@ -23,6 +23,14 @@ struct ast_list ast_append(struct ast_list list, struct ast *node)
     return list;
 }
 
+int ast_count(const struct ast *first)
+{
+    int count = 0;
+    for (; first; first = first->next)
+        count++;
+    return count;
+}
+
 static struct ast *copy_list(struct arena *a, const struct ast *n)
 {
     struct ast_list list = {0};

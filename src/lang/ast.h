@@ -89,6 +89,7 @@ struct ast_list {
 
 struct ast *ast_new(struct arena *a, enum ast_kind kind, struct span where);
 struct ast_list ast_append(struct ast_list list, struct ast *node);
+int ast_count(const struct ast *first); // it and those after it
 // A deep copy of one node, without what follows it. Text stays in the source.
 struct ast *ast_copy(struct arena *a, const struct ast *node);
 // As an indented tree, one node a line, stable: --dump-ast.
