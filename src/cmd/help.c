@@ -197,7 +197,7 @@ static const char man_head[] =
     ".B lambert mesh\n.I SCENE\n.B \\-o\n.I NAME\n"
     ".SH DESCRIPTION\n"
     "Reads a scene, traces it and writes a picture, by default\n"
-    "a PNG file named after the scene in the working directory.\n"
+    "a PNG file named after the scene, beside it.\n"
     ".PP\n"
     "Every setting can be given as a long option, as a switch of POV\\-Ray\n"
     "(+ turns on, \\- turns off, the value follows at once, case does not matter)\n"
