@@ -79,6 +79,8 @@ struct irradiance_cache *irradiance_cache_new(const struct world *w,
     store_init(&c->store, w->accel->kernels->name);
     directions_init(c);
     jobs_init(c, w, settings);
+    for (uint32_t i = 0; i < w->surface_count; i++)
+        c->has_importance |= w->surface[i].importance != 1;
     return c;
 }
 

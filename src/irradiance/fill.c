@@ -105,10 +105,11 @@ struct points {
     uint32_t count;
 };
 
-static void points_trace(struct tracer *t, struct points *p)
+static void points_trace(struct scout *s, struct points *p)
 {
     if (p->count)
-        tracer_samples(t, p->at, p->count, p->out);
+        tracer_samples(s->tracer, p->at, p->count, p->out);
+    gatherer_flush(s->gatherer);
     p->count = 0;
 }
 
@@ -120,7 +121,7 @@ static double offset_next(uint32_t *place)
     return ldexp(noise_random_table[*place], -31) - 1;
 }
 
-static void square_scout(const struct pass *p, uint32_t square, struct tracer *t, int x0,
+static void square_scout(const struct pass *p, uint32_t square, struct scout *s, int x0,
                          int y0, int x1, int y1)
 {
     const double spread = fmin(1, p->size / 2), middle = (p->size - 1) / 2;
@@ -134,11 +135,11 @@ static void square_scout(const struct pass *p, uint32_t square, struct tracer *t
                 dx = middle + spread * offset_next(&place);
             }
             if (points.count == BATCH_SIZE)
-                points_trace(t, &points);
+                points_trace(s, &points);
             points.at[points.count++] = (struct vec2){x + dx + 0.5, y + dy + 0.5};
         }
     }
-    points_trace(t, &points);
+    points_trace(s, &points);
 }
 
 static int least(int a, int b) { return a < b ? a : b; }
@@ -158,8 +159,7 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
         gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
         const uint64_t before = gatherer_rays(s->gatherer);
         if (!p->settled[i] || p->final)
-            square_scout(p, i, s->tracer, x0, y0,
-                         least(x0 + SQUARE, p->settings->col_end),
+            square_scout(p, i, s, x0, y0, least(x0 + SQUARE, p->settings->col_end),
                          least(y0 + SQUARE, p->settings->row_end));
         p->settled[i] |= gather_is_settled(s->gatherer);
         p->rays[i] = gatherer_rays(s->gatherer) - before;

@@ -31,11 +31,10 @@ void gatherer_free(struct gatherer *g)
         struct gather_level *l = &g->level[k];
         if (l->tracer)
             tracer_free(l->tracer);
-        free(l->path);
         free(l->to);
         free(l->first);
-        free(l->color);
         free(l->quality);
+        free(l->waiting);
     }
     free(g->level);
     free(g);
@@ -69,20 +68,29 @@ void *gather_begin(const void *cache)
 
 void gather_end(void *state) { gatherer_free(((struct gather_level *)state)->owner); }
 
+// How many samples may wait for each other. Where others are taken at depth, the order of rays
+// would decide where those lie.
+static uint32_t most_waiting(const struct gather_level *l)
+{
+    const struct irradiance_cache *c = l->owner->cache;
+    const uint32_t most = BATCH_SIZE / gather_count(c, l->depth);
+    return l->owner->fresh && c->depths == 1 && !c->scout.general && most ? most : 1;
+}
+
 static void level_prepare(struct gather_level *l)
 {
     const struct irradiance_cache *c = l->owner->cache;
-    const uint32_t n = gather_count(c, l->depth);
+    l->waiting_most = most_waiting(l);
+    const uint32_t n = l->waiting_most * gather_count(c, l->depth);
     const bool last = l->depth + 1 == c->depths;
     l->tracer = tracer_new(last ? &c->gather_last : &c->gather);
     if (!last)
         l->tracer->indirect = &l->owner->level[l->depth + 1];
     l->tracer->scratch->crossings.cancel = c->cancel;
-    l->path = must_calloc(n, sizeof *l->path);
     l->to = must_calloc(n, sizeof *l->to);
     l->first = must_calloc(n, sizeof *l->first);
-    l->color = must_calloc(n, sizeof *l->color);
     l->quality = must_calloc(n, sizeof *l->quality);
+    l->waiting = must_calloc(l->waiting_most, sizeof *l->waiting);
 }
 
 // ---- one sample -------------------------------------------------------------------------
@@ -115,14 +123,14 @@ static struct vec3 next_direction(struct gather_level *l, const struct frame *f)
 // Fills the directions: those behind the bare surface are left out as long as there are
 // others (a perturbed normal's); then the surface's own normal serves.
 static void choose_directions(struct gather_level *l, const struct indirect_query *q,
-                              uint32_t count)
+                              uint32_t count, struct vec3 *to)
 {
     enum { TRIES = 5 };
     struct frame f = frame_about(q->n);
     uint32_t left = TRIES * count;
     for (uint32_t i = 0; i < count;) {
-        l->to[i] = next_direction(l, &f);
-        if (vec3_dot(l->to[i], q->side) > 0 || left == 0) {
+        to[i] = next_direction(l, &f);
+        if (vec3_dot(to[i], q->side) > 0 || left == 0) {
             i++;
             continue;
         }
@@ -140,52 +148,55 @@ static float powered(double base, uint32_t exponent)
 }
 
 static void make_paths(struct gather_level *l, const struct indirect_query *q,
-                       uint32_t count)
+                       uint32_t first, uint32_t count)
 {
     const double half = l->owner->cache->settings->brightness / 2;
-    const float weight = powered(half, l->depth + 1);
-    const uint16_t level = (uint16_t)(3 * (l->depth + 1) / 2);
+    const struct vec3 n = q->at->ng, from[2] = {trace_offset(q->at, n),
+                                                trace_offset(q->at, vec3_neg(n))};
+    struct path p = {.inside = q->inside,
+                     .through = {1, 1, 1},
+                     .through_t = 1,
+                     .weight = powered(half, l->depth + 1),
+                     .level = (uint16_t)(3 * (l->depth + 1) / 2)};
+    struct path *path = tracer_paths_room(l->tracer, count);
     for (uint32_t i = 0; i < count; i++) {
-        l->quality[i] = 1;
-        l->path[i] = (struct path){.o = trace_offset(q->at, l->to[i]),
-                                   .d = l->to[i],
-                                   .inside = q->inside,
-                                   .through = {1, 1, 1},
-                                   .through_t = 1,
-                                   .weight = weight,
-                                   .hash = hash_mix(q->hash, i + 1),
-                                   .level = level};
+        l->quality[first + i] = 1;
+        p.d = l->to[first + i];
+        p.o = from[vec3_dot(p.d, n) < 0];
+        p.sample = first + i;
+        p.hash = hash_mix(q->hash, i + 1);
+        path[i] = p;
     }
 }
 
-static struct rgb limited(const float c[4], double most)
+static struct rgb limited(struct rgb light, double most)
 {
-    const struct rgb light = rgb(c[0], c[1], c[2]);
     const float max = rgb_max(light);
     return most > 0 && (double)max > most ? rgb_scale((float)most / max, light) : light;
 }
 
 // What ray i of a sample counts for: objects of little importance are seen by the first
 // rays only, which stand for the others.
-static double ray_weight(const struct gather_level *l, uint32_t i, uint32_t count)
+static double ray_weight(const struct gather_level *l, const struct first_hit *met,
+                         uint32_t i, uint32_t count)
 {
     const struct world *w = l->tracer->job->world;
-    if (!(l->first[i].distance < INFINITY))
+    if (!l->owner->cache->has_importance || !(met->distance < INFINITY))
         return 1;
-    const double importance =
-        (double)w->surface[w->leaf[l->first[i].leaf].surface].importance;
+    const double importance = (double)w->surface[w->leaf[met->leaf].surface].importance;
     return i <= importance * (count - 1) ? 1 / importance : 0;
 }
 
 // Mean light, weighted by how well each part is known.
-static void mean_light(const struct gather_level *l, uint32_t count,
-                       struct cache_sample *out)
+static void mean_light(const struct gather_level *l, const struct sample_sum *seen,
+                       uint32_t first, uint32_t count, struct cache_sample *out)
 {
     const double most = l->owner->cache->settings->max_sample;
     double sum[3] = {0, 0, 0}, known = 0, all = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const struct rgb c = limited(l->color[i], most);
-        const double w = ray_weight(l, i, count), q = w * (double)l->quality[i];
+        const struct rgb c = limited(seen[first + i].light, most);
+        const double w = ray_weight(l, &l->first[first + i], i, count),
+                     q = w * (double)l->quality[first + i];
         all += w;
         known += q;
         sum[0] += q * (double)c.r;
@@ -199,15 +210,20 @@ static void mean_light(const struct gather_level *l, uint32_t count,
         rgb((float)(sum[0] / known), (float)(sum[1] / known), (float)(sum[2] / known));
 }
 
+static double unit_at(const struct gather_level *l, struct vec3 p)
+{
+    return vec3_length(vec3_sub(p, l->owner->cache->eye)) * (double)(1u << l->depth);
+}
+
 // Fills in radius and nearest surface; false: too close to something to be stored.
-static bool distances(const struct gather_level *l, struct vec3 p, uint32_t count,
-                      struct cache_sample *out)
+static bool distances(const struct gather_level *l, const struct gather_waiting *w,
+                      uint32_t first, uint32_t count, struct cache_sample *out)
 {
     static const double too_near = 1e-4; // of the largest radius
-    const struct irradiance_cache *c = l->owner->cache;
+    const double low = l->owner->cache->settings->minimum_reuse * unit_at(l, w->p);
     double inverse = 0;
     out->nearest = INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = first; i < first + count; i++) {
         if (!(l->first[i].distance < INFINITY))
             continue;
         inverse += 1 / l->first[i].distance;
@@ -216,12 +232,9 @@ static bool distances(const struct gather_level *l, struct vec3 p, uint32_t coun
             out->to = l->to[i];
         }
     }
-    const double unit = vec3_length(vec3_sub(p, c->eye)) * (double)(1u << l->depth);
-    const double low = c->settings->minimum_reuse * unit,
-                 high = c->settings->maximum_reuse * unit;
     const double mean = inverse > 0 ? count / inverse : INFINITY;
-    out->radius = fmax(low, fmin(high, mean));
-    return out->nearest >= too_near * high && out->radius > 0;
+    out->radius = fmax(low, fmin(w->high, mean));
+    return out->nearest >= too_near * w->high && out->radius > 0;
 }
 
 // The widest error bound that is ever asked for at a depth (spec/lighting.md 12.2).
@@ -239,21 +252,54 @@ double gather_reach(const struct irradiance_cache *c, const struct cache_sample 
     return s->depth ? reach / CLOSER : reach;
 }
 
-static void take_sample(struct gather_level *l, const struct indirect_query *q,
-                        struct cache_sample *out)
+// A sample's rays wait.
+static void sample_put(struct gather_level *l, const struct indirect_query *q)
 {
-    const uint32_t count = gather_count(l->owner->cache, l->depth);
     if (!l->tracer)
         level_prepare(l);
-    choose_directions(l, q, count);
-    make_paths(l, q, count);
-    tracer_paths(l->tracer, l->path, count, l->first, l->color);
-    *out = (struct cache_sample){.p = q->at->p, .n = q->n, .depth = l->depth};
-    mean_light(l, count, out);
-    const bool lasting = distances(l, out->p, count, out);
-    out->reach = gather_reach(l->owner->cache, out);
-    if (lasting && l->owner->fresh)
-        store_add(l->owner->fresh, out);
+    const struct irradiance_cache *c = l->owner->cache;
+    const uint32_t count = gather_count(c, l->depth), first = l->waiting_count * count;
+    choose_directions(l, q, count, l->to + first);
+    make_paths(l, q, first, count);
+    l->waiting[l->waiting_count++] = (struct gather_waiting){
+        q->at->p, q->n, c->settings->maximum_reuse * unit_at(l, q->at->p)};
+}
+
+// Takes the samples that wait, in their order; returns the last.
+static struct cache_sample samples_take(struct gather_level *l)
+{
+    const uint32_t count = gather_count(l->owner->cache, l->depth);
+    const struct sample_sum *seen = tracer_paths(l->tracer, l->first);
+    struct cache_sample s = {0};
+    for (uint32_t k = 0; k < l->waiting_count; k++) {
+        const struct gather_waiting *w = &l->waiting[k];
+        s = (struct cache_sample){.p = w->p, .n = w->n, .depth = l->depth};
+        mean_light(l, seen, k * count, count, &s);
+        const bool lasting = distances(l, w, k * count, count, &s);
+        s.reach = gather_reach(l->owner->cache, &s);
+        if (lasting && l->owner->fresh)
+            store_add(l->owner->fresh, &s);
+    }
+    l->waiting_count = 0;
+    return s;
+}
+
+void gatherer_flush(struct gatherer *g)
+{
+    for (uint32_t k = 0; k < g->cache->depths; k++)
+        if (g->level[k].waiting_count)
+            samples_take(&g->level[k]);
+}
+
+// Whether a sample that waits may say something there, however large its radius turns out.
+static bool waiting_counts(const struct gather_level *l, const struct cache_point *at)
+{
+    for (uint32_t k = 0; k < l->waiting_count; k++) {
+        const struct gather_waiting *w = &l->waiting[k];
+        if (cache_may_count(w->p, w->n, w->high, at))
+            return true;
+    }
+    return false;
 }
 
 // ---- queries ----------------------------------------------------------------------------
@@ -331,6 +377,17 @@ static void tell_quality(const struct gather_level *l, const struct indirect_que
             (float)fmin(1, sample_weight * weight / required(l->owner, l->depth));
 }
 
+static struct cache_mean mean_known(struct gather_level *l, const struct cache_point *at)
+{
+    const struct store *known = &l->owner->cache->store, *fresh = l->owner->fresh;
+    struct cache_mean mean = {0};
+    if (known->count)
+        store_mean(known, at, &l->asked, &mean);
+    if (fresh && fresh->count && mean.weight < at->enough)
+        store_mean(fresh, at, &l->asked_fresh, &mean);
+    return mean;
+}
+
 struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                              const struct indirect_query *q)
 {
@@ -348,21 +405,23 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                                    l->depth,
                                    g->final && l->depth == 0,
                                    scouts && !weighs ? least : INFINITY};
-    struct cache_mean mean = {0};
-    if (c->store.count)
-        store_mean(&c->store, &at, &l->asked, &mean);
-    if (g->fresh && g->fresh->count && mean.weight < at.enough)
-        store_mean(g->fresh, &at, &l->asked_fresh, &mean);
+    struct cache_mean mean = mean_known(l, &at);
+    if ((weighs || mean.weight < least) && waiting_counts(l, &at)) {
+        gatherer_flush(g);
+        mean = mean_known(l, &at);
+    }
     if (weighs) {
         g->weight += mean.weight;
         g->points++;
     }
     // After a cancel nobody looks at the light; a sample may take many seconds.
     if (mean.weight < least && !(c->cancel && *c->cancel)) {
-        struct cache_sample fresh;
         if (!g->fresh)
             l->next = q->hash % c->direction_count;
-        take_sample(l, q, &fresh);
+        sample_put(l, q);
+        if (scouts && l->waiting_count < l->waiting_most)
+            return rgb(0, 0, 0);
+        const struct cache_sample fresh = samples_take(l);
         const double w = fresh.quality;
         mean.weight += w;
         mean.light[0] += w * (double)fresh.light.r;

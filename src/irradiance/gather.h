@@ -15,9 +15,16 @@ struct irradiance_cache {
     struct job gather, gather_last; // of every depth but the last, and of that
     const volatile bool *cancel;    // when set, no further sample is taken; NULL: never
     uint32_t depths;
+    bool has_importance; // some object is not seen by all rays
     struct store store;
     struct vec3 *direction; // about y, cosine-weighted
     uint32_t direction_count;
+};
+
+// A sample whose rays wait to be traced with those of others.
+struct gather_waiting {
+    struct vec3 p, n;
+    double high; // the largest radius it may get
 };
 
 // What a thread keeps for one depth.
@@ -26,11 +33,11 @@ struct gather_level {
     uint32_t depth;
     struct tracer *tracer; // of rays that gather for this depth; made when first wanted
     uint32_t next;         // direction
-    struct path *path;
-    struct vec3 *to; // their directions
+    struct vec3 *to;       // directions of rays
     struct first_hit *first;
-    float (*color)[4];
     float *quality; // of what each met, as the next depth tells
+    struct gather_waiting *waiting;
+    uint32_t waiting_count, waiting_most;
     struct store_memo asked, asked_fresh;
 };
 
@@ -55,6 +62,8 @@ double gather_reach(const struct irradiance_cache *c, const struct cache_sample 
 bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sample *s);
 // Whether nearest_count's second number says that where it was since the start enough is known.
 bool gather_is_settled(const struct gatherer *g);
+// Takes the samples that wait, as must be done before the rays that asked for them are gone.
+void gatherer_flush(struct gatherer *g);
 // A new store takes what is found, or what was known has grown; directions from here on.
 void gatherer_start(struct gatherer *g, uint32_t direction);
 

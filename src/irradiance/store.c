@@ -34,16 +34,21 @@ static double falloff(double error, const struct cache_point *at)
     return x < 0.5 ? 1 - y * y / 2 : y * y / 2;
 }
 
+bool cache_may_count(struct vec3 p, struct vec3 n, double radius,
+                     const struct cache_point *at)
+{
+    // The part of the error that normals make is enough to tell for most.
+    const double turned = fabs(1 - vec3_dot(at->n, n));
+    return !(4 * turned >= at->error_bound * at->error_bound) &&
+           !(vec3_length(vec3_sub(at->p, p)) >= radius * at->error_bound);
+}
+
 double cache_weight(const struct cache_sample *s, const struct cache_point *at)
 {
+    if (!cache_may_count(s->p, s->n, s->radius, at))
+        return 0;
     const struct vec3 d = vec3_sub(at->p, s->p);
-    // The part of the error that normals make is enough to tell for most.
-    const double turned = fabs(1 - vec3_dot(at->n, s->n));
-    if (4 * turned >= at->error_bound * at->error_bound)
-        return 0;
-    const double distance = vec3_length(d);
-    if (distance >= s->radius * at->error_bound)
-        return 0;
+    const double turned = fabs(1 - vec3_dot(at->n, s->n)), distance = vec3_length(d);
     double radius = s->radius, front = 1;
     if (distance > cache_same_place) {
         const struct vec3 way = vec3_scale(1 / distance, d);

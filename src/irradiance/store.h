@@ -93,6 +93,9 @@ struct cache_means {
 };
 void store_means(const struct store *s, const struct cache_points *at,
                  struct store_memo *memo, struct cache_means *mean);
+// Whether a sample at p with the normal n may say something there, if its radius is not larger.
+bool cache_may_count(struct vec3 p, struct vec3 n, double radius,
+                     const struct cache_point *at);
 // Weight of one sample; 0: it says nothing here. This is the rule that the kernels follow.
 double cache_weight(const struct cache_sample *s, const struct cache_point *at);
 

@@ -160,22 +160,28 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
     results(t, count, out);
 }
 
-void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
-                  struct first_hit *first, float (*out)[4])
+struct path *tracer_paths_room(struct tracer *t, uint32_t count)
 {
-    begin(t, count);
-    wave_sums_grow(t, count);
-    t->camera_queue.count = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        struct path *p = path_queue_add(&t->camera_queue);
-        *p = path[i];
-        p->sample = i;
-    }
+    struct path_queue *q = &t->camera_queue;
+    const uint32_t first = q->count;
+    path_queue_reserve(q, count);
+    q->count += count;
+    for (uint32_t i = first; i < q->count; i++)
+        q->order[i] = i;
+    return q->at + first;
+}
+
+const struct sample_sum *tracer_paths(struct tracer *t, struct first_hit *first)
+{
+    struct path_queue *q = &t->camera_queue;
+    begin(t, q->count);
+    wave_sums_grow(t, q->count);
     t->first = first;
-    t->first_level = count ? path[0].level : 0;
-    wave_run(t, &t->camera_queue);
+    t->first_level = q->count ? q->at[0].level : 0;
+    wave_run(t, q);
     t->first = NULL;
-    results(t, count, out);
+    q->count = 0;
+    return t->sum;
 }
 
 static void samples_one_by_one(struct tracer *t, const struct vec2 *position,

@@ -219,10 +219,12 @@ void tracer_rays(struct tracer *t, const struct tracer_ray *ray, uint32_t count,
 void tracer_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
                     float (*out)[4]);
 
-// The same for rays that come from elsewhere than the camera: path[i] belongs to sample i.
-// All have the same level. first, if not NULL, gets what each meets first.
-void tracer_paths(struct tracer *t, const struct path *path, uint32_t count,
-                  struct first_hit *first, float (*out)[4]);
+// Room for rays that come from elsewhere than the camera, all of the same level, behind those
+// that wait. Their samples are their places from 0.
+struct path *tracer_paths_room(struct tracer *t, uint32_t count);
+// Traces what waits; the samples stand until the next call. first, if not NULL, gets what each meets
+// first.
+const struct sample_sum *tracer_paths(struct tracer *t, struct first_hit *first);
 
 // The same for at most BATCH_SIZE where a sample is one ray (a camera without meshes), where
 // they stand until the next call. on_lens: where each goes through the camera's lens, in scene

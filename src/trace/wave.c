@@ -360,8 +360,7 @@ static void first_keep(struct tracer *t)
     for (uint32_t k = 0; k < w->count; k++) {
         const struct path *p = &w->path[w->order[w->slot[k]]];
         if (p->level == t->first_level) {
-            const struct hit hit = hit_batch_at(t->hit, k);
-            t->first[p->sample] = (struct first_hit){hit.b.t, hit.b.leaf};
+            t->first[p->sample] = (struct first_hit){t->hit->t[k], t->hit->leaf[k]};
         }
     }
 }

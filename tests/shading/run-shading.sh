@@ -31,7 +31,7 @@ done
 # scene above, those of the gallery, and for each instruction set.
 different=
 scenes=0
-for scene in "$dir"/*.pov "$top_srcdir"/scenes/gallery/*.scn "$top_srcdir"/tests/perf/csg_1000.scn \
+for scene in "$dir"/*.pov "$dir"/*.scn "$top_srcdir"/scenes/gallery/*.scn "$top_srcdir"/tests/perf/csg_1000.scn \
     "$top_srcdir"/tests/perf/texture_*.scn; do
     [ -z "$(sed -n "s/^$(basename "$scene" .pov): //p" "$dir/not-built.txt")" ] || continue
     # Media take long; a part of their scenes is enough here.
