@@ -185,6 +185,7 @@ static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
 %token <size_t> WORD CONSTANT CALL1 CALL STRING_CALL XYZ COLOR RGB PART GRAY
 %token <size_t> FUNCTION ARRAY
 %token LITERAL                  // a whole block (lang/literal.h)
+%token NAMED                    // the same with names; the stream makes a LITERAL of it
 %token <struct ast *> NUMBER VECTOR3 BULK STRING NAME STRING_NAME OTHER_NAME ARRAY_NAME FUNCTION_NAME
 
 %type <struct ast *> statement block function_block function_body params size entry
@@ -574,6 +575,7 @@ dims: sub_list ;
 
 elements:
     %empty                              { $$ = NULL; }
+  | BULK                                { $$ = one($1); }
   | element_list
   ;
 

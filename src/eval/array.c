@@ -69,6 +69,16 @@ const struct value *array_get(struct arena *copies, const struct array_value *v,
     return value_new_number(copies, v->number + (size_t)index * v->width, v->width);
 }
 
+void array_fill(struct arena *a, struct array_value *v, const double *number,
+                uint8_t width)
+{
+    v->kind = VALUE_NUMBER;
+    v->width = width;
+    make_room(a, v);
+    memcpy(v->number, number, (size_t)v->count * width * sizeof *number);
+    memset(v->set, true, v->count * sizeof *v->set);
+}
+
 bool array_set(struct arena *a, struct array_value *v, uint32_t index,
                const struct value *to)
 {

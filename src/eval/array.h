@@ -27,6 +27,9 @@ struct array_value *array_copy(struct arena *a, const struct array_value *from);
 // The element, or NULL when none was assigned. Numbers are copied into `copies`.
 const struct value *array_get(struct arena *copies, const struct array_value *v,
                               uint32_t index);
+// All elements, at first: numbers of that width.
+void array_fill(struct arena *a, struct array_value *v, const double *number,
+                uint8_t width);
 // False when v is of another kind or width than the elements.
 bool array_set(struct arena *a, struct array_value *v, uint32_t index,
                const struct value *to);

@@ -13,6 +13,7 @@
 #include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
+#include "lang/bulk.h"
 #include "scene/shapes/mesh.h"
 
 enum { SCOPES_MAX = 4200 };
@@ -290,6 +291,31 @@ static bool fill_array(struct eval *e, struct array_value *a, const struct ast *
     return given == a->size[dimension];
 }
 
+// Elements that were read as one token.
+static bool fill_whole(struct eval *e, struct array_value *a, const struct ast *entry)
+{
+    const struct bulk *b = entry->list->bulk;
+    for (uint32_t i = 0; i < a->dimensions; i++)
+        if (i >= b->dimensions || b->size[i] != a->size[i]) {
+            diag_at(e->diags, DIAG_INITIALISERS, entry->where, a->size[i]);
+            return false;
+        }
+    if (b->dimensions > a->dimensions) {
+        diag_at(e->diags, DIAG_EXPECTED_NUMBER, entry->where, "braces");
+        return false;
+    }
+    array_fill(e->arena, a, b->number, (uint8_t)b->width);
+    return true;
+}
+
+static bool fill(struct eval *e, struct array_value *a, const struct ast *entry)
+{
+    uint32_t next = 0;
+    return entry->list && entry->list->kind == AST_BULK
+               ? fill_whole(e, a, entry)
+               : fill_array(e, a, entry, 0, &next);
+}
+
 // Pointers or numbers come with the first element; a size may be a slip of the pen.
 static bool array_fits(struct eval *e, struct span where, uint32_t dimensions,
                        const long *size)
@@ -324,8 +350,7 @@ const struct value *eval_array(struct eval *e, const struct ast *sizes,
         diag_at(e->diags, DIAG_ARRAY_SIZE, sizes->where, "");
         return NULL;
     }
-    uint32_t next = 0;
-    if (elements && !fill_array(e, a, elements, 0, &next))
+    if (elements && !fill(e, a, elements))
         return NULL;
     struct value *v = arena_new_struct(e->arena, struct value);
     v->kind = VALUE_ARRAY;

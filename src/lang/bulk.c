@@ -67,6 +67,74 @@ size_t bulk_scan(struct arena *a, enum word w, const char *text, size_t len,
     return 0;
 }
 
+// The elements of an array as they come; what is known of all is found with the first.
+struct elements {
+    struct scan s;
+    struct bulk *b;
+    double *number; // the next one; NULL: they are only counted
+};
+
+static bool element(struct elements *e)
+{
+    struct bulk *b = e->b;
+    const bool vector = scan_mark(&e->s, '<');
+    uint32_t width = 0;
+    do {
+        if (!scan_number(&e->s, e->number))
+            return false;
+        e->number += e->number != NULL;
+        width++;
+    } while (vector && scan_mark(&e->s, ','));
+    const bool whole = !vector || (width > 1 && width <= 5 && scan_mark(&e->s, '>'));
+    if (!b->width)
+        b->width = width;
+    b->count++;
+    return whole && width == b->width;
+}
+
+// The elements of one pair of braces, up to the '}'.
+static bool row(struct elements *e, uint32_t dimension)
+{
+    struct bulk *b = e->b;
+    uint32_t n = 0;
+    for (;; n++) {
+        scan_blanks(&e->s);
+        const char c = scan_next(&e->s);
+        if (c == '}')
+            break;
+        if (c != '{') {
+            if (!b->dimensions)
+                b->dimensions = dimension + 1;
+            if (b->dimensions != dimension + 1 || !element(e) ||
+                (!scan_mark(&e->s, ',') && scan_next(&e->s) != '}'))
+                return false;
+            continue;
+        }
+        e->s.at++;
+        if (dimension + 1 == BULK_DIMENSIONS_MAX || b->dimensions == dimension + 1 ||
+            !row(e, dimension + 1) || !scan_mark(&e->s, '}'))
+            return false;
+        scan_mark(&e->s, ',');
+    }
+    if (!b->size[dimension])
+        b->size[dimension] = n;
+    return n > 0 && n == b->size[dimension];
+}
+
+size_t bulk_scan_array(struct arena *a, const char *text, size_t len, struct bulk *out)
+{
+    struct bulk counted = {.count = 0};
+    struct elements e = {.s = {text, text + len}, .b = &counted};
+    if (!row(&e, 0) || counted.dimensions == 0)
+        return 0;
+    *out = (struct bulk){.len = (uint32_t)(e.s.at - text)};
+    double *all = arena_new_array(a, double, (size_t)counted.count *counted.width);
+    e = (struct elements){.s = {text, text + len}, .b = out, .number = all};
+    row(&e, 0);
+    out->number = all;
+    return out->len;
+}
+
 size_t bulk_vector(const char *text, size_t len, double out[3])
 {
     struct scan s = {text, text + len};

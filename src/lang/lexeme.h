@@ -14,6 +14,7 @@ static inline uint32_t lexeme_len(const struct lexeme *t)
     case TOK_NUMBER: return t->word;
     case TOK_VECTOR3: return t->vector->len;
     case TOK_BULK: return t->bulk->len;
+    case TOK_NAMED: return t->named->len;
     default: return t->len;
     }
 }

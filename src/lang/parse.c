@@ -112,6 +112,7 @@ static bool is_literal(const struct stream *s)
     case ']':
     case ';':
     case TOK_WORD:
+    case TOK_NAMED:
     case TOK_LITERAL: return true;
     default: return false;
     }
@@ -352,7 +353,7 @@ struct ast *parse_close(struct parse *p, struct ast *node)
 static struct ast *literal(struct stream *s, const struct token *t, bool part)
 {
     struct arena_mark mark = arena_mark(s->nodes);
-    struct ast *n = literal_read(s->nodes, &s->words, t);
+    struct ast *n = literal_read(s->nodes, &s->words, t, &s->host);
     if (part || word_class((enum word)t->word) != CLASS_OBJECTS)
         return n;
     return finish_block(s, n, mark);
@@ -366,7 +367,8 @@ struct ast *parse_literal(struct parse *p)
     if (!mesh)
         return literal(p->in, p->now, is_part(p, w));
     const struct arena_mark mark = arena_mark(p->arena);
-    return take_face(p, mesh, literal_read(p->arena, &p->in->words, p->now), mark);
+    return take_face(p, mesh, literal_read(p->arena, &p->in->words, p->now, &p->in->host),
+                     mark);
 }
 
 struct ast *parse_finish(struct parse *p, struct ast *node)
@@ -455,7 +457,7 @@ static void skip_broken(struct parse *p)
             (next.kind == '}' && p->braces <= 0))
             break;
         if (p->braces <= 0 && !parens &&
-            (next.kind == TOK_LITERAL ||
+            (next.kind == TOK_LITERAL || next.kind == TOK_NAMED ||
              (next.kind == TOK_WORD && raw_peek_second(s).kind == '{')))
             break;
         struct token t = stream_next(s);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lang/lexer.h"
+#include "lang/literal.h"
 #include "lang/parse.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
@@ -131,8 +132,11 @@ void stream_pop_finished(struct stream *s)
         struct cursor *c = &s->cursors[s->cursor_count - 1];
         if (c->at < c->count)
             return;
-        directive_end_of_cursor(s, c);
+        if (!c->piece)
+            directive_end_of_cursor(s, c);
         s->cursor_count--;
+        if (c->piece)
+            continue;
         if (c->macro)
             s->calls--;
         else
@@ -243,6 +247,7 @@ static bool may_go_on_after(const struct stream *s, const struct cursor *c)
     case ';':
     case ']':
     case TOK_WORD:
+    case TOK_NAMED:
     case TOK_LITERAL: return false;
     default: return true;
     }
@@ -462,11 +467,51 @@ void stream_run_directive(struct stream *s, const struct token *hash)
     arena_rewind(s->nodes, mark);
 }
 
+static bool are_blocks(const struct stream *s, const struct token *t)
+{
+    const struct named_literal *l = t->named;
+    const char *file = t->text - t->where.begin;
+    for (uint32_t i = 0; i < l->count; i++) {
+        const struct name_info info =
+            s->host.lookup(s->host.user, file + l->name[i].begin, l->name[i].len);
+        if ((info.class != NAME_BLOCK && info.class != NAME_OBJECT) || info.deprecated)
+            return false;
+    }
+    return true;
+}
+
+// A block with names is one token if they are what it takes them for; false: its tokens come
+// one by one.
+static bool take_named(struct stream *s, struct token *t)
+{
+    const struct named_literal *l = t->named;
+    t->kind = TOK_LITERAL;
+    s->steps += l->tokens - 1;
+    if (are_blocks(s, t))
+        return true;
+    s->steps -= l->tokens;
+    if (!l->piece)
+        literal_expand(s->arena, &s->words, t);
+    s->cursors =
+        stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
+    s->cursors[s->cursor_count++] = (struct cursor){.tokens = l->piece,
+                                                    .slots = l->slots,
+                                                    .count = l->tokens,
+                                                    .file = t->where.file,
+                                                    .text = t->text - t->where.begin,
+                                                    .frames = s->frame_count,
+                                                    .expansion = t->where.expansion,
+                                                    .piece = true};
+    return false;
+}
+
 // Gives the token its meaning here; false when there is none: it was a macro.
 static bool cook(struct stream *s, struct token *t)
 {
     if (t->kind == TOK_NAME)
         return bind_name(s, t);
+    if (t->kind == TOK_NAMED)
+        return take_named(s, t);
     if (t->kind == ']' && next_kind(s) == '[') {
         t->kind = TOK_MORE;
     } else if (t->kind == TOK_WORD && next_kind(s) == '(') {

@@ -14,7 +14,7 @@ enum {
     FRAMES_MAX = 20000,
 };
 
-// Where tokens come from: a file, or the body of a macro being called.
+// Where tokens come from: a file, the body of a macro being called, or a block of either.
 struct cursor {
     const struct lexeme *tokens;
     uint32_t *slots; // calc_place.slot of each token
@@ -24,6 +24,7 @@ struct cursor {
     uint32_t expansion;
     uint32_t frames; // frames open when it began
     const struct macro *macro;
+    bool piece; // a block of the text below, token by token
 };
 
 enum frame_kind { FRAME_IF, FRAME_SWITCH, FRAME_WHILE, FRAME_FOR };

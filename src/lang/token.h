@@ -15,6 +15,20 @@ struct lexed_vector {
     uint32_t len; // bytes of its text
 };
 
+enum { LITERAL_NAMES_MAX = 4 };
+
+// A block that is written out but for names of blocks and objects (lang/literal.h).
+struct named_literal {
+    uint32_t len;    // bytes of its text
+    uint32_t tokens; // that it stands for
+    uint32_t count;  // of names
+    struct {
+        uint32_t begin, len; // in the file
+    } name[LITERAL_NAMES_MAX];
+    struct lexeme *piece; // its tokens and their calc_place.slots, once they were needed
+    uint32_t *slots;
+};
+
 // One token of a file as it is kept, made once by the lexer: scenes that programs write have
 // tens of millions. lang/lexeme.h tells what is not here.
 struct lexeme {
@@ -25,6 +39,7 @@ struct lexeme {
         double number;
         const struct lexed_vector *vector; // TOK_VECTOR3: `<1, 2, 3>` of plain numbers
         const struct bulk *bulk;           // TOK_BULK: the contents of a block of mesh2
+        struct named_literal *named;       // TOK_NAMED
         struct {
             uint32_t len;    // of all others: bytes of the text
             uint32_t tokens; // of a TOK_LITERAL: how many it stands for
@@ -44,6 +59,7 @@ struct token {
         double number;
         const double *vector;
         const struct bulk *bulk;
+        struct named_literal *named;
     };
     const struct value *value; // a declared name, when read by the stream: its value
 };

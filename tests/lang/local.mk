@@ -58,6 +58,7 @@ lang_scenes = \
 	%D%/054-transform-values.scn \
 	%D%/055-inside-shapes.scn \
 	%D%/056-while-nested-macro.scn \
+	%D%/057-arrays-written-out.scn \
 	%D%/100-error-argument.scn \
 	%D%/101-error-semicolon.scn \
 	%D%/102-error-width.scn \
@@ -219,6 +220,7 @@ lang_scenes = \
 	%D%/361-version-1-signs.scn \
 	%D%/362-error-vector-one.scn \
 	%D%/363-warning-semicolons.scn \
-	%D%/364-message-bytes.scn
+	%D%/364-message-bytes.scn \
+	%D%/365-error-array-row.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

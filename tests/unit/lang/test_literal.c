@@ -39,9 +39,14 @@ static void emit(void *user, const struct diag *d)
 
 static struct name_info lookup(void *user, const char *name, size_t len)
 {
+    static const char *const blocks[] = {"T", "S2", "Block_3"};
     (void)user;
-    (void)name;
-    (void)len;
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+        if (strlen(blocks[i]) == len && memcmp(blocks[i], name, len) == 0)
+            return (struct name_info){.class = i == 1 ? NAME_OBJECT : NAME_BLOCK,
+                                      .value = (const void *)blocks[i]};
+    if (len == 1 && *name == 'V')
+        return (struct name_info){.class = NAME_VALUE, .value = (const void *)blocks};
     return (struct name_info){.class = NAME_UNDECLARED};
 }
 
@@ -150,7 +155,7 @@ static bool same(const struct ast *a, const struct ast *b)
     case AST_BINARY: return same(a->left, b->left) && same(a->right, b->right);
     case AST_STRING:
     case AST_UNDECLARED:
-    case AST_VALUE: return a->len == b->len;
+    case AST_VALUE: return a->len == b->len && a->value == b->value;
     default: return same_lists(a->list, b->list);
     }
 }
@@ -204,7 +209,23 @@ static const struct {
     {"{ <0,0,0>, -1 }", 0},
     {"{ <0,0,0>*2, 1 }", 0},
     {"{ <0,0,0>.x, 1 }", 0},
-    {"{ <0,0>, 1 }", 0},
+    {"{ <0,0>, 1 }", 10},
+    {"{ 1 uv_vectors < 0 ,1.5>,<-1, 0><.5,-1e-2> }", 23},
+    {"{ <0,--1>, 1 }", 0},
+    {"{ <0,0>= 1 }", 0},
+    {"{ <0 1>, 1 }", 0},
+    {"{ <0,0,0>, 1 texture { T } }", 10},
+    {"{ <0,0,0>, 1 texture { T scale 2 } texture { Block_3 finish { phong 1 } } }", 21},
+    {"{ <0,0,0>, 1 texture_list { T T, T } pigment { Undeclared rgb 1e0 } }", 19},
+    {"{ <0,0,0>, 1 texture { V translate <1, 2, 3> uv_vectors <-1, .5> } }", 19},
+    {"{ <0,0,0>, 1 texture_list { T T T T T } }", 0},
+    {"{ <0,0,0>, 1 texture { , T } }", 0},
+    {"{ <0,0,0>, 1 texture { T T } }", 0},
+    {"{ <0,0,0>, 1 texture { T.x } }", 0},
+    {"{ <0,0,0>, 1 texture { T(1) } }", 0},
+    {"{ <0,0,0>, 1 texture { T + 1 } }", 0},
+    {"{ <0,0,0>, 1 texture { rgb T } }", 0},
+    {"{ <0,0,0>, 1 scale { T } }", 0},
     {"{ <0,0,0,0>, 1 }", 0},
     {"{ x, 1 }", 0},
     {"{ <0,0,0>,, 1 }", 0},
@@ -235,12 +256,13 @@ static void taken(void **state)
     word_table_init(&words);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *text = cases[i].text;
-        uint32_t tokens = 0;
-        const size_t n = literal_scan(&words, WORD_sphere, text, strlen(text), &tokens);
-        if (n != (cases[i].tokens ? strlen(text) : 0) || (n && tokens != cases[i].tokens))
-            fail_msg("%s: %zu bytes, %u tokens", text, n, tokens);
+        struct named_literal l = {.len = 0};
+        const size_t n = literal_scan(&words, WORD_sphere, text, strlen(text), &l);
+        if (n != (cases[i].tokens ? strlen(text) : 0) ||
+            (n && l.tokens != cases[i].tokens))
+            fail_msg("%s: %zu bytes, %u tokens", text, n, l.tokens);
     }
-    uint32_t tokens;
+    struct named_literal tokens;
     assert_int_equal(literal_scan(&words, WORD_default, "{ }", 3, &tokens), 0);
     assert_int_equal(literal_scan(&words, WORD_function, "{ 1 }", 5, &tokens), 0);
     assert_int_equal(literal_scan(&words, WORD_uv_vectors, "{ 1 }", 5, &tokens), 0);
@@ -256,6 +278,8 @@ static void same_as_grammar(void **state)
         {"sphere", ""},
         {"union { sphere", "}"},
         {"blob { sphere", " }"},
+        {"object { S2 translate <1, 2, 3> texture { T } } mesh { object", " }"},
+        {"texture", " object { S2 } object { V } object { T }"},
         {"box { <0,0,0>, <1,1,1> } sphere", " box { <0,0,0>, <1,1,1> }"},
         {"pigment { object { sphere", " rgb 1 } }"},
         {"union { 1 2 sphere", "} }"},
@@ -280,15 +304,18 @@ static uint32_t next(uint64_t *state)
 static void mutants_as_grammar(void **state)
 {
     (void)state;
-    static const char base[] = "sphere { <1, -2, 3>, 0.5 texture { pigment { rgb <1, 0, "
-                               "0> filter 0.5 } finish { phong 1 "
-                               "} } translate <1, 2, 3> no_shadow } box { <0, 0, 0>, <1, "
-                               "1, 1> pigment { color red 1 } }\n"
-                               "union { cone { <0, 0, 0>, 1, <1, 1, 1>, 0 open } }\n";
+    static const char base[] =
+        "sphere { <1, -2, 3>, 0.5 texture { pigment { rgb <1, 0, "
+        "0> filter 0.5 } finish { phong 1 "
+        "} } translate <1, 2, 3> no_shadow } box { <0, 0, 0>, <1, "
+        "1, 1> pigment { color red 1 } }\n"
+        "object { S2 texture { T scale 2 } translate <1, 2, 3> } box { "
+        "<1, 1, 1>, <2, 2, 2> texture { V } uv_vectors <0, -1> }\n"
+        "union { cone { <0, 0, 0>, 1, <1, 1, 1>, 0 open } }\n";
     static const char bytes[] = "{}<>,;.-+*()[]=e019 \n\t#\"/xrRS_&?:";
     static const char *const tokens[] = {
-        "sphere ", "texture ", "pigment {", " rgb ",          "x",
-        "1",       " open ",   "<0, 1, 2>", " box { 0, 1 } ", " 1 "};
+        "sphere ",   "texture ",       "pigment {", " rgb ", "x",       "1",     " open ",
+        "<0, 1, 2>", " box { 0, 1 } ", " 1 ",       "T ",    " { S2 }", "<1, 2>"};
     uint64_t random = 1;
     for (int n = 0; n < 20000; n++) {
         char text[sizeof base + 200];
