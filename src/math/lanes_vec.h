@@ -37,6 +37,26 @@ LANES_INLINE struct float8 f8_of(struct real8 x)
 #endif
 }
 
+// x in the lanes `bits`, else y.
+LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct float8 y)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+    return (struct float8){_mm256_mask_blend_ps((__mmask8)bits, y.a, x.a)};
+#elif defined(__AVX2__)
+    const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i in =
+        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((int)bits), lane), lane);
+    return (struct float8){_mm256_blendv_ps(y.a, x.a, _mm256_castsi256_ps(in))};
+#else
+    float a[8], b[8];
+    f8_store(a, x);
+    f8_store(b, y);
+    for (int i = 0; i < 8; i++)
+        b[i] = bits >> i & 1 ? a[i] : b[i];
+    return f8_load(b);
+#endif
+}
+
 // The doubles of floats.
 LANES_INLINE struct real8 r8_of_floats(struct float8 x)
 {

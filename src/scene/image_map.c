@@ -7,10 +7,23 @@
 #include "scene/pattern_math.h"
 
 // ---- where a point falls -----------------------------------------------------
+// C's fmod, by a product that is exact: of a size that has at most 31 bits.
+static inline double remainder_of(double v, double size)
+{
+    const double a = fabs(v), times = a / size;
+    if (a < size)
+        return v;
+    if (!(size > 0 && times < 0x1p22))
+        return fmod(v, size);
+    double r = a - (int)times * size;
+    r = r < 0 ? r + size : r >= size ? r - size : r;
+    return copysign(r, v);
+}
+
 // As fmod does, but never negative and never `size`.
 static double wrap(double v, double size)
 {
-    v = fmod(v, size);
+    v = remainder_of(v, size);
     if (v < 0)
         v += size;
     return v >= size ? 0 : v;
@@ -46,17 +59,16 @@ static bool toroidal(struct vec3 p, double *u, double *v)
 static bool project(const struct image_map *m, struct vec3 p, double w, double h,
                     double *u, double *v)
 {
-    const double length = sqrt(p.x * p.x + p.z * p.z);
     switch (m->projection) {
     case IMAGE_SPHERICAL:
         if (!spherical(p, u, v))
             return false;
         break;
     case IMAGE_CYLINDRICAL:
-        if (length == 0 || (m->once && (p.y < 0 || p.y > 1)))
+        if (sqrt(p.x * p.x + p.z * p.z) == 0 || (m->once && (p.y < 0 || p.y > 1)))
             return false;
         *u = azimuth(p.x, p.z) / (2 * PATTERN_PI) * w;
-        *v = fmod(p.y * h, h);
+        *v = remainder_of(p.y * h, h);
         return true;
     case IMAGE_TOROIDAL:
         if (!toroidal(p, u, v))
@@ -65,8 +77,8 @@ static bool project(const struct image_map *m, struct vec3 p, double w, double h
     default:
         if (m->once && (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1))
             return false;
-        *u = fmod(p.x * w, w);
-        *v = fmod(p.y * h, h);
+        *u = remainder_of(p.x * w, w);
+        *v = remainder_of(p.y * h, h);
         return true;
     }
     *u *= w;

@@ -23,8 +23,8 @@ liblambert_a_SOURCES += \
 liblambert_a_SOURCES += \
 	%D%/finish.c %D%/interior.c %D%/map.c %D%/noise.c %D%/noise.h %D%/noise_packet.c %D%/noise_bounds.c %D%/noise_tables.h %D%/normal.c \
 	%D%/pattern.c %D%/pattern_bounds.c %D%/pattern_formula.c %D%/pattern_formula.h %D%/pattern_function.c \
-	%D%/pattern_function.h %D%/pattern_math.h %D%/pigment.c %D%/pigment_tape.c %D%/pigment_tape.h %D%/plain_lanes.h %D%/surface_eval.h %D%/texture.c \
-	%D%/warp.c %D%/warp.h
+	%D%/pattern_function.h %D%/pattern_math.h %D%/pigment.c %D%/pigment_tape.c %D%/pigment_tape.h %D%/plain_lanes.h %D%/ramp_lanes.h %D%/surface_eval.h %D%/texture.c \
+	%D%/warp.c %D%/warp.h %D%/warp_lanes.h
 liblambert_a_SOURCES += \
 	%D%/patterns/agate.c %D%/patterns/aoi.c %D%/patterns/boxed.c %D%/patterns/bozo.c %D%/patterns/plain_noise.c %D%/patterns/plain_noise.h \
 	%D%/patterns/brick.c %D%/patterns/bumps.c %D%/patterns/cells.c \

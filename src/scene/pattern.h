@@ -81,6 +81,11 @@ enum pattern_plain {
     PLAIN_CYLINDRICAL,
     PLAIN_PLANAR,
     PLAIN_BOXED,
+    PLAIN_SQUARE,
+    PLAIN_HEXAGON,
+    PLAIN_TRIANGULAR,
+    PLAIN_CUBIC,
+    PLAIN_QUILTED,
 };
 
 // A kind of pattern; patterns/NAME.c defines NAME_pattern_ops, patterns.def lists

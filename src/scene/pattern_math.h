@@ -21,6 +21,11 @@ double pattern_wave(const struct pattern *p, double v);
 #define PATTERN_PI      3.14159265358979323846
 #define QUICK_SINE_MOST 1e5
 #define PATTERN_EDGE    1e-10 // EPS of the specification: part of the pictures
+#define PATTERN_ROOT3   1.7320508075688772
+// As the reference has them: hexagons' and cushions' proportions.
+#define PATTERN_HALF_ROOT3  0.866025404
+#define PATTERN_THREE_ROOT3 5.196152424
+#define PATTERN_CUSHION     1.154700538
 
 static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 

@@ -145,6 +145,15 @@ static bool is_even(const struct color_map *m)
 
 static bool add_pigment(struct build *b, const struct pigment *p, int from, int level);
 
+static const float *keys_with_room(struct arena *a, const struct pigment_map *m)
+{
+    const uint32_t room = (m->count + 7) & ~7u;
+    float *key = arena_new_array(a, float, room);
+    for (uint32_t i = 0; i < room; i++)
+        key[i] = m->key[i < m->count ? i : m->count - 1];
+    return key;
+}
+
 static bool add_map(struct build *b, const struct pigment *p, int from, int level)
 {
     const struct pigment_map *m = p->map;
@@ -154,7 +163,8 @@ static bool add_map(struct build *b, const struct pigment *p, int from, int leve
     add_value(b, p->pattern, from, level);
     struct pigment_keys *keys = arena_new_struct(b->compiler->arena, struct pigment_keys);
     uint32_t *entry = arena_new_array(b->compiler->arena, uint32_t, m->count);
-    *keys = (struct pigment_keys){m->count, ascends(m->key, m->count), m->key, entry};
+    *keys = (struct pigment_keys){m->count, ascends(m->key, m->count),
+                                  keys_with_room(b->compiler->arena, m), entry};
     add(b, PIGMENT_FIND, level)->keys = keys;
     for (uint32_t i = 0; i < m->count; i++) {
         entry[i] = i;

@@ -41,7 +41,7 @@ struct pigment_ramp {
     const float *channel[5];
 };
 
-// The keys of a pigment map. `entry`: the first entry with the same pigment.
+// The keys of a pigment map, filled up as those of a ramp. `entry`: the first entry with the same pigment.
 struct pigment_keys {
     uint32_t count;
     bool ascending;

@@ -11,8 +11,10 @@
 #include "scene/pattern_lanes.h"
 #include "scene/pigment_tape.h"
 #include "scene/plain_lanes.h"
+#include "scene/ramp_lanes.h"
 #include "scene/surface_eval.h"
 #include "scene/warp.h"
+#include "scene/warp_lanes.h"
 
 #define NOISE (&OF_ISA(noise_kernels_))
 
@@ -46,6 +48,8 @@ static void warp_step(const struct warp *w, points8 from, double to[3][8])
         v8_store(to, v8_inverse_point(&w->transform, v8_load(from)));
     else if (w->kind == WARP_TURBULENCE)
         turbulence_step(&w->turbulence, from, to);
+    else if (w->kind == WARP_BLACK_HOLE)
+        v8_store(to, black_hole8(w, v8_load(from)));
     else
         for (int i = 0; i < 8; i++)
             set_lane(to, i, warp_point(w, lane_of(from, i)));
@@ -203,86 +207,6 @@ struct level {
     unsigned live, found;
 };
 
-LANES_INLINE struct float8 blend8(struct float8 a, struct float8 b, struct real8 f)
-{
-    return f8_add(a, f8_of(r8_mul(f, r8_of_floats(f8_sub(b, a)))));
-}
-
-// The entries that the numbers in `index` tell; few: they are 0 to 7.
-LANES_INLINE struct float8 pick8(const float *table, const int32_t index[8], bool few)
-{
-#if defined(__AVX2__)
-    if (few)
-        return (struct float8){_mm256_permutevar8x32_ps(
-            _mm256_loadu_ps(table), _mm256_loadu_si256((const __m256i *)index))};
-#else
-    (void)few;
-#endif
-    float v[8];
-    for (int i = 0; i < 8; i++)
-        v[i] = table[index[i]];
-    return f8_load(v);
-}
-
-LANES_INLINE void store_small8(int32_t out[8], struct real8 x)
-{
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    _mm256_storeu_si256((__m256i *)out, _mm512_cvttpd_epi32(x.a));
-#else
-    double v[8];
-    r8_store(v, x);
-    for (int i = 0; i < 8; i++)
-        out[i] = (int32_t)v[i];
-#endif
-}
-
-// map_search at eight values: halving without branches, which would be hard to predict.
-LANES_INLINE struct real8 search8(const float *key, uint32_t count, struct real8 v)
-{
-    double value[8], found[8];
-    uint32_t first[8] = {0};
-    r8_store(value, v);
-    for (uint32_t left = count; left > 1; left -= left / 2)
-        for (int i = 0; i < 8; i++) {
-            const bool below = (double)key[first[i] + left / 2 - 1] < value[i];
-            first[i] += below ? left / 2 : 0;
-        }
-    for (int i = 0; i < 8; i++)
-        found[i] = first[i];
-    return r8_load(found);
-}
-
-// The numbers of the first keys that are not below the values, the last for all above.
-LANES_INLINE struct real8 ramp_find(const struct pigment_ramp *r, struct real8 v)
-{
-    const struct real8 one = r8_set(1), last = r8_set(r->count - 1);
-    struct real8 n = r8_set(0);
-    if (r->count > 32)
-        n = search8(r->key, r->count, v);
-    else
-        for (uint32_t i = 0; i + 1 < r->count; i++)
-            n = r8_add(n, r8_select(r8_lt(r8_set(r->key[i]), v), one, r8_set(0)));
-    return r8_select(r8_le(r8_set(r->key[r->count - 1]), v), last, n);
-}
-
-// Ascending keys; few: at most eight.
-LANES_INLINE void ramp_quick(const struct pigment_ramp *r, bool few, int channels,
-                             struct real8 v, float out[5][8])
-{
-    const struct real8 one = r8_set(1), zero = r8_set(0), n = ramp_find(r, v);
-    int32_t above[8], below[8];
-    store_small8(above, n);
-    const struct real8 high = r8_of_floats(pick8(r->key, above, few));
-    const struct mask8 alone = m8_or(r8_le(n, zero), r8_le(high, v));
-    store_small8(below, r8_select(alone, n, r8_sub(n, one)));
-    const struct real8 low = r8_of_floats(pick8(r->key, below, few));
-    const struct real8 f =
-        r8_select(alone, zero, r8_div(r8_sub(v, low), r8_sub(high, low)));
-    for (int k = 0; k < channels; k++)
-        f8_store(out[k], blend8(pick8(r->channel[k], below, few),
-                                pick8(r->channel[k], above, few), f));
-}
-
 static void ramp_step(const struct pigment_ramp *r, int channels, unsigned live,
                       const double v[8], float out[5][8])
 {
@@ -338,6 +262,15 @@ static void find_lane(const float *key, uint32_t count, bool ascending, double v
 static void find_step(const struct pigment_keys *k, struct level *l)
 {
     l->found = 0;
+    if (k->ascending && k->count <= 8) {
+        int32_t above[8], below[8];
+        r8_store(l->f, between8(k->key, k->count, true, r8_load(l->v), above, below));
+        for (int i = 0; i < 8; i++) {
+            l->a[i] = k->entry[below[i]];
+            l->b[i] = k->entry[above[i]];
+        }
+        return;
+    }
     for (unsigned live = l->live; live; live &= live - 1) {
         const int i = __builtin_ctz(live);
         uint32_t a, b;
@@ -347,38 +280,48 @@ static void find_step(const struct pigment_keys *k, struct level *l)
     }
 }
 
-static unsigned lanes_with(const struct level *l, uint32_t entry)
+LANES_INLINE unsigned lanes_of(const uint32_t v[8], uint32_t x)
 {
+#if defined(__AVX2__)
+    const __m256i same = _mm256_cmpeq_epi32(_mm256_loadu_si256((const __m256i *)v),
+                                            _mm256_set1_epi32((int)x));
+    return (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(same));
+#else
     unsigned bits = 0;
     for (int i = 0; i < 8; i++)
-        bits |= (unsigned)(l->a[i] == entry || l->b[i] == entry) << i;
-    return bits & l->live;
+        bits |= (unsigned)(v[i] == x) << i;
+    return bits;
+#endif
+}
+
+static unsigned lanes_with(const struct level *l, uint32_t entry)
+{
+    return (lanes_of(l->a, entry) | lanes_of(l->b, entry)) & l->live;
 }
 
 static void keep_step(struct level *l, const struct level *inner, uint32_t entry,
                       int channels)
 {
+    const unsigned high = lanes_of(l->b, entry) & inner->live,
+                   low = lanes_of(l->a, entry) & inner->live;
     l->found |= inner->found & inner->live;
-    for (unsigned live = inner->live; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        for (int k = 0; k < channels; k++) {
-            if (l->b[i] == entry)
-                l->high[k][i] = inner->c[k][i];
-            if (l->a[i] == entry)
-                l->low[k][i] = inner->c[k][i];
-        }
+    for (int k = 0; k < channels; k++) {
+        const struct float8 c = f8_load(inner->c[k]);
+        f8_store(l->high[k], f8_select(high, c, f8_load(l->high[k])));
+        f8_store(l->low[k], f8_select(low, c, f8_load(l->low[k])));
     }
 }
 
 static void blend_step(struct level *l, int channels)
 {
-    for (unsigned live = l->live; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        for (int k = 0; k < channels; k++) {
-            const float a = l->low[k][i], b = l->high[k][i];
-            l->c[k][i] =
-                l->f[i] == 0 && l->a[i] == l->b[i] ? b : a + (float)(l->f[i] * (b - a));
-        }
+    const struct real8 f = r8_load(l->f);
+    unsigned same = 0;
+    for (int i = 0; i < 8; i++)
+        same |= (unsigned)(l->a[i] == l->b[i]) << i;
+    const unsigned alone = same & m8_bits(r8_eq(f, r8_set(0)));
+    for (int k = 0; k < channels; k++) {
+        const struct float8 b = f8_load(l->high[k]);
+        f8_store(l->c[k], f8_select(alone, b, blend8(f8_load(l->low[k]), b, f)));
     }
 }
 
@@ -570,6 +513,14 @@ static void by_average(const struct normal *n, const struct pattern_packet *pack
                               r8_mul(share, sum.z)});
 }
 
+// perturb of scene/patterns/quilted.c.
+static void quilt(const struct normal *n, points8 q, double v[3][8])
+{
+    struct real8 b;
+    const struct vec8 w = plain_cushion(&n->pattern, v8_load(q), &b);
+    v8_store(v, v8_mad(v8_load((points8)v), r8_mul(r8_set(n->amount), b), w));
+}
+
 // The pattern's own rule, or differences.
 static void by_pattern(const struct normal *n, const struct pattern_packet *packet,
                        points8 q, unsigned live, double v[3][8])
@@ -580,6 +531,8 @@ static void by_pattern(const struct normal *n, const struct pattern_packet *pack
         return;
     if (ops->perturbs)
         ops->perturbs(p, NOISE, n->amount, q, v);
+    else if (ops->plain == PLAIN_QUILTED)
+        quilt(n, q, v);
     else if (ops->perturb)
         for (; live; live &= live - 1) {
             const int i = __builtin_ctz(live);

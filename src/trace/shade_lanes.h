@@ -15,26 +15,6 @@
 #include "math/transform.h"
 #include "trace/near_zero.h"
 
-// x in the lanes of `bits`, else y.
-LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct float8 y)
-{
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-    return (struct float8){_mm256_mask_blend_ps((__mmask8)bits, y.a, x.a)};
-#elif defined(__AVX2__)
-    const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-    const __m256i m = _mm256_and_si256(_mm256_set1_epi32((int)bits), lane);
-    return (struct float8){
-        _mm256_blendv_ps(y.a, x.a, _mm256_castsi256_ps(_mm256_cmpeq_epi32(m, lane)))};
-#else
-    float v[8], w[8];
-    f8_store(v, x);
-    f8_store(w, y);
-    for (int i = 0; i < 8; i++)
-        w[i] = bits >> i & 1 ? v[i] : w[i];
-    return f8_load(w);
-#endif
-}
-
 struct rgb8 {
     struct float8 r, g, b;
 };

@@ -36,5 +36,9 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return sector;
 }
 
-const struct pattern_ops cubic_pattern_ops = {
-    .keyword = "cubic", .frequency = 0, .list = 6, .value = value, .formula = formula};
+const struct pattern_ops cubic_pattern_ops = {.keyword = "cubic",
+                                              .frequency = 0,
+                                              .list = 6,
+                                              .value = value,
+                                              .plain = PLAIN_CUBIC,
+                                              .formula = formula};

@@ -3,9 +3,6 @@
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
-#define HALF_ROOT3  0.866025404
-#define THREE_ROOT3 5.196152424
-
 static double floor_down(double v) { return v >= 0 ? floor(v) : -floor(-v) - 1; }
 
 static double value(const struct pattern *p, struct vec3 at,
@@ -16,8 +13,8 @@ static double value(const struct pattern *p, struct vec3 at,
     static const double left[6] = {0, 1, 1, 2, 2, 0}, middle[6] = {2, 2, 0, 0, 1, 1};
     static const double below[6] = {0, 2, 1, 0, 2, 1}, above[6] = {2, 1, 0, 2, 1, 0};
     const double u = fold(fabs(at.x) / 0.5, 6);
-    const double z = at.z >= 0 ? at.z : THREE_ROOT3 - fabs(at.z);
-    const double w = fold(z / HALF_ROOT3, 6);
+    const double z = at.z >= 0 ? at.z : PATTERN_THREE_ROOT3 - fabs(at.z);
+    const double w = fold(z / PATTERN_HALF_ROOT3, 6);
     const int i = (int)floor_down(u) % 6, row = (int)floor_down(w);
     const int j = (row % 6 + 6) % 6;
     if (i == 0 || i == 5)
@@ -38,11 +35,13 @@ static bool is_settled(const struct interval in[3])
     const struct interval x = interval_abs(in[0]);
     if (in[2].lo < 0 && in[2].hi >= 0)
         return false;
-    const struct interval z =
-        in[2].lo >= 0 ? in[2] : interval(THREE_ROOT3 + in[2].lo, THREE_ROOT3 + in[2].hi);
+    const struct interval z = in[2].lo >= 0 ? in[2]
+                                            : interval(PATTERN_THREE_ROOT3 + in[2].lo,
+                                                       PATTERN_THREE_ROOT3 + in[2].hi);
     const double slack = 1e-9 * (1 + interval_size(x) + interval_size(in[2]));
     const double u0 = fmax(x.lo / 0.5 - slack, 0), u1 = x.hi / 0.5 + slack;
-    const double w0 = z.lo / HALF_ROOT3 - slack, w1 = z.hi / HALF_ROOT3 + slack;
+    const double w0 = z.lo / PATTERN_HALF_ROOT3 - slack,
+                 w1 = z.hi / PATTERN_HALF_ROOT3 + slack;
     if (floor(u0) != floor(u1) || floor(w0) != floor(w1))
         return false;
     const int i = (int)fold(floor(u0), 6), j = (int)fold(floor(w0), 6);
@@ -75,5 +74,9 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_extern(f, &hexagon, NULL, at);
 }
 
-const struct pattern_ops hexagon_pattern_ops = {
-    .keyword = "hexagon", .frequency = 0, .list = 3, .value = value, .formula = formula};
+const struct pattern_ops hexagon_pattern_ops = {.keyword = "hexagon",
+                                                .frequency = 0,
+                                                .list = 3,
+                                                .value = value,
+                                                .plain = PLAIN_HEXAGON,
+                                                .formula = formula};

@@ -18,7 +18,7 @@ static struct vec3 cushion(const struct pattern *p, struct vec3 at, double *heig
     const struct vec3 w = vec3(centred(at.x), centred(at.y), centred(at.z));
     const double t = vec3_length(w), s = 1 - t;
     *height = (t * t * t + 3 * t * s * s * p->value[0] + 3 * t * t * s * p->value[1]) *
-              1.154700538;
+              PATTERN_CUSHION;
     return w;
 }
 
@@ -52,12 +52,14 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     b = formula_add(f, b, formula_scale(f, formula_multiply(f, t, ss), 3 * p->value[0]));
     b = formula_add(f, b, formula_scale(f, formula_multiply(f, tt, s), 3 * p->value[1]));
     const uint32_t sum = formula_add(f, formula_add(f, w[0], w[1]), w[2]);
-    return formula_scale(f, formula_multiply(f, formula_abs(f, b), sum), 1.154700538 / 3);
+    return formula_scale(f, formula_multiply(f, formula_abs(f, b), sum),
+                         PATTERN_CUSHION / 3);
 }
 
 const struct pattern_ops quilted_pattern_ops = {.keyword = "quilted",
                                                 .frequency = 0,
                                                 .init = init,
                                                 .value = value,
+                                                .plain = PLAIN_QUILTED,
                                                 .formula = formula,
                                                 .perturb = perturb};

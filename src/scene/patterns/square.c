@@ -20,5 +20,9 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     return formula_where(f, x, formula_subtract(f, formula_constant(f, 3), z), z);
 }
 
-const struct pattern_ops square_pattern_ops = {
-    .keyword = "square", .frequency = 0, .list = 4, .value = value, .formula = formula};
+const struct pattern_ops square_pattern_ops = {.keyword = "square",
+                                               .frequency = 0,
+                                               .list = 4,
+                                               .value = value,
+                                               .plain = PLAIN_SQUARE,
+                                               .formula = formula};
