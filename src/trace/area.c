@@ -117,12 +117,10 @@ static void rays_sort(struct area_queue *q)
 static void rays_light(struct tracer *t, uint32_t count, struct rgb *out)
 {
     const struct area_queue *q = t->area;
-    if (!q->lamp->light->projected_through) {
+    if (q->lamp->window)
+        window_factors_near(t, q->lamp, count, out);
+    else
         shadow_factors_near(t, q->lamp->index, count, out);
-        return;
-    }
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = projected_near(t, q->lamp, i);
 }
 
 // Finds the values of the points asked for.
@@ -290,7 +288,7 @@ static struct area_around area_around(const struct tracer *t, const struct lamp 
                      h1 * fabs(l->axis1.y) + h2 * fabs(l->axis2.y),
                      h1 * fabs(l->axis1.z) + h2 * fabs(l->axis2.z));
     return (struct area_around){
-        !l->parallel && l->kind != LIGHT_CYLINDER && !l->projected_through &&
+        !l->parallel && l->kind != LIGHT_CYLINDER && !lamp->window &&
             !air_counts(t->job, lamp->index),
         {vec3_sub(l->location, reach), vec3_add(l->location, reach)},
         r1 + r2};
@@ -436,31 +434,4 @@ void area_flush(struct tracer *t)
         lit_add(t, of_lamp, n);
     }
     q->count = 0;
-}
-
-struct rgb projected_shadow(struct tracer *t, const struct lamp *lamp,
-                            const struct shadow_request *r)
-{
-    const double h = object_first_hit(lamp->light->projected_through, r->o, r->d);
-    if (!(h < r->t_max))
-        return rgb(0, 0, 0);
-    if (lamp->light->shadowless)
-        return rgb(1, 1, 1);
-    struct shadow_request near = *r;
-    near.t_max = h;
-    return shadow_factor(t, &near);
-}
-
-struct rgb projected_near(struct tracer *t, const struct lamp *lamp, uint32_t i)
-{
-    const struct ray_batch *b = t->near.rays;
-    const uint32_t slot = t->near.slot[i];
-    const struct shadow_request r = {.o = {b->o[0][i], b->o[1][i], b->o[2][i]},
-                                     .d = {b->d[0][i], b->d[1][i], b->d[2][i]},
-                                     .t_max = b->t_max[i],
-                                     .inside = wave_inside(t, slot),
-                                     .slot = slot,
-                                     .lamp = lamp->index,
-                                     .photons = t->near.photons[i]};
-    return projected_shadow(t, lamp, &r);
 }

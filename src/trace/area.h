@@ -25,10 +25,5 @@ void area_add(struct tracer *t, const struct area_request *r);
 void area_flush(struct tracer *t);
 void area_init(struct tracer *t);
 void area_end(struct tracer *t);
-// How much reaches a place of light that shines through an object (spec/lighting.md 8.5).
-struct rgb projected_shadow(struct tracer *t, const struct lamp *lamp,
-                            const struct shadow_request *r);
-// The same along the ray i that stands in `near`.
-struct rgb projected_near(struct tracer *t, const struct lamp *lamp, uint32_t i);
 
 #endif

@@ -11,18 +11,22 @@
 #include "trace/packet.h"
 #include "trace/paint.h"
 #include "trace/photons.h"
+#include "trace/projected.h"
 #include "trace/scout.h"
 #include "trace/simple.h"
 #include "trace/sky.h"
 #include "trace/subsurface.h"
 
-static const struct lamp *lamp_of(struct job *job, const struct light *light)
+static const struct lamp *lamp_of(struct job *job, struct arena *a,
+                                  const struct light *light)
 {
     for (uint32_t i = 0; i < job->lamp_count; i++)
         if (job->lamp[i].light == light)
             return &job->lamp[i];
     struct lamp *lamp = &job->lamp[job->lamp_count];
     lamp_init(lamp, light, job->lamp_count++);
+    if (light->projected_through)
+        lamp->window = window_new(a, light->projected_through);
     lamp->dull |= job->settings.purpose == RENDER_GATHER;
     lamp->inert |= job->settings.purpose == RENDER_SCOUT;
     return lamp;
@@ -42,9 +46,9 @@ static void lamps_init(struct job *job, struct arena *a, const struct world *w)
         const uint32_t count = global + (group ? group->count : 0);
         const struct lamp **lamp = arena_new_array(a, const struct lamp *, count + 1);
         for (uint32_t i = 0; i < global; i++)
-            lamp[i] = lamp_of(job, w->light[i]);
+            lamp[i] = lamp_of(job, a, w->light[i]);
         for (uint32_t i = global; i < count; i++)
-            lamp[i] = lamp_of(job, group->light[i - global]);
+            lamp[i] = lamp_of(job, a, group->light[i - global]);
         list[g] = (struct lamp_list){lamp, count};
     }
     job->lamps = list;

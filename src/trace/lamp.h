@@ -8,9 +8,12 @@
 #include "math/vec.h"
 #include "scene/light.h"
 
+struct window;
+
 // A light prepared for rendering: what does not change from point to point.
 struct lamp {
     const struct light *light;
+    const struct window *window;    // that it shines through; NULL: none
     double cos_radius, cos_falloff; // spots
     uint32_t index;                 // over all lamps of the render
     bool inert;                     // adds nothing, as if it were black

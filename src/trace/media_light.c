@@ -2,6 +2,7 @@
 #include "trace/area.h"
 #include "trace/media_march.h"
 #include "trace/photons.h"
+#include "trace/projected.h"
 #include "trace/shade_kernel.h"
 
 // Samples that a lamp lights, and what of its light reaches them.
@@ -48,9 +49,8 @@ static void shadows(struct lighting *l, const struct media_sample *sample)
             l->factor[i] = rgb(1, 1, 1);
     } else if (light->area && t->job->area_lights) {
         area_lights(l, sample);
-    } else if (light->projected_through) {
-        for (uint32_t i = 0; i < l->count; i++)
-            l->factor[i] = projected_near(t, l->lamp, i);
+    } else if (l->lamp->window) {
+        window_factors_near(t, l->lamp, l->count, l->factor);
     } else {
         shadow_factors_near(t, l->lamp->index, l->count, l->factor);
     }

@@ -236,8 +236,8 @@ bool photon_fly(struct photon_flight *f, const struct photon_gun *gun, struct ve
     arena_reset(f->t->arena);
     f->t->last_push = (struct inside_pushed){0};
     const struct rgb c = light_sent(gun, o, d);
-    const struct object *window = gun->lamp->light->projected_through;
-    if (is_black(c) || (window && !(object_first_hit(window, o, d) < INFINITY)))
+    const struct window *window = gun->lamp->window;
+    if (is_black(c) || (window && !(window_hit(window, o, d) < INFINITY)))
         return false;
     *leg_add(f) = (struct leg){.path = {.o = o,
                                         .d = d,

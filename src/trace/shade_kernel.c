@@ -6,6 +6,7 @@
 #include "math/isa.h"
 #include "math/lanes_pack.h"
 #include "trace/area.h"
+#include "trace/projected.h"
 #include "trace/shade_air.h"
 #include "trace/shade_area.h"
 #include "trace/shade_bounce.h"
@@ -199,10 +200,10 @@ struct shaded_lamp {
 static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp)
 {
     const struct light *l = lamp->light;
-    const bool shadowed = t->job->shadows && !l->shadowless;
+    const bool shadowed = t->job->shadows && (!l->shadowless || lamp->window);
     return (struct shaded_lamp){
         lamp, l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0),
-        shadowed, shadowed && l->area && t->job->area_lights};
+        shadowed, shadowed && !l->shadowless && l->area && t->job->area_lights};
 }
 
 // Keeps the lanes as places of an area light.
@@ -252,7 +253,8 @@ LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
         shadow_flush_simple(t, queued);
         queued = 0;
     }
-    return queue8(t, lamp->lamp, g, live, v, value, queued);
+    const uint32_t end = queue8(t, lamp->lamp, g, live, v, value, queued);
+    return lamp->lamp->window ? window_take(t, lamp->lamp, queued, end) : end;
 }
 
 // shade_lamp.

@@ -3,6 +3,7 @@
 #include "trace/area.h"
 #include "trace/near_zero.h"
 #include "trace/photons.h"
+#include "trace/projected.h"
 #include "trace/shade.h"
 
 float metal_angle(double cosine)
@@ -181,25 +182,25 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
     if (value.r == 0 && value.g == 0 && value.b == 0)
         return;
     value = rgb_mul(value, s->path->through);
-    if (!job->shadows || (light->shadowless && !light->projected_through) ||
-        view.distance <= 0) {
+    if (!job->shadows || (light->shadowless && !lamp->window) || view.distance <= 0) {
         tracer_add(s->t, value);
         return;
     }
-    const struct shadow_request r = {.o = trace_offset(&s->at, view.l),
-                                     .d = view.l,
-                                     .t_max = view.distance,
-                                     .value = value,
-                                     .inside = s->path->inside,
-                                     .slot = s->t->slot,
-                                     .lamp = lamp->index,
-                                     .photons =
-                                         photons_instead(job, s->at.surface, light)};
+    struct shadow_request r = {.o = trace_offset(&s->at, view.l),
+                               .d = view.l,
+                               .t_max = view.distance,
+                               .value = value,
+                               .inside = s->path->inside,
+                               .slot = s->t->slot,
+                               .lamp = lamp->index,
+                               .photons = photons_instead(job, s->at.surface, light)};
     if (area && !light->shadowless)
         area_add(s->t, &(struct area_request){lamp, s->at.p, s->at.ng, s->at.error, value,
                                               r.slot, s->path->hash, r.photons});
-    else if (light->projected_through)
-        tracer_add(s->t, rgb_mul(value, projected_shadow(s->t, lamp, &r)));
+    else if (lamp->window && !window_met(lamp->window, r.o, r.d, &r.t_max))
+        return;
+    else if (light->shadowless)
+        tracer_add(s->t, value);
     else
         shadow_add(s->t, &r);
 }

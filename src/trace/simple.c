@@ -45,7 +45,7 @@ bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
         const struct light *l = list->lamp[i]->light;
         const bool lightlets =
             l->area && l->area_illumination && job->area_lights && job->shadows;
-        if (!list->lamp[i]->inert && (l->projected_through || lightlets))
+        if (!list->lamp[i]->inert && lightlets)
             return false;
     }
     return true;
