@@ -6,6 +6,9 @@
 // Grid point (u, v) of an area light, jittered by the hash.
 struct vec3 area_point(const struct lamp *lamp, const struct lamp_grid *grid,
                        uint32_t hash, int u, int v);
+// What seeds the points by which area_illumination lights, as others than those that
+// shadows are looked for from.
+static inline uint32_t area_lit_hash(uint32_t hash) { return hash ^ 0x5bd1e995u; }
 // A place that an area light may shine on.
 struct area_request {
     const struct lamp *lamp;

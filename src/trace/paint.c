@@ -191,6 +191,25 @@ static unsigned paint_layer(struct brush *b, const struct paint_texture *x,
                                     coat);
 }
 
+// What fake caustics of the surface add to what a layer lets through, of which the normals are
+// put into the sheet; returns whether there are any.
+static bool caustics_of(struct brush *b, const struct spot *spot, struct paint_sheet *s,
+                        float more[8])
+{
+    const struct job *job = b->t->job;
+    const double caustics = b->surface->interior->caustics;
+    const struct simple_group *h = &b->group->hits;
+    if (caustics == 0)
+        return false;
+    if (s->layer->normal && job->normals)
+        layer_normals(b, spot, s->layer->normal, s->lanes, s->n);
+    else
+        memcpy(s->n, h->n, sizeof s->n);
+    job->kernels->focus((const double(*)[8])s->n, (const double(*)[8])h->d, caustics,
+                        more);
+    return true;
+}
+
 // As occluder_plain of trace/shadow.c.
 static void pass_plain(struct brush *b, const struct paint_texture *x,
                        const struct spot *spot, unsigned live, const double weight[8])
@@ -199,9 +218,11 @@ static void pass_plain(struct brush *b, const struct paint_texture *x,
     for (int i = 0; i < 8; i++)
         pass[i] = rgb(1, 1, 1);
     for (uint32_t k = x->texture->layer_count; k-- > 0;) {
-        struct paint_sheet s; // of its colours alone
+        struct paint_sheet s; // of its colours, and for caustics its normals
+        float more[8];
         s.layer = &x->texture->layer[k];
         s.lanes = live;
+        const bool focuses = caustics_of(b, spot, &s, more);
         layer_colors(b, x, spot, k, &s);
         for (unsigned left = live & s.found; left; left &= left - 1) {
             const int i = __builtin_ctz(left);
@@ -212,6 +233,8 @@ static void pass_plain(struct brush *b, const struct paint_texture *x,
             layer_painted(b->t, s.layer, &color, &l);
             pass[i] = rgb_mul(pass[i], l.pass);
         }
+        for (int i = 0; focuses && i < 8; i++)
+            pass[i] = rgb_scale(more[i], pass[i]);
     }
     for (; live; live &= live - 1) {
         const int i = __builtin_ctz(live);
@@ -489,8 +512,7 @@ void paint_shade(struct tracer *t)
 
 bool paint_filters(const struct job *job, uint32_t surface)
 {
-    return job->paint && job->paint[surface].top &&
-           job->world->surface[surface].interior->caustics == 0;
+    return job->paint && job->paint[surface].top;
 }
 
 void paint_pass(struct tracer *t, uint32_t surface, const uint16_t *ray, uint32_t count,

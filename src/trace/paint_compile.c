@@ -160,6 +160,14 @@ static struct paint_surface surface_compile(struct build *b, const struct surfac
     return p;
 }
 
+// Simple surfaces are painted by others; what they focus is worked out here.
+static bool is_painted(const struct job *job, uint32_t i)
+{
+    const struct surface *s = &job->world->surface[i];
+    return !job->simple || job->simple[i].class == SIMPLE_NONE ||
+           (s->interior->caustics != 0 && !s->opaque);
+}
+
 void paint_compile(struct job *job, struct arena *a)
 {
     const struct world *w = job->world;
@@ -171,7 +179,7 @@ void paint_compile(struct job *job, struct arena *a)
     struct paint_surface *all = NULL, last = {0};
     for (uint32_t i = 0; i < w->surface_count; i++) {
         const struct surface *s = &w->surface[i];
-        if (job->simple && job->simple[i].class != SIMPLE_NONE)
+        if (!is_painted(job, i))
             continue;
         // Neighbours often share their texture.
         const struct surface *before = i ? &w->surface[i - 1] : NULL;

@@ -4,20 +4,14 @@
 #include "trace/shade_kernel.h"
 
 #include "math/isa.h"
-#include "math/lanes_pack.h"
-#include "trace/area.h"
-#include "trace/projected.h"
 #include "trace/shade_air.h"
-#include "trace/shade_area.h"
 #include "trace/shade_bounce.h"
 #include "trace/shade_camera.h"
 #include "trace/shade_caustic.h"
 #include "trace/shade_color.h"
 #include "trace/shade_judge.h"
-#include "trace/shade_lamp.h"
-#include "trace/shade_lit.h"
+#include "trace/shade_lights.h"
 #include "trace/shade_place.h"
-#include "trace/shade_sheets.h"
 
 // ---- places -----------------------------------------------------------------------------
 
@@ -125,29 +119,6 @@ static void points(struct tracer *t, const uint16_t *ray, uint32_t count, bool u
 
 // ---- light ------------------------------------------------------------------------------
 
-LANES_INLINE void add_own(struct tracer *t, const struct simple_group *g, unsigned live,
-                          struct rgb8 c)
-{
-    float(*own)[BATCH_ROW] = t->wave.own;
-    if (g->in_row && live == 255) {
-        float *r = &own[0][g->slot[0]], *s = &own[1][g->slot[0]],
-              *u = &own[2][g->slot[0]];
-        f8_store(r, f8_add(f8_load(r), c.r));
-        f8_store(s, f8_add(f8_load(s), c.g));
-        f8_store(u, f8_add(f8_load(u), c.b));
-        return;
-    }
-    float v[3][8];
-    f8_store(v[0], c.r);
-    f8_store(v[1], c.g);
-    f8_store(v[2], c.b);
-    for (; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        for (int k = 0; k < 3; k++)
-            own[k][g->slot[i]] += v[k][i];
-    }
-}
-
 static void own(struct tracer *t, const struct simple_class *c,
                 const struct simple_group *g)
 {
@@ -155,155 +126,6 @@ static void own(struct tracer *t, const struct simple_class *c,
     add_own(t, g, g->live,
             rgb8_mul(rgb8_load((const float(*)[8])g->through),
                      rgb8_mul(color, rgb8_scale(f8_load(g->att), rgb8_set(c->own)))));
-}
-
-LANES_INLINE unsigned black8(struct rgb8 c)
-{
-    const struct float8 o = f8_set(0);
-    return f8_le(c.r, o) & f8_le(o, c.r) & f8_le(c.g, o) & f8_le(o, c.g) & f8_le(c.b, o) &
-           f8_le(o, c.b);
-}
-
-// Queues the shadow rays of the lanes (trace_offset).
-LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
-                             const struct simple_group *g, unsigned live,
-                             const struct light8 *v, struct rgb8 value, uint32_t queued)
-{
-    struct shadow_batch *b = &t->simple;
-    memset(b->air + queued, air_counts(t->job, lamp->index), 8);
-    const struct vec8 ng = v8_load((const double(*)[8])g->ng);
-    const struct real8 side =
-        r8_select(r8_lt(v8_dot(v->to, ng), r8_set(0)), r8_set(-1), r8_set(1));
-    const struct real8 by = r8_mul(r8_mul(r8_set(2), side), r8_load(g->error));
-    const struct vec8 o = v8_mad(v8_load((const double(*)[8])g->p), by, ng);
-    r8_pack(b->rays->o[0] + queued, live, o.x);
-    r8_pack(b->rays->o[1] + queued, live, o.y);
-    r8_pack(b->rays->o[2] + queued, live, o.z);
-    r8_pack(b->rays->d[0] + queued, live, v->to.x);
-    r8_pack(b->rays->d[1] + queued, live, v->to.y);
-    r8_pack(b->rays->d[2] + queued, live, v->to.z);
-    r8_pack(b->rays->t_max + queued, live, v->distance);
-    f8_pack(b->value[0] + queued, live, value.r);
-    f8_pack(b->value[1] + queued, live, value.g);
-    f8_pack(b->value[2] + queued, live, value.b);
-    for (; live; live &= live - 1)
-        b->slot[queued++] = g->slot[__builtin_ctz(live)];
-    return queued;
-}
-
-// What shade_lamp asks of the lamp alone.
-struct shaded_lamp {
-    const struct lamp *lamp;
-    bool even, shadowed, area;
-};
-
-static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp)
-{
-    const struct light *l = lamp->light;
-    const bool shadowed = t->job->shadows && (!l->shadowless || lamp->window);
-    return (struct shaded_lamp){
-        lamp, l->kind == LIGHT_POINT && !(l->fade_power > 0 && l->fade_distance != 0),
-        shadowed, shadowed && !l->shadowless && l->area && t->job->area_lights};
-}
-
-// Keeps the lanes as places of an area light.
-static void area_add8(struct tracer *t, const struct lamp *lamp,
-                      const struct simple_group *g, unsigned live, struct rgb8 value)
-{
-    float c[3][8];
-    f8_store(c[0], value.r);
-    f8_store(c[1], value.g);
-    f8_store(c[2], value.b);
-    for (; live; live &= live - 1) {
-        const int i = __builtin_ctz(live);
-        area_add(t, &(struct area_request){
-                        .lamp = lamp,
-                        .p = {g->p[0][i], g->p[1][i], g->p[2][i]},
-                        .ng = {g->ng[0][i], g->ng[1][i], g->ng[2][i]},
-                        .error = g->error[i],
-                        .value = {c[0][i], c[1][i], c[2][i]},
-                        .slot = g->slot[i],
-                        .hash = lamp->light->jitter ? wave_hash(t, g->slot[i]) : 0});
-    }
-}
-
-// The rest of shade_lamp, once it is known what the surfaces make of the light.
-LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
-                               const struct simple_group *g, unsigned live,
-                               const struct light8 *v, struct rgb8 sum, uint32_t queued)
-{
-    struct rgb8 value =
-        rgb8_mul(v->color, rgb8_add(rgb8_set((struct rgb){0, 0, 0}), sum));
-    live &= ~black8(value);
-    if (!live)
-        return queued;
-    value = rgb8_mul(value, rgb8_load((const float(*)[8])g->through));
-    const unsigned bare =
-        lamp->shadowed ? live & m8_bits(r8_le(v->distance, r8_set(0))) : live;
-    if (bare)
-        add_own(t, g, bare, value);
-    live &= ~bare;
-    if (live && lamp->area) {
-        area_add8(t, lamp->lamp, g, live, value);
-        return queued;
-    }
-    if (!live)
-        return queued;
-    if (queued + 8 > BATCH_SIZE) {
-        shadow_flush_simple(t, queued);
-        queued = 0;
-    }
-    const uint32_t end = queue8(t, lamp->lamp, g, live, v, value, queued);
-    return lamp->lamp->window ? window_take(t, lamp->lamp, queued, end) : end;
-}
-
-// shade_lamp.
-static uint32_t light(struct tracer *t, const struct simple_class *c,
-                      const struct lamp *lamp, const struct simple_group *g,
-                      uint32_t groups, uint32_t queued)
-{
-    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
-    if (shaded.even && is_black(lamp->light->color))
-        return queued;
-    for (const struct simple_group *end = g + groups; g < end; g++) {
-        struct light8 v = direction8(lamp, v8_load((const double(*)[8])g->p));
-        unsigned live = shaded.even ? g->live : attenuate(lamp, g, &v);
-        if (!live)
-            continue;
-        const struct lit_layer l = {c->finish,
-                                    (const double(*)[8])g->d,
-                                    (const double(*)[8])g->n,
-                                    (const float(*)[8])g->color,
-                                    g->att,
-                                    NULL};
-        const struct rgb8 sum = lit8(&l, c->side_test, lamp->dull, v.to, &live);
-        if (live)
-            queued = lamp_add(t, &shaded, g, live, &v, sum, queued);
-    }
-    return queued;
-}
-
-// The same for the layers of painted hits (layers_lit).
-static uint32_t light_sheets(struct tracer *t, bool side_test, const struct lamp *lamp,
-                             const struct paint_group *g, uint32_t groups,
-                             uint32_t queued)
-{
-    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
-    if (shaded.even && is_black(lamp->light->color))
-        return queued;
-    for (const struct paint_group *end = g + groups; g < end; g++) {
-        const struct simple_group *h = &g->hits;
-        struct light8 v = direction8(lamp, v8_load((const double(*)[8])h->p));
-        const unsigned live = shaded.even ? h->live : attenuate(lamp, h, &v);
-        const struct paint_sheet *s = t->paint->sheet + g->sheet;
-        struct rgb8 sum = rgb8_set((struct rgb){0, 0, 0});
-        unsigned lit = 0;
-        for (uint32_t i = 0; i < g->sheet_count && live; i++)
-            lit |= sheet_lit(t, &s[i], h, side_test, lamp, v.to, live, &sum);
-        if (lit)
-            queued = lamp_add(t, &shaded, h, lit, &v, sum, queued);
-    }
-    return queued;
 }
 
 static void own_sheets(struct tracer *t, const struct paint_group *g)
@@ -427,6 +249,13 @@ static void exp_single(double *x, uint32_t count)
         r8_store(x + i, r8_exp_single(r8_load(x + i)));
 }
 
+static void focus(const double n[3][8], const double d[3][8], double caustics,
+                  float out[8])
+{
+    const struct real8 cosine = r8_abs(v8_dot(v8_load(n), v8_load(d)));
+    f8_store(out, f8_of(r8_add(r8_set(1), r8_pow_single(cosine, caustics))));
+}
+
 // ---- boxes --------------------------------------------------------------------------------
 
 LANES_INLINE void slab8_meet(double min, double max, struct real8 o, struct real8 inv,
@@ -461,28 +290,17 @@ static unsigned meets(const struct aabb *box, uint32_t count,
 
 media_add_fn OF_ISA(media_add_);
 
-const struct shade_kernels OF_ISA(shade_kernels_) = {ISA_TEXT,
-                                                     &OF_ISA(surface_kernels_),
-                                                     camera,
-                                                     place,
-                                                     own,
-                                                     light,
-                                                     bounce,
-                                                     lit,
-                                                     sums,
-                                                     exps,
-                                                     exp_single,
-                                                     judge,
-                                                     meets,
-                                                     fogs,
-                                                     toward,
-                                                     views,
-                                                     misses_cone,
-                                                     points,
-                                                     texture_space,
-                                                     world_normals,
-                                                     sheet_pass,
-                                                     own_sheets,
-                                                     light_sheets,
-                                                     caustics,
-                                                     OF_ISA(media_add_)};
+const struct shade_kernels OF_ISA(shade_kernels_) = {
+    ISA_TEXT,      &OF_ISA(surface_kernels_),
+    camera,        place,
+    own,           light,
+    bounce,        lit,
+    sums,          exps,
+    exp_single,    focus,
+    judge,         meets,
+    fogs,          toward,
+    views,         misses_cone,
+    points,        texture_space,
+    world_normals, sheet_pass,
+    own_sheets,    light_sheets,
+    caustics,      OF_ISA(media_add_)};

@@ -65,6 +65,9 @@ struct shade_kernels {
     void (*exps)(const double *x, uint32_t count, float *out);
     // The same in place, as doubles.
     void (*exp_single)(double *x, uint32_t count);
+    // What the fake caustics of a surface multiply light along d by (trace/shadow.c).
+    void (*focus)(const double n[3][8], const double d[3][8], double caustics,
+                  float out[8]);
     // struct antialias's.
     judge_function *judge;
     // Which of eight rays of a batch meet one of the boxes, as box_meets.

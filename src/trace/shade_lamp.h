@@ -12,24 +12,31 @@ struct light8 {
     struct rgb8 color;
 };
 
-// lamp_direction, from the lamp's centre.
-LANES_INLINE struct light8 direction8(const struct lamp *lamp, struct vec8 p)
+// Light of its colour that comes the way `to`.
+LANES_INLINE struct light8 from8(const struct light *light, struct vec8 to)
 {
-    const struct light *light = lamp->light;
     struct light8 v; // not set to zero: it is large
     v.color = rgb8_set(light->color);
-    const struct vec8 to = v8_sub(V8_SET(light->location), p);
-    if (light->parallel || light->kind == LIGHT_CYLINDER) {
-        struct lamp_view one;
-        lamp_direction(lamp, light->location, light->location, &one);
-        v.to = V8_SET(one.l);
-        v.distance = v8_dot(to, v.to);
-        return v;
-    }
     v.distance = r8_sqrt(v8_dot(to, to));
     const struct real8 inv = r8_div(r8_set(1), v.distance);
     const struct vec8 unit = {r8_mul(inv, to.x), r8_mul(inv, to.y), r8_mul(inv, to.z)};
     v.to = v8_select(r8_lt(r8_set(0), v.distance), unit, to);
+    return v;
+}
+
+// lamp_direction, from the lamp's centre.
+LANES_INLINE struct light8 direction8(const struct lamp *lamp, struct vec8 p)
+{
+    const struct light *light = lamp->light;
+    const struct vec8 to = v8_sub(V8_SET(light->location), p);
+    if (!light->parallel && light->kind != LIGHT_CYLINDER)
+        return from8(light, to);
+    struct light8 v; // not set to zero: it is large
+    struct lamp_view one;
+    lamp_direction(lamp, light->location, light->location, &one);
+    v.color = rgb8_set(light->color);
+    v.to = V8_SET(one.l);
+    v.distance = v8_dot(to, v.to);
     return v;
 }
 

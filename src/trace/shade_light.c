@@ -5,6 +5,7 @@
 #include "trace/photons.h"
 #include "trace/projected.h"
 #include "trace/shade.h"
+#include "trace/simple.h"
 
 float metal_angle(double cosine)
 {
@@ -151,7 +152,7 @@ static struct rgb area_lit(const struct shading *s, const struct lamp *lamp,
     for (int u = 0; u < light->size1; u++) {
         for (int v = 0; v < light->size2; v++) {
             const struct vec3 at =
-                area_point(lamp, &grid, s->path->hash ^ 0x5bd1e995u, u, v);
+                area_point(lamp, &grid, area_lit_hash(s->path->hash), u, v);
             struct lamp_view view;
             if (!lamp_view(lamp, at, s->at.p, &view))
                 continue;
@@ -167,7 +168,7 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
     const struct job *job = s->t->job;
     const struct light *light = lamp->light;
     const bool area = light->area && job->area_lights && job->shadows;
-    const bool lightlets = area && light->area_illumination;
+    const bool lightlets = lamp_has_lightlets(job, light);
     const bool side_test = !(s->at.surface->flags & OBJECT_DOUBLE_ILLUMINATE);
     struct lamp_view view;
     struct rgb value;

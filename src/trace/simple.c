@@ -43,9 +43,8 @@ bool lamps_are_simple(const struct job *job, const struct lamp_list *list)
 {
     for (uint32_t i = 0; i < list->count; i++) {
         const struct light *l = list->lamp[i]->light;
-        const bool lightlets =
-            l->area && l->area_illumination && job->area_lights && job->shadows;
-        if (!list->lamp[i]->inert && lightlets)
+        const bool even = l->parallel || l->kind == LIGHT_CYLINDER;
+        if (!list->lamp[i]->inert && even && lamp_has_lightlets(job, l))
             return false;
     }
     return true;

@@ -73,6 +73,11 @@ struct simple_bounce {
     unsigned passes, counts; // lanes where anything passes; where it counts
 };
 
+// Whether each point of the light's grid lights for itself (area_illumination).
+static inline bool lamp_has_lightlets(const struct job *job, const struct light *l)
+{
+    return l->area && l->area_illumination && job->area_lights && job->shadows;
+}
 // Whether eight points can be lit by them at a time.
 bool lamps_are_simple(const struct job *job, const struct lamp_list *list);
 void simple_compile(struct job *job, struct arena *a);

@@ -276,4 +276,8 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/not-built.txt \
 	%D%/381-layers-old.pov \
 	%D%/382-mesh-normals-zero.pov \
 	%D%/383-version-1-sums.pov \
+	%D%/384-area-illumination-lanes.pov \
+	%D%/385-area-illumination-jitter.pov \
+	%D%/386-windows-lanes.pov \
+	%D%/387-caustics-lanes.pov \
 	%D%/379-shadow-textured.pov
