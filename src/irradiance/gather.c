@@ -8,10 +8,22 @@
 #include "base/memory.h"
 #include "trace/scratch.h"
 
+// POV-Ray halves the number at every depth. A deeper sample is one of hundreds that a sample
+// above it takes the mean of, which takes the mean of their errors, too: past some rays it
+// need not be better known. With the root the errors still vanish as count grows.
+static uint32_t deeper_count(int count)
+{
+    static const double least = 64, growth = 2;
+    return (uint32_t)fmax(least, growth * sqrt((double)count));
+}
+
 uint32_t gather_count(const struct irradiance_cache *c, uint32_t depth)
 {
     enum { FEWEST = 5 };
-    const uint32_t n = depth < 31 ? (uint32_t)c->settings->count >> depth : 0;
+    const int count = c->settings->count;
+    uint32_t n = depth < 31 ? (uint32_t)count >> depth : 0;
+    if (depth > 0 && n > deeper_count(count))
+        n = deeper_count(count);
     return n < FEWEST ? FEWEST : n;
 }
 
