@@ -1,12 +1,15 @@
-// PNG files through libpng, by default with their pixels packed here. No time
+// PNG files through libpng, by default with their pixels packed by libdeflate. No time
 // stamp: equal pictures give equal bytes.
+#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/deflate.h"
 #include "image/png_error.h"
 
-static const uint8_t filter_up = 2; // rows as differences to the row above
+// libdeflate's fastest level with rows as differences to the row above: a third of the time
+// of zlib's level 3 for files about as large.
+static const int usual_level = 1;
+static const uint8_t filter_up = 2;
 static const size_t chunk_most = 1 << 30; // a chunk has fewer than 2^31 bytes
 
 static void on_write(png_structp png, png_bytep data, size_t n)
@@ -91,6 +94,20 @@ struct packed {
     size_t size; // 0: out of memory
 };
 
+static struct packed pack(const uint8_t *data, size_t size)
+{
+    struct packed p = {0};
+    struct libdeflate_compressor *c = libdeflate_alloc_compressor(usual_level);
+    if (c) {
+        const size_t most = libdeflate_zlib_compress_bound(c, size);
+        p.data = malloc(most);
+        if (p.data)
+            p.size = libdeflate_zlib_compress(c, data, size, p.data, most);
+        libdeflate_free_compressor(c);
+    }
+    return p;
+}
+
 static struct packed pack_rows(struct sample_rows *rows, const struct image *im)
 {
     const size_t row = rows->count * (rows->o.bits > 8 ? 2 : 1);
@@ -99,7 +116,7 @@ static struct packed pack_rows(struct sample_rows *rows, const struct image *im)
     uint8_t *filtered = malloc(size);
     if (filtered) {
         filter_rows(rows, im->height, row, filtered);
-        p.data = deflate_zlib(filtered, size, &p.size);
+        p = pack(filtered, size);
     }
     free(filtered);
     return p;

@@ -1,7 +1,4 @@
-check_PROGRAMS += test_deflate test_image test_quantize test_texels
-test_deflate_SOURCES = %D%/test_deflate.c
-test_deflate_CPPFLAGS = $(test_cppflags)
-test_deflate_LDADD = $(test_ldadd)
+check_PROGRAMS += test_image test_quantize test_texels
 test_quantize_SOURCES = %D%/test_quantize.c
 test_quantize_CPPFLAGS = $(test_cppflags)
 test_quantize_LDADD = $(test_ldadd)
