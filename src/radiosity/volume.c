@@ -1,5 +1,6 @@
 // Light in the open, for media: what a grid of points sees of the patches.
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "math/elementary.h"
@@ -13,18 +14,27 @@
 
 static const double pi = 3.14159265358979323846;
 enum {
-    CELLS = 16,        // along the longest side
-    RAYS = 256,        // of a cell
-    LAMP_POINTS = 256, // of all emitters, looked at from a cell
-    LAMP_LEAST = 4     // of each
+    CELLS = 16,            // along the longest side
+    RAYS = 256,            // of a cell
+    LAMP_POINTS = 256,     // of all emitters, looked at from a cell
+    LAMP_LEAST = 4,        // of each
+    BEAMS = OPEN_BEAMS / 8 // of a cell
+};
+
+// What reaches a cell's middle, as struct open_light.
+struct cell_light {
+    double all[3];
+    struct vec3 from[3];
+    struct open_beam beam[BEAMS];
+    uint32_t beam_count;
+    bool known; // false: within something
 };
 
 struct volume {
     struct aabb box;
     uint32_t n[3];
     struct vec3 step;
-    struct open_light *light; // at the cells' middles
-    bool *known;              // false: within something
+    struct cell_light *light; // at the cells' middles
 };
 
 // ---- where media are -----------------------------------------------------------------
@@ -52,7 +62,7 @@ static struct aabb media_box(const struct job *job)
 }
 
 // ---- what a point sees -----------------------------------------------------------------
-static void add(struct open_light *to, struct vec3 d, const double radiance[3],
+static void add(struct cell_light *to, struct vec3 d, const double radiance[3],
                 double weight)
 {
     for (int c = 0; c < 3; c++) {
@@ -64,7 +74,7 @@ static void add(struct open_light *to, struct vec3 d, const double radiance[3],
 // What patches reflect, and give off unless they are looked at by themselves, and the sky.
 // Returns whether the point lies in the open: not most of what it sees is without light.
 static bool look_around(const struct radiosity *r, struct tracer *t, struct vec3 o,
-                        uint32_t seed, struct open_light *out)
+                        uint32_t seed, struct cell_light *out)
 {
     const struct patches *p = r->patches;
     uint32_t dark = 0;
@@ -95,15 +105,49 @@ static bool look_around(const struct radiosity *r, struct tracer *t, struct vec3
     return 2 * dark < RAYS;
 }
 
+// The light of an emitter: as part of a beam if it comes from about one direction, else as light
+// from all around. Where there are too many beams it is that, too.
+static void add_seen(struct cell_light *to, struct vec3 sum, double weight,
+                     const double radiance[3])
+{
+    static const double narrow =
+        0.97; // length of the mean direction: a disc 40 degrees wide
+    static const double same = 0.95; // cosine of 18 degrees
+    const double length = vec3_length(sum);
+    if (!(length > 0))
+        return;
+    const struct vec3 d = vec3_scale(1 / length, sum);
+    uint32_t k = 0;
+    while (k < to->beam_count && vec3_dot(to->beam[k].to, d) < same)
+        k++;
+    if (k == BEAMS || length < narrow * weight) {
+        for (int c = 0; c < 3; c++) {
+            to->all[c] += weight * radiance[c];
+            to->from[c] = vec3_mad(to->from[c], radiance[c], sum);
+        }
+        return;
+    }
+    struct open_beam *b = &to->beam[k];
+    if (k == to->beam_count)
+        to->beam[to->beam_count++] = (struct open_beam){.to = d};
+    const double before = b->light[0] + b->light[1] + b->light[2],
+                 more = weight * (radiance[0] + radiance[1] + radiance[2]);
+    if (before + more > 0)
+        b->to = vec3_normalize(vec3_add(vec3_scale(before, b->to), vec3_scale(more, d)));
+    for (int c = 0; c < 3; c++)
+        b->light[c] += weight * radiance[c];
+}
+
 // What an emitter gives, from points of it.
 static void look_at(const struct radiosity *r, struct tracer *t, struct vec3 o,
-                    const struct emitter *e, uint32_t seed, struct open_light *out)
+                    const struct emitter *e, uint32_t seed, struct cell_light *out)
 {
     const struct patches *p = r->patches;
     const uint32_t share = LAMP_POINTS / r->emitter_count;
     const uint32_t count = share > LAMP_LEAST ? share : LAMP_LEAST;
     const double power = e->e.area / (pi * count), near = e->e.area / count;
-    double own[3];
+    double own[3], all = 0;
+    struct vec3 sum = {0, 0, 0};
     element_emission(&e->e, own);
     for (uint32_t k = 0; k < count; k++) {
         struct element_point at;
@@ -119,8 +163,11 @@ static void look_at(const struct radiosity *r, struct tracer *t, struct vec3 o,
         if (!(cosine > 0) || trace_occluded_1(p->job->world, t->scratch, &q))
             continue;
         // Nearer than the points lie to each other one of them has no bound.
-        add(out, vec3_scale(1 / length, d), own, power * cosine / fmax(r2, near));
+        const double weight = power * cosine / fmax(r2, near);
+        all += weight;
+        sum = vec3_mad(sum, weight / length, d);
     }
+    add_seen(out, sum, all, own);
 }
 
 static void *begin(void *user)
@@ -144,8 +191,8 @@ static void cells(void *user, void *state, uint32_t from, uint32_t to)
                               i / v->n[0] / v->n[1] + .5};
         const struct vec3 o = vec3_add(
             v->box.min, vec3(at[0] * v->step.x, at[1] * v->step.y, at[2] * v->step.z));
-        v->known[i] = look_around(r, state, o, i, &v->light[i]);
-        for (uint32_t k = 0; k < r->emitter_count && v->known[i]; k++)
+        v->light[i].known = look_around(r, state, o, i, &v->light[i]);
+        for (uint32_t k = 0; k < r->emitter_count && v->light[i].known; k++)
             look_at(r, state, o, &r->emitter[k], sequence_seed(i, k), &v->light[i]);
     }
 }
@@ -167,8 +214,7 @@ void volume_find(struct radiosity *r)
     v->step = vec3(size.x / v->n[0], size.y / v->n[1], size.z / v->n[2]);
     const uint32_t count = v->n[0] * v->n[1] * v->n[2];
     v->light = calloc(count, sizeof *v->light);
-    v->known = calloc(count, sizeof *v->known);
-    if (!v->light || !v->known)
+    if (!v->light)
         abort();
     r->volume = v;
     const struct parallel run = {.threads = r->settings.solver.threads,
@@ -186,7 +232,6 @@ void volume_free(struct volume *v)
     if (!v)
         return;
     free(v->light);
-    free(v->known);
     free(v);
 }
 
@@ -201,11 +246,27 @@ static double beside(const struct volume *v, int axis, double at, uint32_t cell[
     return low - first;
 }
 
+static void cell_add(struct open_light *out, const struct cell_light *cell, double weight)
+{
+    for (int c = 0; c < 3; c++) {
+        out->all[c] += weight * cell->all[c];
+        out->from[c] = vec3_mad(out->from[c], weight, cell->from[c]);
+    }
+    for (uint32_t k = 0; k < cell->beam_count && weight > 0; k++) {
+        struct open_beam *b = &out->beam[out->beam_count++];
+        *b = cell->beam[k];
+        for (int c = 0; c < 3; c++)
+            b->light[c] *= weight;
+    }
+}
+
 void volume_light(const struct volume *v, struct vec3 p, struct open_light *out)
 {
     uint32_t cell[3][2];
     double share[3], sum = 0;
-    *out = (struct open_light){{0, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    memset(out->all, 0, sizeof out->all);
+    memset(out->from, 0, sizeof out->from);
+    out->beam_count = 0;
     for (int k = 0; k < 3; k++)
         share[k] = beside(v, k, vec3_axis(p, k), cell[k]);
     for (int k = 0; k < 8; k++) {
@@ -214,16 +275,17 @@ void volume_light(const struct volume *v, struct vec3 p, struct open_light *out)
         const double weight = (i ? share[0] : 1 - share[0]) *
                               (j ? share[1] : 1 - share[1]) *
                               (m ? share[2] : 1 - share[2]);
-        if (!v->known[at])
-            continue;
-        sum += weight;
-        for (int c = 0; c < 3; c++) {
-            out->all[c] += weight * v->light[at].all[c];
-            out->from[c] = vec3_mad(out->from[c], weight, v->light[at].from[c]);
+        if (v->light[at].known) {
+            sum += weight;
+            cell_add(out, &v->light[at], weight);
         }
     }
-    for (int c = 0; c < 3 && sum > 0; c++) {
+    if (!(sum > 0))
+        return;
+    for (int c = 0; c < 3; c++) {
         out->all[c] /= sum;
         out->from[c] = vec3_scale(1 / sum, out->from[c]);
+        for (uint32_t k = 0; k < out->beam_count; k++)
+            out->beam[k].light[c] /= sum;
     }
 }

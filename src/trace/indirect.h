@@ -30,12 +30,22 @@ struct indirect_eight {
     unsigned lanes; // which of them ask
 };
 
+// Light that comes from one direction, as a lamp's does.
+struct open_beam {
+    double light[3];
+    struct vec3 to; // unit, towards what it comes from
+};
+
 // Light that comes to a point in the open from all around, by channel: the integral of its
 // radiance over the sphere, over pi, and the same of radiance times the direction it is
-// seen in. A lamp of colour 1 is 1, and its direction.
+// seen in. A lamp of colour 1 is 1, and its direction. What comes from something small is not
+// among it, but a beam.
+enum { OPEN_BEAMS = 32 };
 struct open_light {
     double all[3];
     struct vec3 from[3];
+    struct open_beam beam[OPEN_BEAMS];
+    uint32_t beam_count;
 };
 
 // Light that reaches surfaces by way of others, worked out before the picture.

@@ -201,6 +201,11 @@ void media_open_lit(const struct media_march *m, struct media_sample *sample,
         for (int c = 0; c < 3; c++)
             light[c] =
                 fmax(0, term[0] * x.all[c] + term[1] * vec3_dot(x.from[c], way->d));
+        for (uint32_t k = 0; k < x.beam_count; k++) {
+            const double phase = media_phase(m->mix, vec3_dot(x.beam[k].to, way->d));
+            for (int c = 0; c < 3; c++)
+                light[c] += phase * x.beam[k].light[c];
+        }
         s->light = vec3_add(s->light,
                             vec3_mul(vec3(light[0], light[1], light[2]), scattering[i]));
     }

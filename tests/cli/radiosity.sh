@@ -86,6 +86,19 @@ END
 glow() { render glow.pov -o glow.ppm --gi=radiosity --gi-patches=200 && value=$(first glow.ppm) &&
   test "$value" -gt 3900 && test "$value" -lt 4270; }
 check "what glows lights media as a lamp does" glow
+# The ray and the way to the ball make an angle of cosine .774: phase functions of Mie (hazy, murky),
+# Rayleigh, Henyey and Greenstein say how much more that is than a medium of all directions alike shows.
+phases() {
+  alike=$(first glow.ppm) || return 1
+  for phase in '2 2.563' '3 1.028' '4 1.278' '5 2.258 eccentricity .6'; do
+    set -- $phase
+    sed "s/scattering { 1, 1/scattering { $1, 1 $3 $4/" glow.pov >phase.pov
+    render phase.pov -o phase.ppm --gi=radiosity --gi-patches=200 || return 1
+    echo "$(first phase.ppm) $alike $2" | awk '{ q = $1 / $2 / $3; exit !(q > .97 && q < 1.03) }' ||
+      { echo "$phase: $(first phase.ppm) of $alike"; return 1; }
+  done
+}
+check "by each phase function" phases
 cat room.pov - >unlit.pov <<'END'
 global_settings { mm_per_unit 10 subsurface { samples 10, 10 } }
 sphere { <.5, .5, .8>, .1 pigment { rgbt 1 } hollow interior { media { scattering { 1, .1 } } } }
