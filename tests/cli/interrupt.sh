@@ -121,6 +121,34 @@ solving()
 }
 check "radiosity is stopped before it is solved" solving INT
 check "by SIGTERM too" solving TERM
+cat >slow <<'END'
+#!/bin/sh
+echo $$ >slow.pid
+exec sleep 100
+END
+chmod +x slow
+alone()
+{
+  "$lambert" compare sphere.pov +W8 +H8 --out beside --reference "$work/slow" >out 2>err &
+  pid=$!
+  waited=0
+  while ! slow=$(grep . slow.pid 2>/dev/null) && test $waited -lt 100; do
+    sleep 0.1
+    waited=$((waited + 1))
+  done
+  kill -INT $pid
+  wait $pid
+  test $? = 2 || return 1
+  waited=0
+  while test -n "$(tr -d '\0' </proc/$slow/cmdline 2>/dev/null)" && test $waited -lt 100; do
+    sleep 0.1
+    waited=$((waited + 1))
+  done
+  test $waited -lt 100 # one that nobody has waited for yet has no command line
+}
+if test "$(uname)" = Linux; then
+  check "a comparison takes the other program with it" alone
+fi
 # narrow COLUMNS: no line of the progress is longer than a window of so many.
 narrow()
 {
