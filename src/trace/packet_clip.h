@@ -72,7 +72,8 @@ static unsigned clipped_leaf(struct eight *e, unsigned bits, uint32_t object,
     const struct world *w = e->p->w;
     const uint32_t leaf = drawn_leaf(w, &w->object[object]);
     const struct leaf *l = &w->leaf[leaf];
-    const struct cross8 x = leaf_cross(e, leaf);
+    struct ray8 own;
+    const struct cross8 x = leaf_cross(e, leaf, leaf_ray(l, &e->ray, &own));
     const struct real8 dt[2] = {swept_error(e, l, x.t[0], x.dt[0]),
                                 swept_error(e, l, x.t[1], x.dt[1])};
     const struct mask8 two = m8_or(r8_lt(x.t[0], x.t[1]), m8_and(x.drawn[0], x.drawn[1])),

@@ -106,13 +106,11 @@ static struct cross8 cross8_triangle(struct eight *e, const struct triangle *s,
     return cross8_corners(s->p, &e->shear, ray->o_max);
 }
 
-// All that the eight lines have in common with a leaf, or the first two crossings behind
-// t_min.
-static struct cross8 leaf_cross(struct eight *e, uint32_t leaf)
+// All that the eight lines, in the leaf's space, have in common with it, or the first two
+// crossings behind t_min.
+static struct cross8 leaf_cross(struct eight *e, uint32_t leaf, const struct ray8 *ray)
 {
     const struct leaf *l = &e->p->w->leaf[leaf];
-    struct ray8 own;
-    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
     switch ((enum packet_shape)e->p->w->accel->leaf_shape[leaf]) {
     case PACKET_SPHERE: return cross8_sphere(l->shape, ray);
     case PACKET_BOX: return cross8_box(l->shape, ray);
@@ -151,9 +149,10 @@ LANES_INLINE void keep(struct packet *p, const struct cross8 *x, struct mask8 fi
         b8_put(p->crossing, won, leaves, CROSS_ENTER, CROSS_EXIT);
 }
 
-static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf)
+static unsigned lone_cross(struct eight *e, unsigned bits, uint32_t object, uint32_t leaf,
+                           const struct ray8 *ray)
 {
-    const struct cross8 x = leaf_cross(e, leaf);
+    const struct cross8 x = leaf_cross(e, leaf, ray);
     const unsigned odd = bits & m8_bits(x.odd);
     const struct mask8 first = m8_and(x.drawn[0], r8_lt(e->t_min, x.t[0]));
     const unsigned met = bits & m8_bits(m8_and(x.met, m8_or(first, x.drawn[1])));
@@ -200,7 +199,7 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
     case PACKET_SPHERE: x = span8_sphere(l->shape, ray); break;
     case PACKET_BOX: x = span8_box(l->shape, ray); break;
     case PACKET_CYLINDER: x = span8_cylinder(l->shape, ray); break;
-    default: return lone_cross(e, bits, object, leaf);
+    default: return lone_cross(e, bits, object, leaf, ray);
     }
     bits &= m8_bits(x.met);
     if (!bits)
@@ -431,8 +430,10 @@ static void complete_all(struct eight *e, unsigned lanes)
     while (lanes) {
         const uint32_t leaf = p->leaf[__builtin_ctz(lanes)];
         const unsigned same = lanes_alike(p, lanes);
-        const struct cross8 x = leaf_cross(e, leaf);
-        complete(p, &x, same, lanes_if(p->w->leaf[leaf].inverted));
+        const struct leaf *l = &p->w->leaf[leaf];
+        struct ray8 own;
+        const struct cross8 x = leaf_cross(e, leaf, leaf_ray(l, &e->ray, &own));
+        complete(p, &x, same, lanes_if(l->inverted));
         lanes &= ~same;
     }
 }
