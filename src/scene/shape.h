@@ -14,6 +14,7 @@ struct args;
 struct arena;
 struct shape_hits; // scene/shape_kernels.h
 struct shape_kernels;
+struct shape_lines;
 struct shape_rays;
 struct texture;
 
@@ -93,6 +94,13 @@ struct shape_ops {
                          const struct shape_rays *rays, unsigned lanes, bool any,
                          struct shape_hits *out);
     bool (*has_lanes)(const void *shape);
+
+    // All crossings of eight lines, for those of `lanes`: returns the lanes where it tells, the
+    // others are for `intersect`. A lane's result depends on its own line alone. NULL: none.
+    // In CSG these are the shape's crossings, of single rays as well.
+    unsigned (*lines8)(const struct shape_kernels *k, const void *shape,
+                       const struct shape_rays *rays, unsigned lanes,
+                       struct shape_lines *out);
 
     // Geometry at a crossing that intersect reported; p is the point in shape space.
     void (*surface)(const void *shape, const struct boundary *b, struct vec3 p,

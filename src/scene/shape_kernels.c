@@ -24,6 +24,7 @@ const struct shape_kernels OF_ISA(shape_kernels_) = {
     .ovus = OF_ISA(ovus_closest8_),
     .patch = OF_ISA(patch_closest8_),
     .poly = OF_ISA(poly_closest8_),
+    .poly_lines = OF_ISA(poly_lines8_),
     .polygon = OF_ISA(polygon_closest8_),
     .revolve = OF_ISA(revolve_closest8_),
     .sphere_sweep = OF_ISA(sweep_closest8_),

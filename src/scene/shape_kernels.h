@@ -25,9 +25,21 @@ static inline bool shape_hits_give_up(struct shape_hits *h)
     return h->cut = true;
 }
 
+// All crossings of eight lines, which are entered and left in turn; of one part, and drawn.
+enum { LINE_CROSSINGS = 7 };
+struct shape_lines {
+    double t[LINE_CROSSINGS][8], dt[LINE_CROSSINGS][8];
+    uint8_t count[8];
+    unsigned leaving; // lanes whose first crossing is an exit
+};
+
+// Appends those of a lane.
+void shape_lines_add(const struct shape_lines *x, int lane, struct boundary_list *out);
+
 void shape_hits_put(struct shape_hits *h, int lane, const struct boundary *b);
 struct boundary shape_hits_at(const struct shape_hits *h, int lane);
 struct ray shape_rays_lane(const struct shape_rays *rays, int lane);
+struct shape_rays shape_rays_alike(const struct ray *ray); // in all lanes
 // closest8 of one lane by the shape's `intersect`, for lanes that a kernel does not take.
 unsigned shape_lane_alone(const struct shape_ops *ops, const void *shape,
                           const struct shape_rays *rays, int lane,
@@ -68,6 +80,8 @@ struct shape_kernels {
                       unsigned lanes, bool any, struct shape_hits *out);
     unsigned (*poly)(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
                      bool any, struct shape_hits *out);
+    unsigned (*poly_lines)(const struct poly *s, const struct shape_rays *rays,
+                           unsigned lanes, struct shape_lines *out);
     unsigned (*polygon)(const struct polygon *s, const struct shape_rays *rays,
                         unsigned lanes, struct shape_hits *out);
     unsigned (*revolve)(const struct revolve *s, const struct shape_rays *rays,

@@ -21,6 +21,28 @@ struct boundary shape_hits_at(const struct shape_hits *h, int lane)
                              .drawn = 1};
 }
 
+void shape_lines_add(const struct shape_lines *x, int lane, struct boundary_list *out)
+{
+    bool leaving = x->leaving >> lane & 1;
+    for (int i = 0; i < x->count[lane]; i++, leaving = !leaving)
+        boundary_list_add(out, x->t[i][lane], x->dt[i][lane],
+                          leaving ? CROSS_EXIT : CROSS_ENTER, 0);
+}
+
+struct shape_rays shape_rays_alike(const struct ray *ray)
+{
+    struct shape_rays rays;
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 3; k++) {
+            rays.o[k][i] = vec3_axis(ray->o, k);
+            rays.d[k][i] = vec3_axis(ray->d, k);
+        }
+        rays.t_min[i] = ray->t_min;
+        rays.t_max[i] = ray->t_max;
+    }
+    return rays;
+}
+
 struct ray shape_rays_lane(const struct shape_rays *rays, int lane)
 {
     return (struct ray){.o = vec3(rays->o[0][lane], rays->o[1][lane], rays->o[2][lane]),

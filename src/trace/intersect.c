@@ -168,19 +168,11 @@ static bool lone_lane(const struct world *w, struct trace_scratch *s, uint32_t l
     struct ray local = *ray;
     if (!l->transform->identity)
         local = transform_inverse_ray(l->transform, ray);
-    struct shape_rays rays;
+    const struct shape_rays rays = shape_rays_alike(&local);
     struct shape_hits hits;
     hits.evaluations = 0;
     hits.cancel = s->crossings.cancel;
     hits.cut = false;
-    for (int i = 0; i < 8; i++) {
-        for (int k = 0; k < 3; k++) {
-            rays.o[k][i] = vec3_axis(local.o, k);
-            rays.d[k][i] = vec3_axis(local.d, k);
-        }
-        rays.t_min[i] = ray->t_min;
-        rays.t_max[i] = ray->t_max;
-    }
     const bool met =
         l->ops->closest8(w->accel->kernels->shapes, l->shape, &rays, 1, any, &hits);
     s->crossings.evaluations += hits.evaluations;

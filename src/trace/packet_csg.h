@@ -241,19 +241,23 @@ static bool lane_spans_add(struct lane_spans *x, int lane, bool inverted,
     return true;
 }
 
-// Crossings of a convex superellipsoid, which are found in lanes.
+// Crossings that are found in lanes: those of a convex superellipsoid, and of shapes with a kernel
+// for lines.
 struct lane_ends {
     struct superellipsoid_ends ends;
-    bool made;
+    struct shape_lines lines;
+    bool made; // the superellipsoid's
     unsigned met;
+    unsigned told; // lanes whose `lines` are
 };
 
 static void lane_ends_find(struct lane_ends *x, const struct eight *e,
                            const struct leaf *l, unsigned lanes)
 {
-    x->made = l->ops == &superellipsoid_ops && superellipsoid_is_convex(l->shape) &&
-              (lanes & (lanes - 1));
-    if (!x->made)
+    const bool some = lanes & (lanes - 1);
+    x->told = 0;
+    x->made = l->ops == &superellipsoid_ops && superellipsoid_is_convex(l->shape) && some;
+    if (!x->made && !(l->ops->lines8 && some))
         return;
     struct shape_rays rays;
     struct ray8 own;
@@ -262,7 +266,11 @@ static void lane_ends_find(struct lane_ends *x, const struct eight *e,
     v8_store(rays.d, ray->d);
     r8_store(rays.t_min, e->t_min);
     r8_store(rays.t_max, e->t_max);
-    x->met = OF_ISA(superellipsoid_ends8_)(l->shape, &rays, lanes, &x->ends);
+    if (x->made)
+        x->met = OF_ISA(superellipsoid_ends8_)(l->shape, &rays, lanes, &x->ends);
+    else
+        x->told =
+            l->ops->lines8(&OF_ISA(shape_kernels_), l->shape, &rays, lanes, &x->lines);
 }
 
 // leaf_crossings_in_csg of a lane.
@@ -270,7 +278,10 @@ static void lane_crossings(const struct lane_ends *x, const struct packet *p,
                            uint32_t leaf, const struct ray *ray, int lane)
 {
     const uint32_t from = p->s->crossings.count;
-    if (!x->made) {
+    if (x->told >> lane & 1) {
+        shape_lines_add(&x->lines, lane, &p->s->crossings);
+        leaf_crossings_made(p->w, p->s, leaf, ray, from, NULL);
+    } else if (!x->made) {
         leaf_crossings_in_csg(p->w, p->s, leaf, ray);
     } else if (x->met >> lane & 1) {
         const double slope[2] = {x->ends.slope[0][lane], x->ends.slope[1][lane]};

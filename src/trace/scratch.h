@@ -59,7 +59,7 @@ void leaf_crossings(const struct world *w, uint32_t leaf, const struct ray *ray,
 void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
                            const struct ray *ray);
 // The same where the shape's own crossings of that ray stand there from `from` on; slope: |normal
-// . direction| at each, in the shape's space.
+// . direction| at each, in the shape's space; NULL: not known.
 void leaf_crossings_made(const struct world *w, struct trace_scratch *s, uint32_t leaf,
                          const struct ray *ray, uint32_t from, const double *slope);
 // The boundary found, with its shape's own dt.

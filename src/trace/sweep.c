@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "math/gamma.h"
+#include "scene/shape_kernels.h"
 #include "trace/accel.h"
+#include "trace/packet.h"
 #include "trace/scratch.h"
 
 // The leaf owns the crossings from `from` on.
@@ -111,11 +113,31 @@ static void widen_crossings(const struct world *w, struct trace_scratch *s, uint
     }
 }
 
+// leaf_crossings of a shape whose kernel finds those of eight lines: of one, with the same bits.
+static bool lines_alone(const struct world *w, uint32_t leaf, const struct ray *ray,
+                        struct boundary_list *out)
+{
+    const struct leaf *l = &w->leaf[leaf];
+    const uint32_t from = out->count;
+    if (!l->ops->lines8)
+        return false;
+    const struct ray local =
+        l->transform->identity ? *ray : transform_inverse_ray(l->transform, ray);
+    const struct shape_rays rays = shape_rays_alike(&local);
+    struct shape_lines lines;
+    if (!l->ops->lines8(w->accel->kernels->shapes, l->shape, &rays, 1, &lines))
+        return false;
+    shape_lines_add(&lines, 0, out);
+    take_crossings(w, leaf, from, out);
+    return true;
+}
+
 void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint32_t leaf,
                            const struct ray *ray)
 {
     const uint32_t from = s->crossings.count;
-    leaf_crossings(w, leaf, ray, &s->crossings);
+    if (!lines_alone(w, leaf, ray, &s->crossings))
+        leaf_crossings(w, leaf, ray, &s->crossings);
     widen_crossings(w, s, leaf, ray, from, NULL);
 }
 

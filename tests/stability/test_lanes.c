@@ -367,6 +367,91 @@ static void eight_rays_meet_what_one_line_does(void **state)
         }
 }
 
+// Two crossings so close that lines may pass them by, or a touch.
+static bool has_graze(const struct boundary_list *l)
+{
+    for (uint32_t i = 0; i < l->count; i++)
+        if (l->at[i].dt > 1e-9 || (i > 0 && l->at[i].t - l->at[i - 1].t < 1e-6))
+            return true;
+    return false;
+}
+
+static void assert_same_lines(const struct boundary_list *all,
+                              const struct boundary_list *got, const char *text)
+{
+    if (has_graze(all) || has_graze(got))
+        return;
+    if (all->count != got->count)
+        fail_msg("%s: %u crossings, not %u", text, got->count, all->count);
+    for (uint32_t i = 0; i < all->count; i++) {
+        const struct boundary *a = &all->at[i], *b = &got->at[i];
+        assert_int_equal(a->crossing, b->crossing);
+        if (!(fabs(a->t - b->t) <= a->dt + b->dt))
+            fail_msg("%s: at %.17g +- %g, not %.17g +- %g", text, b->t, b->dt, a->t,
+                     a->dt);
+    }
+}
+
+// All crossings of eight lines: those of one, whatever the other lanes and the instruction set.
+static int look_at_lines(const struct loaded *l, const char *text)
+{
+    const struct leaf *leaf = &l->world->leaf[0];
+    const struct shape_kernels *best = packet_kernels_choose()->shapes;
+    struct boundary_list all = {0}, got = {0}, other = {0};
+    uint64_t s = 9;
+    int told = 0;
+    for (int n = 0; n < 3000; n++) {
+        struct shape_rays rays;
+        struct shape_lines base, lanes, alone;
+        random_rays(&s, false, &rays);
+        const unsigned bits =
+            leaf->ops->lines8(&shape_kernels_base, leaf->shape, &rays, 255, &base);
+        assert_int_equal(bits, leaf->ops->lines8(best, leaf->shape, &rays, 255, &lanes));
+        for (int i = 0; i < 8; i++) {
+            const struct ray r = lane(&rays, i);
+            const struct shape_rays alike = shape_rays_alike(&r);
+            const bool known = bits >> i & 1;
+            assert_int_equal(known,
+                             leaf->ops->lines8(best, leaf->shape, &alike, 1, &alone));
+            if (!known)
+                continue;
+            told++;
+            all.count = got.count = other.count = 0;
+            shape_lines_add(&lanes, i, &got);
+            shape_lines_add(&base, i, &other);
+            assert_int_equal(got.count, other.count);
+            shape_lines_add(&alone, 0, &other);
+            assert_int_equal(2 * got.count, other.count);
+            for (uint32_t k = 0; k < other.count; k++) {
+                const struct boundary *b = &got.at[k % got.count];
+                assert_memory_equal(&b->t, &other.at[k].t, sizeof b->t);
+                assert_memory_equal(&b->dt, &other.at[k].dt, sizeof b->dt);
+                assert_int_equal(b->crossing, other.at[k].crossing);
+            }
+            leaf->ops->intersect(leaf->shape, &r, &all);
+            assert_same_lines(&all, &got, text);
+        }
+    }
+    boundary_list_free(&all);
+    boundary_list_free(&got);
+    boundary_list_free(&other);
+    return told;
+}
+
+static void eight_lines_have_all_crossings_of_one(void **state)
+{
+    (void)state;
+    int kinds = 0;
+    for (int i = 0; i < SHAPES; i++) {
+        struct loaded l;
+        load(&l, "%s", shapes[i]);
+        if (l.world->leaf[0].ops->lines8)
+            kinds += look_at_lines(&l, shapes[i]) > 12000; // the others have high orders
+        unload(&l);
+    }
+    assert_true(kinds >= 6);
+}
+
 static void eight_rays_walk_as_one_line_does(void **state)
 {
     (void)state;
@@ -752,6 +837,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_rays_meet_what_one_line_does),
+        cmocka_unit_test(eight_lines_have_all_crossings_of_one),
         cmocka_unit_test(eight_rays_walk_as_one_line_does),
         cmocka_unit_test(eight_rays_meet_what_is_turned),
         cmocka_unit_test(eight_rays_have_the_bits_of_one_line),

@@ -148,9 +148,6 @@ static bool in_box(const struct aabb *box, struct vec3 o, struct vec3 u, double 
     return *lo < *hi;
 }
 
-// Up to this order one expansion, about o, is as exact as need be on all of a line.
-enum { LOW_ORDER = 7 };
-
 static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double lo,
                     double hi, struct polynomial_root *root)
 {
@@ -159,7 +156,7 @@ static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double l
     const double far = polynomial_root_bound(p.c, p.degree);
     lo = fmax(lo, -far);
     hi = fmin(hi, far);
-    if (s->order > LOW_ORDER)
+    if (s->order > POLY_LOW_ORDER)
         return lo < hi ? poly_line_roots(s, o, u, lo, hi, root) : 0;
     const int n = polynomial_roots(p.c, p.degree, lo, hi, 4 * s->order, root);
     for (int i = 0; i < n; i++)
@@ -194,6 +191,13 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
                          struct shape_hits *out)
 {
     return k->poly(shape, rays, lanes, any, out);
+}
+
+static unsigned lines8(const struct shape_kernels *k, const void *shape,
+                       const struct shape_rays *rays, unsigned lanes,
+                       struct shape_lines *out)
+{
+    return k->poly_lines(shape, rays, lanes, out);
 }
 
 static bool has_lanes(const void *shape)
@@ -393,6 +397,7 @@ static void print(const void *shape, FILE *out)
         .intersect = intersect,                                                          \
         .closest8 = closest8,                                                            \
         .has_lanes = has_lanes,                                                          \
+        .lines8 = lines8,                                                                \
         .surface = surface,                                                              \
         .print = print,                                                                  \
     }

@@ -23,6 +23,10 @@ struct poly {
     bool compact;    // box is finite
 };
 
+// Up to this order one expansion, about the point nearest to the origin, is as exact as need be on
+// all of a line.
+enum { POLY_LOW_ORDER = 7 };
+
 // A polynomial in the ray's parameter, ascending powers; degree -1: zero. What lies behind
 // the degree is not set.
 struct line_poly {

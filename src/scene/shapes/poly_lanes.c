@@ -221,6 +221,18 @@ static void clip_to_roots(const struct line_poly8 *p, struct lines8 *l)
     l->hi = r8_min(r8_load(far), l->hi);
 }
 
+// How far a root at t may be off; infinite where it is not simple.
+static struct real8 error_at(const struct poly *s, const struct line_poly8 *p,
+                             const struct lines8 *l, struct real8 t)
+{
+    const struct real8 size = poly8_size(p->c, p->degree, t);
+    const struct real8 error =
+        r8_add(lost_at(s, l, t),
+               r8_mul(r8_set((2 * p->degree + 4 * s->order) * ROUNDOFF), size));
+    return r8_add(poly8_root_error(p->c, p->degree, t, error),
+                  r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l->shift), r8_abs(t))));
+}
+
 static unsigned closest(const struct poly *s, const struct shape_rays *rays,
                         unsigned lanes, bool any, struct shape_hits *out)
 {
@@ -248,18 +260,95 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
     struct real8 dt = r8_set(0);
     unsigned unsure = f.unsure, found = f.found;
     if (found && !any) {
-        const struct real8 size = poly8_size(p.c, p.degree, f.t);
-        const struct real8 error =
-            r8_add(lost_at(s, &l, f.t),
-                   r8_mul(r8_set((2 * p.degree + 4 * s->order) * ROUNDOFF), size));
-        dt = r8_add(poly8_root_error(p.c, p.degree, f.t, error),
-                    r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l.shift), r8_abs(f.t))));
+        dt = error_at(s, &p, &l, f.t);
         unsure |= found & ~m8_bits(r8_lt(dt, r8_set(INFINITY)));
     }
     found &= ~unsure;
     const unsigned met = lines8_hits(&l, rays, found, f.t, dt, f.below, out);
     // What rounding has put out of the range is for the one-ray form to tell as well.
     return met | shape_lanes_alone(&poly_ops, s, rays, unsure | (found & ~met), out);
+}
+
+// ---- all crossings ------------------------------------------------------------------------
+
+static void lines_put(struct shape_lines *out, const struct lines8 *l, unsigned lanes,
+                      int k, struct real8 t, struct real8 dt)
+{
+    lanes_put(out->t[k], lanes, r8_div(r8_add(t, l->shift), l->length));
+    lanes_put(out->dt[k], lanes, r8_div(dt, l->length));
+    for (unsigned m = lanes; m; m &= m - 1)
+        out->count[__builtin_ctz(m)]++;
+}
+
+// One root after the other, from where the one before is known to lie in front of; returns
+// the lanes that are left unsure.
+LANES_INLINE unsigned roots_of(const struct poly *s, const struct line_poly8 *p, int n,
+                               struct lines8 *l, unsigned lanes, unsigned halved,
+                               struct shape_lines *out)
+{
+    struct real8 sign = first_sign(s, p, n, l, lanes);
+    unsigned unsure = lanes & m8_bits(r8_eq(sign, r8_set(0)));
+    lanes &= ~unsure;
+    out->leaving = m8_bits(r8_lt(sign, r8_set(0)));
+    for (int k = 0; lanes; k++, halved = 0) {
+        const struct brackets8 r =
+            poly8_isolate(p->c, n, l->lo, l->hi, sign, lanes, halved, false, NULL);
+        unsure |= r.unsure;
+        lanes = r.found;
+        if (!lanes)
+            break;
+        if (k == LINE_CROSSINGS) // more than there can be
+            return unsure | lanes;
+        const struct real8 t = poly8_refine(p->c, n, &r, lanes);
+        const struct real8 dt = error_at(s, p, l, t);
+        const unsigned simple = lanes & m8_bits(r8_lt(dt, r8_set(INFINITY)));
+        unsure |= lanes & ~simple;
+        lines_put(out, l, simple, k, t, dt);
+        lanes = simple & m8_bits(r8_lt(r.b, l->hi));
+        l->lo = r.b;
+        sign = r8_neg(r.sign);
+    }
+    return unsure;
+}
+
+static unsigned lines(const struct poly *s, const struct shape_rays *rays, unsigned lanes,
+                      struct shape_lines *out)
+{
+    struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
+    struct line_poly8 p;
+    unsigned here = lanes, halved = 0;
+    if (s->order > POLY_LOW_ORDER)
+        return 0;
+    memset(out->count, 0, sizeof out->count);
+    l.lo = r8_set(-INFINITY);
+    l.hi = r8_set(INFINITY);
+    out->leaving = 0;
+    if (s->compact)
+        here &= lines8_clip(&l, &s->box);
+    if (!here)
+        return lanes;
+    along(s, &l.o, &l.u, &p);
+    if (p.degree < 1)
+        return lanes;
+    if (!s->compact)
+        clip_to_roots(&p, &l);
+    if (p.degree == 4) {
+        const struct narrowed8 narrowed = quartic8_narrow(p.c, &l.lo, &l.hi);
+        here &= ~narrowed.none;
+        halved = narrowed.both;
+    }
+    here &= m8_bits(r8_lt(l.lo, l.hi));
+    if (!here)
+        return lanes;
+    if (p.degree == 4)
+        return lanes & ~roots_of(s, &p, 4, &l, here, halved, out);
+    return lanes & ~roots_of(s, &p, p.degree, &l, here, halved, out);
+}
+
+unsigned OF_ISA(poly_lines8_)(const struct poly *s, const struct shape_rays *rays,
+                              unsigned lanes, struct shape_lines *out)
+{
+    return lines(s, rays, lanes, out);
 }
 
 unsigned OF_ISA(poly_closest8_)(const struct poly *s, const struct shape_rays *rays,
