@@ -7,16 +7,13 @@
 #include "scene/shapes/isosurface.h"
 
 enum {
-    // 32 cells along an axis: 2 MB if the surface were in all of them. More pay only in pictures
-    // of more than a million pixels.
-    DEPTH_MAX = 5,
-    DEPTH_SAMPLED = 6, // of an opaque function: cells show what is between samples
-    DEPTH_SMOOTH = 3,  // enough where the gradient hardly turns
+    DEPTH_MAX = 6,    // 64 cells along an axis: 14 MB if the surface were in all of them
+    DEPTH_SMOOTH = 3, // enough where the gradient hardly turns
 };
 
 // The gradient hardly turns in a cell whose bounds of it are this much smaller than itself. Halves
 // of a cell cost as much as a hundred rays through it: the last are made where little is known.
-static const double SMOOTH = 1, SMOOTH_AT_LAST = 4;
+static const double SMOOTH = 0.7, SMOOTH_AT_LAST = 1;
 // Slopes between samples of an opaque function are taken to be this much too small.
 static const double SAMPLE_MARGIN = 1.25;
 // Cells are widened by this share of their size's order: points on a ray are rounded.
@@ -140,7 +137,7 @@ static void sample(const struct isosurface *s, struct iso_cell *c, const struct 
     if (fabs(middle) > steepest * half)
         c->kind = middle > 0 ? CELL_OUTSIDE : CELL_INSIDE;
     else
-        c->kind = depth >= DEPTH_SAMPLED ? CELL_LEAF : CELL_BRANCH;
+        c->kind = depth >= DEPTH_MAX ? CELL_LEAF : CELL_BRANCH;
 }
 
 struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
