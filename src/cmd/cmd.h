@@ -74,6 +74,7 @@ struct cmd {
     size_t file_count, file_capacity;
     volatile int stage; // enum stage; what a signal means depends on it
     volatile bool interrupted;
+    volatile bool out_of_time; // interrupted by --time-limit
     volatile bool finished; // the watch is to end with the next signal
     bool quiet, verbose;
     bool keeps; // finished tiles, to continue
@@ -90,6 +91,7 @@ struct cmd {
 int cmd_fail(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 void cmd_warn(struct cmd *c, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 double cmd_seconds(void);
+const char *cmd_interruption(const struct cmd *c); // what a message calls it
 int cmd_exit_code(enum lambert_status status);
 
 // args.c, ini.c: CMD_OK or an exit code after a message.

@@ -4,10 +4,12 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 int cmd_fail(int code, const char *fmt, ...)
@@ -64,6 +66,7 @@ static sigset_t watched_signals(void)
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGALRM); // of --time-limit
     return set;
 }
 
@@ -82,16 +85,24 @@ static void watch_signals(void *user)
     const sigset_t set = watched_signals();
     int signal;
     while (sigwait(&set, &signal) == 0 && !c->finished) {
+        if (signal == SIGALRM && c->interrupted)
+            continue; // it stops already
+        c->out_of_time = signal == SIGALRM;
         if (c->stage == STAGE_READ) {
             progress_end(c);
-            fputs("lambert: interrupted while reading the scene; nothing is written\n",
-                  stderr);
+            fprintf(stderr, "lambert: %s while reading the scene; nothing is written\n",
+                    cmd_interruption(c));
         }
         if (c->interrupted || c->stage <= STAGE_READ)
             _exit(CMD_INTERRUPTED);
         c->interrupted = true;
         lambert_cancel(c->ctx);
     }
+}
+
+const char *cmd_interruption(const struct cmd *c)
+{
+    return c->out_of_time ? "out of time" : "interrupted";
 }
 
 static void run_errand(void *user)
@@ -106,6 +117,15 @@ static void run_errand(void *user)
     e->c->finished = true;
     if (watched) // the signal ends the watch
         pthread_kill(e->c->watch, SIGTERM);
+}
+
+// 0: none.
+static void begin_time_limit(const struct cmd *c)
+{
+    const double seconds = lambert_option_number(c->ctx, "time-limit");
+    const struct itimerval in = {
+        .it_value = {(time_t)seconds, (suseconds_t)(1e6 * fmod(seconds, 1))}};
+    setitimer(ITIMER_REAL, &in, NULL);
 }
 
 static int run_watched(struct cmd *c, int (*run)(struct cmd *c))
@@ -201,6 +221,8 @@ static int run(struct cmd *c, int argc, char **argv)
         code = streams_open(c);
     if (code)
         return code;
+    if (command->run != cmd_compare) // which limits each renderer
+        begin_time_limit(c);
     code = run_watched(c, command->run);
     int closed = streams_close(c);
     return code ? code : closed;

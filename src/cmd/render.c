@@ -98,11 +98,9 @@ static void say_done(struct cmd *c, const char *path, bool whole)
                        : strcmp(path, "-") == 0 ? "standard output"
                                                 : path;
     if (!whole)
-        fprintf(
-            stderr,
-            "lambert: interrupted; %u of %u tiles are done, the rest is empty: %s%s\n",
-            s.tiles_done, s.tiles_total, name,
-            c->keeps ? "; --continue goes on from here" : "");
+        fprintf(stderr, "lambert: %s; %u of %u tiles are done, the rest is empty: %s%s\n",
+                cmd_interruption(c), s.tiles_done, s.tiles_total, name,
+                c->keeps ? "; --continue goes on from here" : "");
     else if (!c->quiet)
         say_picture(c, stderr, name, &s);
     if (c->stream[STREAM_RENDER])
@@ -164,16 +162,17 @@ static int render_to(struct cmd *c, const char *scene, const char *path)
     status = lambert_render(c->ctx, &image);
     progress_end(c);
     c->stage = STAGE_WRITE;
-    if (!image)
+    if (!image && status != LAMBERT_CANCELLED)
         return report(c, status);
-    bool empty = status == LAMBERT_CANCELLED && !tiles_done(c);
+    bool empty = !image || (status == LAMBERT_CANCELLED && !tiles_done(c));
     int code = path && !empty ? write_picture(c, image, path) : CMD_OK;
     lambert_image_free(image);
     if (code)
         return code;
     if (empty)
         return cmd_fail(CMD_INTERRUPTED,
-                        "interrupted before the first tile was done; nothing is written");
+                        "%s before the first tile was done; nothing is written",
+                        cmd_interruption(c));
     say_done(c, path, status == LAMBERT_OK);
     say_stats(c, path);
     c->stage = STAGE_START;

@@ -110,6 +110,13 @@ static uint64_t cache_key(const struct job *j, const char *scene)
     return h;
 }
 
+static double time_limit(const struct cmd *c)
+{
+    static const double usual = 600;
+    const double asked = lambert_option_number(c->ctx, "time-limit");
+    return asked > 0 ? asked : usual;
+}
+
 // Seconds, or a negative number when there is no picture.
 static double run_renderer(const struct job *j, const char *const *own,
                            const char *folder, const char *log, int *status)
@@ -123,8 +130,7 @@ static double run_renderer(const struct job *j, const char *const *own,
     for (size_t i = 0; i < j->settings_count; i++)
         argv[n++] = j->settings[i];
     argv[n] = NULL;
-    struct process p = {argv, folder, log,
-                        lambert_option_number(j->cmd->ctx, "time-limit"), 0};
+    struct process p = {argv, folder, log, time_limit(j->cmd), 0};
     double seconds = process_run(&p);
     *status = p.status;
     bool ok = seconds >= 0 && WIFEXITED(p.status) && WEXITSTATUS(p.status) == 0;

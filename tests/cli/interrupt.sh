@@ -117,7 +117,7 @@ solving()
   done
   kill -$1 $pid
   wait $pid
-  test $? = 2 && has err 'radiosity: [1-9][0-9]* %' && has err 'stopped on request' && ! grep -q 'patches,' err && ! test -e room.png
+  test $? = 2 && has err 'radiosity: [1-9][0-9]* %' && has err 'before the first tile was done' && ! grep -q 'patches,' err && ! test -e room.png
 }
 check "radiosity is stopped before it is solved" solving INT
 check "by SIGTERM too" solving TERM
@@ -149,6 +149,31 @@ alone()
 if test "$(uname)" = Linux; then
   check "a comparison takes the other program with it" alone
 fi
+# --time-limit does the same in every part of the work.
+out_of_time() # SCENE SECONDS: what a message says, other options
+{
+  scene=$1 seconds=$2 words=$3
+  shift 3
+  timeout 60 "$lambert" "$scene" "--time-limit=$seconds" "$@" 2>err
+  test $? = 2 && has err "out of time.*$words"
+}
+echo '#while (1) #end' >endless.pov
+cat >fine.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 photons { spacing 1e-5 } }
+camera { location <0, 0, -4> look_at 0 }
+light_source { <3, 3, -5> rgb 1 }
+box { -2, 2 pigment { rgbt 1 } interior { ior 1.4 } photons { target refraction on reflection on } }
+plane { y, -3 pigment { rgb 1 } }
+END
+check "out of time while reading" out_of_time endless.pov 0.2 'while reading the scene'
+check "out of time in photons" out_of_time fine.pov 0.5 'nothing is written' -o fine.png
+check "out of time in samples" out_of_time deep.pov 0.5 'nothing is written' -o deep.png
+check "no picture is left" test ! -e fine.png -a ! -e deep.png
+check "out of time in the picture" out_of_time sphere.pov 1.5 'tiles are done' \
+  +W3000 +H3000 +A0.0 +R9 +WT1 --tile-size 16 -o timed.png
+check "which can be gone on with" test -s timed.png -a -s timed.png.lambert-state
+check "in time" exits 0 "$lambert" sphere.pov --time-limit=1000 +W16 +H12 -o timed.png
 # narrow COLUMNS: no line of the progress is longer than a window of so many.
 narrow()
 {

@@ -1,8 +1,10 @@
 // Any bytes as a scene: lexer, stream, grammar, evaluation, building and a few rays must
 // report and return.
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/time.h>
 
 #include "base/arena.h"
 #include "base/stack.h"
@@ -25,16 +27,37 @@ static void ignore_text(void *user, enum word directive, const char *text)
     (void)text;
 }
 
+static volatile bool out_of_time;
+
+static void stop(int signal)
+{
+    (void)signal;
+    out_of_time = true;
+}
+
+// As --time-limit, in processor time: a mutant may ask for hours of light, but has to stop.
+static void limit_time(int seconds)
+{
+    const struct itimerval in = {.it_value = {seconds, 0}};
+    out_of_time = false;
+    signal(SIGVTALRM, stop);
+    setitimer(ITIMER_VIRTUAL, &in, NULL);
+}
+
 static void trace(struct arena *a, const struct scene *scene)
 {
+    enum { LIMIT = 5 };
     struct render_settings settings = render_settings_default;
+    const struct render_progress progress = {.cancel = &out_of_time};
     struct image picture = {0};
     settings.width = settings.col_end = 4;
     settings.height = settings.row_end = 3;
     settings.threads = 1;
     const struct world *w = world_build(a, scene);
+    limit_time(LIMIT);
     if (w && image_init(&picture, settings.width, settings.height, 4))
-        render_world(w, &settings, NULL, &picture, NULL);
+        render_world(w, &settings, &progress, &picture, NULL);
+    limit_time(0);
     image_free(&picture);
 }
 
