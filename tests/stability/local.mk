@@ -37,9 +37,14 @@ check_PROGRAMS += test_chains
 test_chains_SOURCES = %D%/test_chains.c $(stability_sources)
 test_chains_CPPFLAGS = $(test_cppflags)
 test_chains_LDADD = $(test_ldadd)
+check_PROGRAMS += test_random_scenes
+test_random_scenes_SOURCES = %D%/test_random_scenes.c %D%/samples.h $(stability_sources)
+test_random_scenes_CPPFLAGS = $(test_cppflags)
+test_random_scenes_LDADD = $(test_ldadd)
 # The random tests with many more rays; minutes, so by hand.
-check-long: test_random_rays test_states test_nested
+check-long: test_random_rays test_states test_nested test_random_scenes
 	LAMBERT_ROUNDS=10000 ./test_random_rays
 	LAMBERT_ROUNDS=20000 ./test_states
 	LAMBERT_ROUNDS=20000 ./test_nested
+	LAMBERT_ROUNDS=1000 ./test_random_scenes
 .PHONY: check-long

@@ -238,8 +238,12 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
 {
     struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
     struct line_poly8 p;
+    // Roots are looked for beyond what else has been met: where it lies, which depends on the
+    // order of the search, must not move their brackets and with these their last bits.
+    const struct real8 reach = l.hi;
+    l.hi = r8_set(INFINITY);
     if (s->compact)
-        lanes &= lines8_clip(&l, &s->box);
+        lanes &= lines8_clip(&l, &s->box) & m8_bits(r8_lt(l.lo, reach));
     if (!lanes || shape_hits_give_up(out))
         return 0;
     along(s, &l.o, &l.u, &p);
@@ -253,7 +257,7 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
         lanes &= ~narrowed.none;
         halved = narrowed.both;
     }
-    lanes &= m8_bits(r8_lt(l.lo, l.hi));
+    lanes &= m8_bits(r8_lt(l.lo, r8_min(reach, l.hi)));
     if (!lanes)
         return 0;
     const struct first8 f = first_root(s, &p, &l, lanes, halved, any, out->cancel);
