@@ -238,10 +238,11 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
 {
     struct lines8 l = lines8_of(rays, vec3(0, 0, 0));
     struct line_poly8 p;
-    // Roots are looked for beyond what else has been met: where it lies, which depends on the
-    // order of the search, must not move their brackets and with these their last bits.
+    // The first root is looked for beyond what else has been met: where that lies, which
+    // depends on the order of the search, must not move its bracket and so its last bits.
     const struct real8 reach = l.hi;
-    l.hi = r8_set(INFINITY);
+    if (!any)
+        l.hi = r8_set(INFINITY);
     if (s->compact)
         lanes &= lines8_clip(&l, &s->box) & m8_bits(r8_lt(l.lo, reach));
     if (!lanes || shape_hits_give_up(out))
@@ -267,6 +268,11 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
         dt = error_at(s, &p, &l, f.t);
         unsure |= found & ~m8_bits(r8_lt(dt, r8_set(INFINITY)));
     }
+    // Clearly beyond it there is nothing to tell.
+    const struct real8 margin =
+        r8_mul(r8_set(0x1p-30), r8_add(r8_abs(l.shift), r8_abs(reach)));
+    if (!any)
+        found &= m8_bits(r8_le(f.t, r8_add(reach, margin)));
     found &= ~unsure;
     const unsigned met = lines8_hits(&l, rays, found, f.t, dt, f.below, out);
     // What rounding has put out of the range is for the one-ray form to tell as well.
