@@ -73,11 +73,7 @@ static void say_look(struct writer *w)
 
 static const char *random_sample(struct writer *w)
 {
-    for (;;) {
-        const char *s = samples[pick(w, sizeof samples / sizeof *samples)];
-        if (strncmp(s, "text", 4) != 0 || font_file())
-            return s;
-    }
+    return samples[pick(w, sizeof samples / sizeof *samples)];
 }
 
 static void say_object(struct writer *w, int depth)
@@ -275,8 +271,10 @@ static struct image check_rays(const struct writer *w, const char *isa, int thre
     return p;
 }
 
-static void check_places(const struct writer *w, const struct image *first, int *bad)
+// How many places have another picture.
+static int check_places(const struct writer *w, const struct image *first)
 {
+    int bad = 0;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         struct loaded l;
         if (!stays_as_it_is(w, &places[i]))
@@ -287,11 +285,48 @@ static void check_places(const struct writer *w, const struct image *first, int 
         if (off > EDGE_PIXELS) {
             print_message("size %g, moved by %g: %d pixels\n", places[i].size,
                           places[i].moved, off);
-            ++*bad;
+            bad++;
         }
         image_free(&p);
         unload(&l);
     }
+    return bad;
+}
+
+// Scenes that have more than EDGE_PIXELS others at another size or place, 4 to 34 of 4,096:
+// what they hold that may make it so. One that agrees fails the test, until it is taken
+// off; new samples (samples.h) make other scenes, so another list.
+static const struct {
+    unsigned seed;
+    const char *why;
+} known[] = {
+    {214, "a quadric of radius 1e-5 cuts a mirror, a mesh thin by 1e-5"},
+    {250, "a mirror of a Julia set within sheets thin by 1e-5"},
+    {586, "a mirror of order 20"},
+    {897, "not tracked down; mirrors behind colour filters"},
+    {914, "a mirror that is a strip 1e-5 wide, a rim as wide"},
+    {942, "a mirror thin by 1e-5, merged with a superellipsoid"},
+    {1028, "glass less a thread of radius 1e-5"},
+};
+
+// Whether the picture is as right as it is known to be.
+static bool places_are_good(const struct writer *w, unsigned seed,
+                            const struct image *first)
+{
+    const char *why = NULL;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (known[i].seed == seed)
+            why = known[i].why;
+    const int bad = check_places(w, first);
+    if (!why)
+        return bad == 0;
+    // Letters are another font's elsewhere.
+    if (bad > 0 || strstr(w->text, "FONT")) {
+        print_message("scene %u: known (%s)\n", seed, why);
+        return true;
+    }
+    print_message("scene %u agrees now: take it off the list of the known\n", seed);
+    return false;
 }
 
 static bool is_good(struct writer *w, uint64_t seed, struct answers *x)
@@ -300,6 +335,10 @@ static bool is_good(struct writer *w, uint64_t seed, struct answers *x)
     struct image first;
     int bad = 0;
     write_scene(w, seed);
+    if (strstr(w->text, "FONT") && !font_file()) {
+        print_message("scene %u: no font to write with\n", (unsigned)seed);
+        return true;
+    }
     fill(x->rays, w);
     for (int i = 0; i < 3; i++) {
         struct image p = check_rays(w, isa[i], 1 + i, x, &bad);
@@ -313,7 +352,7 @@ static bool is_good(struct writer *w, uint64_t seed, struct answers *x)
         }
         image_free(&p);
     }
-    check_places(w, &first, &bad);
+    bad += !places_are_good(w, (unsigned)seed, &first);
     image_free(&first);
     if (bad)
         print_message("scene %u:\n%s\n", (unsigned)seed, w->text);

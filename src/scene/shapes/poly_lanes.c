@@ -247,6 +247,9 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
         lanes &= lines8_clip(&l, &s->box) & m8_bits(r8_lt(l.lo, reach));
     if (!lanes || shape_hits_give_up(out))
         return 0;
+    // Of high orders the sign where a shadow's ray ends may be rounding.
+    if (any && s->order > POLY_LOW_ORDER)
+        return shape_lanes_alone(&poly_ops, s, rays, lanes, out);
     along(s, &l.o, &l.u, &p);
     if (p.degree < 1)
         return 0;
