@@ -6,10 +6,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "plain_textures.h"
 #include "scene/object.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/quadric.h"
-#include "scene/texture.h"
 
 enum { OBJECTS = 400 };
 
@@ -24,8 +24,6 @@ struct maker {
     bool grid;   // coordinates are multiples of 1/4, nothing is turned: faces coincide
     bool middle; // the camera is at the origin, or close to it
 };
-
-extern const struct texture clear_texture;
 
 // Rounded where coordinates are to be.
 double between(struct maker *m, double lo, double hi);

@@ -1,6 +1,7 @@
 #ifndef TEST_WORLD_FIXTURE_H
 #define TEST_WORLD_FIXTURE_H
 
+#include "plain_textures.h"
 #include "test.h"
 
 #include "base/arena.h"
@@ -33,7 +34,6 @@ struct vec3 first_normal(struct fixture *f, struct vec3 o, struct vec3 d);
 double random_unit(uint64_t *s);
 double between(uint64_t *s, double lo, double hi);
 
-extern const struct texture clear_texture; // lets half the light through
 
 static const struct vec3 Z = {0, 0, 1}, BACK = {0, 0, -1};
 
