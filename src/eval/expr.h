@@ -49,6 +49,12 @@ bool eval_has_memory(struct eval *e, struct span where, size_t more);
 
 bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v);
 
+// #debug, #warning, #error and so on, as stream_host.message.
+bool eval_message(void *user, enum word directive, struct span where, const char *text);
+// `#declare deprecated`: its name is to be warned of; stream_host.deprecated does so once.
+void eval_deprecate(struct eval *e, const struct lvalue *to);
+void eval_deprecated(void *user, const char *name, size_t len, struct span where);
+
 // #fopen, #fclose, #read and #write, as stream_host.file_io.
 bool eval_file_io(void *user, enum word directive, struct span where,
                   const struct lvalue *handle, const struct ast *items);

@@ -1,8 +1,6 @@
-// The callbacks of the directive stream: names, assignments, messages, includes
+// The callbacks of the directive stream: names, assignments, scopes, includes
 // (spec/language 3).
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -73,53 +71,6 @@ static bool path(void *user, const struct ast *expr, const char **out)
     return eval_path(user, expr, out);
 }
 
-// ---- places ------------------------------------------------------------------
-
-bool eval_index(struct eval *e, struct place base, const struct ast *index,
-                struct span where, struct place *out)
-{
-    const struct array_value *a = base.array;
-    uint64_t flat = 0;
-    for (uint32_t i = 0; i < a->dimensions; i++, index = index->next) {
-        double v;
-        if (!index) {
-            diag_at(e->diags, DIAG_SUBSCRIPTS, where, "too few subscripts");
-            return false;
-        }
-        if (!eval_float(e, index, &v))
-            return false;
-        v += INDEX_SLACK;
-        if (!(v >= 0 && v < a->size[i])) {
-            diag_at(e->diags, DIAG_SUBSCRIPT_RANGE, index->where,
-                    (long)number_to_int(floor(v)), (unsigned)a->size[i]);
-            return false;
-        }
-        v = number_to_int(v);
-        flat = flat * a->size[i] + (uint32_t)v;
-    }
-    *out = (struct place){.array = base.array, .index = (uint32_t)flat};
-    return true;
-}
-
-struct place eval_place(struct eval *e, const struct lvalue *to, uint32_t depth)
-{
-    struct place none = {0};
-    struct place p = symbols_find(e->symbols, to->name, to->len, depth);
-    for (const struct ast *index = to->index; index && place_found(p);) {
-        const struct value *v = place_get(e->nodes, p);
-        if (!v || v->kind != VALUE_ARRAY) {
-            diag_at(e->diags, DIAG_SUBSCRIPTS, to->where, "this is no array");
-            return none;
-        }
-        struct place whole = {.array = v->array};
-        if (!eval_index(e, whole, index, to->where, &p))
-            return none;
-        for (uint32_t i = 0; i < v->array->dimensions; i++)
-            index = index->next;
-    }
-    return p;
-}
-
 static bool is_declared(void *user, const struct lvalue *name)
 {
     struct eval *e = user;
@@ -163,38 +114,6 @@ bool eval_assign(struct eval *e, const struct lvalue *to, const struct value *v)
     return false;
 }
 
-// `#declare deprecated NAME`, until it has been said.
-struct deprecation {
-    struct deprecation *next;
-    const char *name, *text; // text: what to say; NULL: the standard
-};
-
-static void deprecate(struct eval *e, const struct lvalue *to)
-{
-    struct deprecation *d = arena_new_struct(e->arena, struct deprecation);
-    d->next = e->deprecations;
-    d->name = arena_strndup(e->arena, to->name, to->len);
-    if (to->deprecated_text && eval_string(e, to->deprecated_text, &d->text))
-        d->text = arena_strndup(e->arena, d->text, strlen(d->text));
-    e->deprecations = d;
-}
-
-static void deprecated(void *user, const char *name, size_t len, struct span where)
-{
-    struct eval *e = user;
-    for (struct deprecation **at = &e->deprecations; *at; at = &(*at)->next) {
-        const struct deprecation *d = *at;
-        if (strlen(d->name) != len || memcmp(d->name, name, len))
-            continue;
-        *at = d->next;
-        if (d->text)
-            diag_at(e->diags, DIAG_SCENE_WARNING, where, d->text);
-        else
-            diag_at(e->diags, DIAG_DEPRECATED, where, d->name);
-        return;
-    }
-}
-
 static bool declare(void *user, const struct lvalue *to, const struct ast *items)
 {
     struct eval *e = user;
@@ -206,7 +125,7 @@ static bool declare(void *user, const struct lvalue *to, const struct ast *items
         *marked = *v;
         marked->deprecated = true;
         v = marked;
-        deprecate(e, to);
+        eval_deprecate(e, to);
     }
     return eval_assign(e, to, v);
 }
@@ -252,110 +171,6 @@ static bool define_macro(void *user, const char *name, size_t len, struct span w
         return false;
     }
     return place_set(e->arena, p, value_new_data(e->arena, VALUE_MACRO, macro));
-}
-
-// ---- arrays ------------------------------------------------------------------
-
-static bool fill_array(struct eval *e, struct array_value *a, const struct ast *entry,
-                       uint32_t dimension, uint32_t *next)
-{
-    uint32_t count = 0;
-    for (const struct ast *n = entry->list; n; n = n->next, count++) {
-        if (count >= a->size[dimension])
-            break;
-        if (dimension + 1 < a->dimensions) {
-            if (n->kind != AST_ENTRY) {
-                diag_at(e->diags, DIAG_INITIALISERS, n->where, a->size[dimension]);
-                return false;
-            }
-            if (!fill_array(e, a, n, dimension + 1, next))
-                return false;
-            continue;
-        }
-        struct ast alone = *n;
-        alone.next = NULL;
-        bool several = n->kind == AST_BLOCK && n->word == WORD_NONE;
-        const struct value *v = eval_rvalue(e, several ? n->list : &alone);
-        if (!v)
-            return false;
-        if (!array_set(e->arena, a, (*next)++, v)) {
-            diag_at(e->diags, DIAG_ELEMENT_KIND, n->where, value_kind_name(v));
-            return false;
-        }
-    }
-    uint32_t given = 0;
-    for (const struct ast *n = entry->list; n; n = n->next)
-        given++;
-    if (given != a->size[dimension])
-        diag_at(e->diags, DIAG_INITIALISERS, entry->where, a->size[dimension]);
-    return given == a->size[dimension];
-}
-
-// Elements that were read as one token.
-static bool fill_whole(struct eval *e, struct array_value *a, const struct ast *entry)
-{
-    const struct bulk *b = entry->list->bulk;
-    for (uint32_t i = 0; i < a->dimensions; i++)
-        if (i >= b->dimensions || b->size[i] != a->size[i]) {
-            diag_at(e->diags, DIAG_INITIALISERS, entry->where, a->size[i]);
-            return false;
-        }
-    if (b->dimensions > a->dimensions) {
-        diag_at(e->diags, DIAG_EXPECTED_NUMBER, entry->where, "braces");
-        return false;
-    }
-    array_fill(e->arena, a, b->number, (uint8_t)b->width);
-    return true;
-}
-
-static bool fill(struct eval *e, struct array_value *a, const struct ast *entry)
-{
-    uint32_t next = 0;
-    return entry->list && entry->list->kind == AST_BULK
-               ? fill_whole(e, a, entry)
-               : fill_array(e, a, entry, 0, &next);
-}
-
-// Pointers or numbers come with the first element; a size may be a slip of the pen.
-static bool array_fits(struct eval *e, struct span where, uint32_t dimensions,
-                       const long *size)
-{
-    double bytes = sizeof(double) + sizeof(bool);
-    for (uint32_t i = 0; i < dimensions; i++)
-        bytes *= (double)size[i];
-    const size_t most = e->options->memory_max;
-    return !most || bytes <= 0 ||
-           eval_has_memory(e, where, bytes < (double)most ? (size_t)bytes : most);
-}
-
-const struct value *eval_array(struct eval *e, const struct ast *sizes,
-                               const struct ast *elements)
-{
-    long size[ARRAY_DIMENSIONS_MAX];
-    uint32_t dimensions = 0;
-    for (const struct ast *n = sizes; n; n = n->next) {
-        double v;
-        if (dimensions == ARRAY_DIMENSIONS_MAX) {
-            diag_at(e->diags, DIAG_SUBSCRIPTS, n->where, "more than 5 dimensions");
-            return NULL;
-        }
-        if (!eval_float(e, n, &v))
-            return NULL;
-        size[dimensions++] = (long)number_to_int(v + INDEX_SLACK);
-    }
-    if (!array_fits(e, sizes->where, dimensions, size))
-        return NULL;
-    struct array_value *a = array_new(e->arena, dimensions, size);
-    if (!a) {
-        diag_at(e->diags, DIAG_ARRAY_SIZE, sizes->where, "");
-        return NULL;
-    }
-    if (elements && !fill(e, a, elements))
-        return NULL;
-    struct value *v = arena_new_struct(e->arena, struct value);
-    v->kind = VALUE_ARRAY;
-    v->array = a;
-    return v;
 }
 
 static bool declare_array(void *user, const struct lvalue *to, const struct ast *sizes,
@@ -486,65 +301,7 @@ static void face(void *user, void *mesh, const struct ast *block)
     builder_face(((struct eval *)user)->builder, mesh, block);
 }
 
-// ---- messages, version, files --------------------------------------------------
-
-static void tell(struct eval *e, enum word directive, const char *text)
-{
-    if (e->options->message)
-        e->options->message(e->options->message_user, directive, text);
-    else
-        fputs(text, stderr);
-}
-
-// Whole lines are shown; what the scene leaves without a line end never is.
-static void tell_lines(struct eval *e, enum word directive, const char *text)
-{
-    char **kept = &e->line[directive == WORD_debug    ? 0
-                           : directive == WORD_render ? 1
-                                                      : 2];
-    const char *end = strrchr(text, '\n');
-    size_t old = *kept ? strlen(*kept) : 0, len = strlen(text);
-    char *all = malloc(old + len + 1);
-    if (!all)
-        abort();
-    if (old)
-        memcpy(all, *kept, old);
-    memcpy(all + old, text, len + 1);
-    free(*kept);
-    *kept = all;
-    if (!end)
-        return;
-    size_t whole = old + (size_t)(end + 1 - text);
-    *kept = strdup(all + whole);
-    all[whole] = 0;
-    tell(e, directive, all);
-    free(all);
-}
-
-// Without the line ends that a scene puts after its messages.
-static const char *one_line(struct eval *e, const char *text)
-{
-    size_t len = strlen(text);
-    while (len && text[len - 1] == '\n')
-        len--;
-    return arena_strndup(e->parse, text, len);
-}
-
-static bool message(void *user, enum word directive, struct span where, const char *text)
-{
-    struct eval *e = user;
-    if (directive == WORD_warning) {
-        diag_at(e->diags, DIAG_SCENE_WARNING, where, one_line(e, text));
-        return true;
-    }
-    if (directive == WORD_error) {
-        diag_at(e->diags, DIAG_SCENE_ERROR, where, one_line(e, text));
-        e->diags->errors_max = e->diags->errors; // nothing is read after it
-        return false;
-    }
-    tell_lines(e, directive, text);
-    return true;
-}
+// ---- version, limits, files ----------------------------------------------------
 
 static bool version(void *user, struct span where, double v)
 {
@@ -610,7 +367,7 @@ struct stream_host eval_host(struct eval *e)
         .lookup = lookup,
         .hold = hold,
         .undeclared = undeclared,
-        .deprecated = deprecated,
+        .deprecated = eval_deprecated,
         .number = number,
         .string = string,
         .path = path,
@@ -630,7 +387,7 @@ struct stream_host eval_host(struct eval *e)
         .finish = finish,
         .faces = faces,
         .face = face,
-        .message = message,
+        .message = eval_message,
         .version = version,
         .may_go_on = may_go_on,
         .defaults = defaults,

@@ -1,5 +1,5 @@
 liblambert_a_SOURCES += \
-	%D%/args.c %D%/build.h %D%/build_atmosphere.c %D%/build_camera.c \
+	%D%/args.c %D%/build.h %D%/build_array.c %D%/build_atmosphere.c %D%/build_camera.c \
 	%D%/build_csg.c %D%/build_default_map.c %D%/build_effects.c \
 	%D%/build_density_file.c %D%/build_finish.c %D%/build_function.c \
 	%D%/build_image.c %D%/build_interior.c \
@@ -14,6 +14,6 @@ liblambert_a_SOURCES += \
 	%D%/function_compile.c %D%/function_compile.h \
 	%D%/functions.c %D%/functions.def \
 	%D%/functions.h %D%/host.c %D%/include_hint.c %D%/include_hint.h %D%/internal.c %D%/internal.def \
-	%D%/internal.h %D%/internal_noise.c %D%/random.c %D%/spline.c %D%/spline.h \
+	%D%/internal.h %D%/internal_noise.c %D%/message.c %D%/place.c %D%/random.c %D%/spline.c %D%/spline.h \
 	%D%/strings.c %D%/symbol.c %D%/symbol.h %D%/text.c %D%/text.h %D%/value.c \
 	%D%/value.h
