@@ -184,10 +184,40 @@ static void no_photons(void **state_)
     photon_map_end(&m);
 }
 
+// A map that holds the most says that there was more, and takes nothing.
+static void a_full_map_of_photons_says_so(void **state_)
+{
+    (void)state_;
+    const struct photon x = {.p = {1, 2, 3}};
+    struct photon_map some = {0},
+                      full = {.count = PHOTONS_MOST, .capacity = PHOTONS_MOST};
+    for (int i = 0; i < 100; i++)
+        photon_add(&some, &x);
+    assert_int_equal(some.count, 100);
+    assert_false(some.full);
+    struct photon_map more = {0};
+    photon_map_append(&more, &some);
+    photon_map_append(&more, &some);
+    assert_int_equal(more.count, 200);
+    assert_true(more.photon[199].p[2] == 3);
+    photon_map_end(&more);
+    photon_add(&full, &x);
+    assert_true(full.full);
+    full.full = false;
+    photon_map_append(&full, &some);
+    assert_true(full.full);
+    assert_int_equal(full.count, PHOTONS_MOST);
+    const struct photon_map cut = {.full = true};
+    photon_map_append(&some,
+                      &cut); // what another map has left out is missing here as well
+    assert_true(some.full);
+    photon_map_end(&some);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nearest_photons),
-                                       cmocka_unit_test(gathered_photons),
-                                       cmocka_unit_test(no_photons)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nearest_photons), cmocka_unit_test(gathered_photons),
+        cmocka_unit_test(no_photons), cmocka_unit_test(a_full_map_of_photons_says_so)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
