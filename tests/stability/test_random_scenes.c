@@ -309,6 +309,9 @@ static const struct {
     {1028, "glass less a thread of radius 1e-5"},
 };
 
+// Scenes that have failed: rays to a lamp that begin or end on surfaces of order 20.
+static const unsigned once[] = {242, 497, 607, 714};
+
 // Whether the picture is as right as it is known to be.
 static bool places_are_good(const struct writer *w, unsigned seed,
                             const struct image *first)
@@ -371,6 +374,8 @@ static void test_random_scenes(void **state)
     unsigned bad = 0;
     for (unsigned i = first; i < first + count; i++)
         bad += !is_good(&w, i, &x);
+    for (size_t i = 0; i < sizeof once / sizeof *once; i++)
+        bad += once[i] >= first + count && !is_good(&w, once[i], &x);
     assert_int_equal(bad, 0);
     hit_batch_free(x.hit);
     ray_batch_free(x.rays);

@@ -140,6 +140,24 @@ struct first8 {
     unsigned found, unsure, below;
 };
 
+// How far the polynomial along the lines may be off at t: by the rounding of its sum, and by what
+// its coefficients have lost.
+static struct real8 value_error(const struct poly *s, const struct line_poly8 *p,
+                                const struct lines8 *l, struct real8 t)
+{
+    const struct real8 size = poly8_size(p->c, p->degree, t);
+    return r8_add(lost_at(s, l, t),
+                  r8_mul(r8_set((2 * p->degree + 4 * s->order) * ROUNDOFF), size));
+}
+
+// Lanes whose sign at t is no rounding.
+static unsigned sign_is_clear(const struct poly *s, const struct line_poly8 *p,
+                              const struct lines8 *l, struct real8 t)
+{
+    const struct real8 v = poly8_value(p->c, p->degree, t);
+    return m8_bits(r8_lt(value_error(s, p, l, t), r8_abs(v)));
+}
+
 LANES_INLINE struct first8 first_of(const struct poly *s, const struct line_poly8 *p,
                                     int n, const struct lines8 *l, unsigned lanes,
                                     unsigned halved, bool any,
@@ -151,6 +169,11 @@ LANES_INLINE struct first8 first_of(const struct poly *s, const struct line_poly
     f.below = m8_bits(r8_lt(r.sign, r8_set(0)));
     f.found = r.found;
     f.unsure = r.unsure;
+    // Two signs say that there is a root between if rounding has made neither: a shadow's ray may
+    // begin or end on the surface.
+    if (any && s->order > POLY_LOW_ORDER && f.found)
+        f.unsure |=
+            f.found & ~(sign_is_clear(s, p, l, r.a) & sign_is_clear(s, p, l, r.b));
     f.t =
         any ? r8_mul(r8_set(0.5), r8_add(r.a, r.b)) : poly8_refine(p->c, n, &r, r.found);
     return f;
@@ -225,11 +248,7 @@ static void clip_to_roots(const struct line_poly8 *p, struct lines8 *l)
 static struct real8 error_at(const struct poly *s, const struct line_poly8 *p,
                              const struct lines8 *l, struct real8 t)
 {
-    const struct real8 size = poly8_size(p->c, p->degree, t);
-    const struct real8 error =
-        r8_add(lost_at(s, l, t),
-               r8_mul(r8_set((2 * p->degree + 4 * s->order) * ROUNDOFF), size));
-    return r8_add(poly8_root_error(p->c, p->degree, t, error),
+    return r8_add(poly8_root_error(p->c, p->degree, t, value_error(s, p, l, t)),
                   r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l->shift), r8_abs(t))));
 }
 
@@ -247,9 +266,6 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
         lanes &= lines8_clip(&l, &s->box) & m8_bits(r8_lt(l.lo, reach));
     if (!lanes || shape_hits_give_up(out))
         return 0;
-    // Of high orders the sign where a shadow's ray ends may be rounding.
-    if (any && s->order > POLY_LOW_ORDER)
-        return shape_lanes_alone(&poly_ops, s, rays, lanes, out);
     along(s, &l.o, &l.u, &p);
     if (p.degree < 1)
         return 0;
