@@ -28,6 +28,8 @@ void trace_scratch_free(struct trace_scratch *s)
         return;
     boundary_list_free(&s->crossings);
     free(s->own_dt);
+    free(s->made_at);
+    free(s->made_own_dt);
     free(s->inside);
     free(s->before);
     free(s->stamp);

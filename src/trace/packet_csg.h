@@ -39,6 +39,9 @@ struct csg8 {
     struct real8 slack;         // no more than `margin`, else the lane is unsure
     struct real8 before, after; // the stretch within `slack` of the crossing at hand
     unsigned lanes, unsure;
+    const struct transform *space; // of the rays in `own`; NULL: of none
+    struct ray8 own;
+    struct made_crossings made;
 };
 
 // ---- states ---------------------------------------------------------------------------------
@@ -93,6 +96,26 @@ static unsigned csg8_shows(const struct csg8 *v, uint32_t i, unsigned lanes)
 }
 
 // ---- spans ----------------------------------------------------------------------------------
+
+// The rays as a leaf's shape sees them; those of the last space are kept.
+static const struct ray8 *csg8_ray(struct csg8 *v, const struct leaf *l)
+{
+    if (l->transform->identity)
+        return &v->e->ray;
+    if (l->transform != v->space)
+        v->own = local_ray(l->transform, &v->e->ray);
+    v->space = l->transform;
+    return &v->own;
+}
+
+// Lanes that may be in the leaf's box where that matters.
+static unsigned csg8_boxed(const struct csg8 *v, const struct leaf *l, unsigned lanes)
+{
+    if (!lanes || !aabb_is_finite(l->bounds))
+        return lanes;
+    return lanes & box_lanes_to(v->e, &l->bounds,
+                                r8_add(v->to, r8_mul(r8_set(0x1p20), v->margin)));
+}
 
 static void csg8_begin_leaf(struct csg8 *v, uint32_t i)
 {
@@ -251,17 +274,17 @@ struct lane_ends {
     unsigned told; // lanes whose `lines` are
 };
 
-static void lane_ends_find(struct lane_ends *x, const struct eight *e,
-                           const struct leaf *l, unsigned lanes)
+static void lane_ends_find(struct lane_ends *x, struct csg8 *v, const struct leaf *l,
+                           unsigned lanes)
 {
+    const struct eight *e = v->e;
     const bool some = lanes & (lanes - 1);
     x->told = 0;
     x->made = l->ops == &superellipsoid_ops && superellipsoid_is_convex(l->shape) && some;
     if (!x->made && !(l->ops->lines8 && some))
         return;
     struct shape_rays rays;
-    struct ray8 own;
-    const struct ray8 *ray = leaf_ray(l, &e->ray, &own);
+    const struct ray8 *ray = csg8_ray(v, l);
     v8_store(rays.o, ray->o);
     v8_store(rays.d, ray->d);
     r8_store(rays.t_min, e->t_min);
@@ -298,7 +321,8 @@ static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
     const struct leaf *l = &p->w->leaf[leaf];
     struct lane_spans x;
     struct lane_ends ends;
-    lane_ends_find(&ends, v->e, l, lanes);
+    lane_ends_find(&ends, v, l, lanes);
+    v->made.lanes[i] = (uint8_t)lanes;
     for (int k = 0; k < LEAF_SPANS; k++)
         x.met[k] = x.in_drawn[k] = x.out_drawn[k] = 0;
     for (; lanes; lanes &= lanes - 1) {
@@ -306,6 +330,8 @@ static void csg8_other(struct csg8 *v, uint32_t i, unsigned lanes)
         const struct ray ray = ray_of_lane(p, lane);
         const uint32_t from = p->s->crossings.count;
         lane_crossings(&ends, p, leaf, &ray, lane);
+        v->made.from[i][lane] = from;
+        v->made.to[i][lane] = p->s->crossings.count;
         p->s->stats.leaf_tests++;
         if (!lane_spans_add(&x, lane, l->inverted, &p->s->crossings, from))
             v->unsure |= 1u << lane;
@@ -340,10 +366,11 @@ static void csg8_simple(struct csg8 *v, uint32_t i)
 {
     const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
     const enum packet_shape shape = v->e->p->w->accel->leaf_shape[v->o->first_leaf + i];
-    struct ray8 own;
-    const struct ray8 *ray = leaf_ray(l, &v->e->ray, &own);
-    v->e->p->s->stats.leaf_tests++;
     csg8_begin_leaf(v, i);
+    if (!csg8_boxed(v, l, v->lanes))
+        return;
+    v->e->p->s->stats.leaf_tests++;
+    const struct ray8 *ray = csg8_ray(v, l);
     if (shape == PACKET_QUADRIC)
         csg8_quadric(v, i, ray);
     else
@@ -396,16 +423,12 @@ static void csg8_dear(struct csg8 *v, uint32_t i)
     const struct leaf *l = &v->e->p->w->leaf[v->o->first_leaf + i];
     const bool ring = l->ops == &torus_ops && ((const struct torus *)l->shape)->major >
                                                   ((const struct torus *)l->shape)->minor;
-    struct ray8 own;
     csg8_begin_leaf(v, i);
-    unsigned lanes = csg8_matters(v, i);
-    if (lanes && aabb_is_finite(l->bounds))
-        lanes &= box_lanes_to(v->e, &l->bounds,
-                              r8_add(v->to, r8_mul(r8_set(0x1p20), v->margin)));
+    const unsigned lanes = csg8_boxed(v, l, csg8_matters(v, i));
     if (!lanes)
         return;
     if (ring)
-        csg8_ring(v, i, leaf_ray(l, &v->e->ray, &own));
+        csg8_ring(v, i, csg8_ray(v, l));
     else
         csg8_other(v, i, lanes);
 }
@@ -546,6 +569,20 @@ static void csg8_stretch(struct csg8 *v)
     v->to = r8_add(r8_min(e->t_max, r8_load(e->p->t)), v->margin);
 }
 
+// Leaves the lanes that are unsure to the sweep, with what is known of their crossings.
+static unsigned csg8_sweep(struct csg8 *v, uint32_t object)
+{
+    struct trace_scratch *s = v->e->p->s;
+    unsigned won = 0;
+    scratch_keep_crossings(s, &v->made);
+    for (unsigned m = v->unsure; m; m &= m - 1) {
+        v->made.lane = __builtin_ctz(m);
+        won |= packet_try_object(v->e->p, m & -m, object);
+    }
+    s->made = NULL;
+    return won;
+}
+
 static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
 {
     struct packet *p = e->p;
@@ -560,6 +597,9 @@ static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
     v.node = p->w->node + v.o->root;
     v.spans = 0;
     v.live = v.kept = 0;
+    v.space = NULL;
+    v.made.first_leaf = v.o->first_leaf;
+    memset(v.made.lanes, 0, sizeof v.made.lanes);
     p->s->crossings.count = p->s->own_count = 0;
     v.bounds = r8_set(0);
     v.lanes = bits;
@@ -576,7 +616,7 @@ static unsigned csg8(struct eight *e, unsigned bits, uint32_t object)
     if (found)
         v.unsure |= found & csg8_near(&v, t, at);
     const unsigned won = csg8_take(&v, found & ~v.unsure, t, at, object);
-    return v.unsure ? won | packet_try_object(p, v.unsure, object) : won;
+    return v.unsure ? won | csg8_sweep(&v, object) : won;
 }
 
 #endif

@@ -3,7 +3,17 @@
 
 #include "math/gamma.h"
 #include "scene/boundary.h"
+#include "trace/accel.h"
 #include "trace/intersect.h"
+
+// Crossings that eight lines had made in leaves of an object (leaf_crossings_in_csg), for the
+// sweep of one of them.
+struct made_crossings {
+    uint32_t first_leaf;
+    uint8_t lanes[CSG_LEAVES];                       // by leaf: lanes that had them made
+    uint32_t from[CSG_LEAVES][8], to[CSG_LEAVES][8]; // their place
+    int lane;                                        // the one that is swept
+};
 
 // What one thread needs while it traces: nothing is allocated per ray once the lists
 // have grown to their working size.
@@ -11,6 +21,10 @@ struct trace_scratch {
     struct boundary_list crossings;
     double *own_dt; // of the crossings whose dt was widened
     uint32_t own_count, own_capacity;
+    const struct made_crossings *made; // NULL: none
+    struct boundary *made_at;          // what `crossings` and `own_dt` were then
+    double *made_own_dt;
+    uint32_t made_capacity, made_own_capacity;
     uint32_t *inside; // children inside, per node of the object at hand
     uint32_t *before; // the same before the batch, where stamped
     uint64_t *stamp;  // batch that last touched the node
@@ -62,6 +76,8 @@ void leaf_crossings_in_csg(const struct world *w, struct trace_scratch *s, uint3
 // . direction| at each, in the shape's space; NULL: not known.
 void leaf_crossings_made(const struct world *w, struct trace_scratch *s, uint32_t leaf,
                          const struct ray *ray, uint32_t from, const double *slope);
+// Puts the crossings made so far aside, where sweeps find them until s->made is NULL again.
+void scratch_keep_crossings(struct trace_scratch *s, const struct made_crossings *made);
 // The boundary found, with its shape's own dt.
 struct boundary boundary_as_shape_has_it(const struct trace_scratch *s,
                                          const struct boundary *b);

@@ -74,7 +74,7 @@ static double moved_error(const struct world *w, const struct ray *ray,
     return dt > 0 ? dt : 0; // of a t that is no number, none
 }
 
-static void keep_own_dt(struct trace_scratch *s, struct boundary *b)
+static void keep_own_dt(struct trace_scratch *s, struct boundary *b, double dt)
 {
     if (s->own_count == s->own_capacity) {
         s->own_capacity = s->own_capacity ? 2 * s->own_capacity : 64;
@@ -82,7 +82,7 @@ static void keep_own_dt(struct trace_scratch *s, struct boundary *b)
         if (!s->own_dt)
             abort();
     }
-    s->own_dt[s->own_count++] = b->dt;
+    s->own_dt[s->own_count++] = dt;
     b->own = s->own_count;
 }
 
@@ -108,7 +108,7 @@ static void widen_crossings(const struct world *w, struct trace_scratch *s, uint
     for (uint32_t i = from; i < out->count; i++) {
         const double moved =
             moved_error(w, ray, &local, &out->at[i], slope ? &slope[i - from] : NULL);
-        keep_own_dt(s, &out->at[i]);
+        keep_own_dt(s, &out->at[i], out->at[i].dt);
         out->at[i].dt += moved;
     }
 }
@@ -146,6 +146,41 @@ void leaf_crossings_made(const struct world *w, struct trace_scratch *s, uint32_
 {
     take_crossings(w, leaf, from, &s->crossings);
     widen_crossings(w, s, leaf, ray, from, slope);
+}
+
+void scratch_keep_crossings(struct trace_scratch *s, const struct made_crossings *made)
+{
+    struct boundary *at = s->made_at;
+    double *own_dt = s->made_own_dt;
+    const uint32_t capacity = s->made_capacity, own_capacity = s->made_own_capacity;
+    s->made = made;
+    s->made_at = s->crossings.at;
+    s->made_capacity = s->crossings.capacity;
+    s->made_own_dt = s->own_dt;
+    s->made_own_capacity = s->own_capacity;
+    s->crossings.at = at;
+    s->crossings.capacity = capacity;
+    s->own_dt = own_dt;
+    s->own_capacity = own_capacity;
+    s->crossings.count = s->own_count = 0;
+}
+
+// As leaf_crossings_in_csg, where they are made already.
+static bool take_made(struct trace_scratch *s, uint32_t leaf)
+{
+    const struct made_crossings *m = s->made;
+    if (!m || !(m->lanes[leaf - m->first_leaf] >> m->lane & 1))
+        return false;
+    const uint32_t i = leaf - m->first_leaf;
+    for (uint32_t k = m->from[i][m->lane]; k < m->to[i][m->lane]; k++) {
+        const struct boundary *b = &s->made_at[k];
+        struct boundary *copy =
+            boundary_list_add(&s->crossings, b->t, b->dt, b->crossing, b->part);
+        *copy = *b;
+        if (b->own)
+            keep_own_dt(s, copy, s->made_own_dt[b->own - 1]);
+    }
+    return true;
 }
 
 // ---- collecting ---------------------------------------------------------------------
@@ -316,8 +351,10 @@ static void start_leaf(struct sweep *v, uint32_t leaf, const struct ray *ray)
     struct boundary_list *list = &v->s->crossings;
     const struct leaf *l = &v->w->leaf[leaf];
     const uint32_t from = list->count;
-    leaf_crossings_in_csg(v->w, v->s, leaf, ray);
-    v->s->stats.leaf_tests++;
+    if (!take_made(v->s, leaf)) {
+        leaf_crossings_in_csg(v->w, v->s, leaf, ray);
+        v->s->stats.leaf_tests++;
+    }
     if (!l->solid)
         return;
     if (list->count > from)
