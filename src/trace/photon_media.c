@@ -63,7 +63,7 @@ static void leave(struct photon_flight *f, const struct leg *leg,
         const struct vec3 lost = extinction_at(f->job, mix, at, leg->path.d);
         const struct vec3 half = vec3_mad(depth, step / 2, lost);
         depth = vec3_mad(depth, step, lost);
-        photon_leave(f, &f->to->media, leg, at, t,
+        photon_leave(f, &f->left.media, leg, at, t,
                      rgb_scale((float)step, clear_through(half)));
     }
 }

@@ -12,12 +12,20 @@ struct photon_gun {
     float share;   // of the lamp's light
 };
 
+struct photon_shot {
+    struct vec3 o, d;
+    uint32_t hash;
+};
+
 // What is needed to follow photons.
 struct photon_flight;
-struct photon_flight *photon_flight_new(const struct job *job, struct photons *to);
+struct photon_flight *photon_flight_new(const struct job *job);
 void photon_flight_free(struct photon_flight *f);
-// Follows a ray of the gun and all that comes of it. Whether it met the target.
-bool photon_fly(struct photon_flight *f, const struct photon_gun *gun, struct vec3 o,
-                struct vec3 d, uint32_t hash);
+// Follows rays of the gun and all that comes of them, and adds the photons that they leave to
+// `to`: those of the first ray, then of the second ... How many met the target. *cancel, which
+// may be NULL, ends it early.
+uint32_t photon_fly(struct photon_flight *f, const struct photon_gun *gun,
+                    const struct photon_shot *shot, uint32_t count,
+                    const volatile bool *cancel, struct photons *to);
 
 #endif

@@ -7,11 +7,6 @@
 #include "base/parallel.h"
 #include "trace/photon_flight.h"
 
-struct shot {
-    struct vec3 o, d;
-    uint32_t hash;
-};
-
 // Consecutive shots of one ring, and what they left.
 struct flock {
     uint32_t begin, end; // shots
@@ -29,7 +24,7 @@ struct photon_volley {
     struct photons *to;
     const volatile bool *cancel;
     const struct photon_gun *gun;
-    struct shot *shot;
+    struct photon_shot *shot;
     uint32_t shot_count, shot_capacity;
     struct flock *flock; // those past flock_count keep their memory
     uint32_t flock_count, flock_capacity, flock_made;
@@ -101,7 +96,7 @@ void photon_volley_shot(struct photon_volley *v, struct vec3 o, struct vec3 d,
         flock_begin(v);
     if (v->shot_count == v->shot_capacity)
         v->shot = grown(v->shot, &v->shot_capacity, sizeof *v->shot);
-    v->shot[v->shot_count++] = (struct shot){o, d, hash};
+    v->shot[v->shot_count++] = (struct photon_shot){o, d, hash};
     v->flock[v->flock_count - 1].end++;
 }
 
@@ -121,7 +116,7 @@ static void *flight_of_thread(void *user)
     struct photon_volley *v = user;
     struct photon_flight **f = &v->flight[atomic_fetch_add(&v->next_flight, 1)];
     if (!*f)
-        *f = photon_flight_new(v->job, NULL);
+        *f = photon_flight_new(v->job);
     return *f;
 }
 
@@ -131,13 +126,8 @@ static void flocks_fly(void *user, void *state, uint32_t begin, uint32_t end)
     struct photon_flight *f = state;
     for (uint32_t i = begin; i < end; i++) {
         struct flock *flock = &v->flock[i];
-        f->to = &flock->left;
-        for (uint32_t k = flock->begin; k < flock->end; k++) {
-            const struct shot *s = &v->shot[k];
-            if (v->cancel && *v->cancel)
-                return;
-            flock->met += photon_fly(f, v->gun, s->o, s->d, s->hash);
-        }
+        flock->met = photon_fly(f, v->gun, v->shot + flock->begin,
+                                flock->end - flock->begin, v->cancel, &flock->left);
     }
 }
 

@@ -78,6 +78,14 @@ static inline uint8_t path_key_within(uint32_t surface)
     return (uint8_t)(PATH_KEYS_WITHIN + surface % (PATH_KEYS - PATH_KEYS_WITHIN));
 }
 
+// Rays that leave in similar directions side by side, so that packets stay together.
+enum { PATH_KEYS_DIRECTION = 16 };
+static inline unsigned path_key_direction(const struct path *p)
+{
+    return (unsigned)(p->d.x < 0) | (unsigned)(p->d.y < 0) << 1 |
+           (unsigned)(p->d.z < 0) << 2 | (unsigned)(p->flags & PATH_REFLECTED) << 3;
+}
+
 // Rays that wait. `order` says in which order they count: that of their parents.
 struct path_queue {
     struct path *at;

@@ -164,13 +164,6 @@ const struct inside *wave_inside(const struct tracer *t, uint32_t slot)
                            : t->camera_inside;
 }
 
-// Rays that leave in similar directions side by side, so that packets stay together.
-static unsigned ray_key(const struct path *p)
-{
-    return (unsigned)(p->d.x < 0) | (unsigned)(p->d.y < 0) << 1 |
-           (unsigned)(p->d.z < 0) << 2 | (unsigned)(p->flags & PATH_REFLECTED) << 3;
-}
-
 enum { PARTS = 64, FINE_KEYS = PATH_KEYS_WITHIN * PARTS };
 
 // A part of the ray's octant: eight by eight of them, along a curve without far leaps.
@@ -179,7 +172,8 @@ static unsigned fine_key(const struct path *p)
     static const unsigned char spread[8] = {0, 1, 4, 5, 16, 17, 20, 21};
     const double x = fabs(p->d.x), y = fabs(p->d.y), z = fabs(p->d.z);
     const double scale = 7.999 / (x + y + z);
-    return ray_key(p) * PARTS + spread[(int)(x * scale)] + 2u * spread[(int)(y * scale)];
+    return path_key_direction(p) * PARTS + spread[(int)(x * scale)] +
+           2u * spread[(int)(y * scale)];
 }
 
 // Where each of the rays stands that have these keys, below PATH_KEYS; equal ones keep their order.
@@ -226,7 +220,7 @@ static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
     uint16_t key[BATCH_SIZE];
     for (uint32_t i = 0; i < w->count; i++) {
         const struct path *p = &w->path[w->order[i]];
-        key[i] = (uint16_t)(fine ? fine_key(p) : p->key ? p->key : ray_key(p));
+        key[i] = (uint16_t)(fine ? fine_key(p) : p->key ? p->key : path_key_direction(p));
     }
     if (fine)
         places_by_digits(key, w->count, place);

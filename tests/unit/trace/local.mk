@@ -33,3 +33,7 @@ check_PROGRAMS += test_photon_map
 test_photon_map_SOURCES = %D%/test_photon_map.c
 test_photon_map_CPPFLAGS = $(test_cppflags)
 test_photon_map_LDADD = $(test_ldadd)
+check_PROGRAMS += test_photon_path
+test_photon_path_SOURCES = %D%/test_photon_path.c tests/unit/radiosity/scenes.c tests/unit/radiosity/scenes.h
+test_photon_path_CPPFLAGS = $(test_cppflags)
+test_photon_path_LDADD = $(test_ldadd)
