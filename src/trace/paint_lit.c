@@ -60,16 +60,75 @@ static const struct paint_sheet *sheets_of(const struct tracer *t,
     return t->paint->sheet + g->sheet;
 }
 
-// The lanes that send rays on.
-static unsigned going_on(const struct tracer *t, const struct paint_group *g)
+// The lanes that send rays on; of them `alone`: one by one, since they do not only mirror, or by
+// rules that lanes do not know.
+static unsigned going_on(const struct tracer *t, const struct paint_group *g,
+                         unsigned *alone)
 {
-    unsigned lanes = 0;
+    unsigned mirror = 0;
+    *alone = 0;
     for (uint32_t i = 0; i < g->coat_count && t->job->refraction; i++)
-        lanes |= t->paint->coat[g->coat + i].open;
-    for (uint32_t i = 0; i < g->sheet_count && t->job->mirrors; i++)
-        if (finish_has_mirror(sheets_of(t, g)[i].layer->finish))
-            lanes |= sheets_of(t, g)[i].lanes;
-    return lanes;
+        *alone |= t->paint->coat[g->coat + i].open;
+    for (uint32_t i = 0; i < g->sheet_count && t->job->mirrors; i++) {
+        const struct paint_sheet *s = &sheets_of(t, g)[i];
+        const struct finish *f = s->layer->finish;
+        if (!finish_has_mirror(f))
+            continue;
+        mirror |= s->lanes;
+        if (f->irid != 0 || f->reflection_exponent != 1)
+            *alone |= s->lanes;
+    }
+    return mirror | *alone;
+}
+
+// What Fresnel's formula asks of the lanes.
+static void fresnel_indices(const struct paint_group *g, const struct path *const from[8],
+                            unsigned lanes, double index[8])
+{
+    const struct inside *inside = NULL;
+    double last = 1;
+    for (int i = 0, any = 0; i < 8; i++) {
+        index[i] = 1;
+        if (!(lanes >> i & 1))
+            continue;
+        if (!any++ || from[i]->inside != inside)
+            last = fresnel_index(inside = from[i]->inside, g->surface->interior);
+        index[i] = last;
+    }
+}
+
+// shade_mirrors of lanes that only mirror.
+static void group_mirror(struct tracer *t, const struct paint_group *g, unsigned lanes)
+{
+    struct simple_bounce b; // not set to zero: it is large
+    struct path made[8];
+    const struct path *from[8];
+    uint32_t way[8];
+    bounce_from(t, &g->hits, lanes, made, from);
+    b.least = t->job->adc_bailout;
+    for (int i = 0; i < 8; i++) {
+        b.from_weight[i] = lanes >> i & 1 ? from[i]->weight : 0;
+        way[i] = 1;
+    }
+    for (const struct paint_coat *c = t->paint->coat + g->coat, *end = c + g->coat_count;
+         c < end; c++) {
+        float share[8];
+        for (int i = 0; i < 8; i++)
+            share[i] = (float)c->weight[i];
+        for (uint32_t k = c->sheet; k < c->sheet + c->sheet_count; k++) {
+            const struct paint_sheet *s = &t->paint->sheet[k];
+            const struct finish *f = s->layer->finish;
+            if (s->lanes & lanes && finish_has_mirror(f)) {
+                if (f->fresnel)
+                    fresnel_indices(g, from, s->lanes & lanes, b.index);
+                t->job->kernels->mirror_sheet(g, s, share, &b);
+                b.mirrors &= s->lanes & lanes;
+                bounce_mirrors(t, &g->hits, from, &b, way);
+            }
+            for (int i = 0; i < 8; i++)
+                way[i] += 2 * (s->lanes >> i & 1);
+        }
+    }
 }
 
 static void lane_layer(const struct tracer *t, const struct paint_sheet *s, int i,
@@ -164,8 +223,12 @@ void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
     uint32_t queued = 0;
     for (uint32_t i = 0; i < count; i++) {
         kernels->own_sheets(t, &g[i]);
-        for (unsigned lanes = going_on(t, &g[i]); lanes; lanes &= lanes - 1)
-            lane_go_on(t, &g[i], __builtin_ctz(lanes));
+        unsigned alone;
+        const unsigned on = going_on(t, &g[i], &alone);
+        if (on & ~alone)
+            group_mirror(t, &g[i], on & ~alone);
+        for (; alone; alone &= alone - 1)
+            lane_go_on(t, &g[i], __builtin_ctz(alone));
         if (t->job->lights && t->job->settings.indirect.data)
             group_indirect(t, &g[i]);
     }

@@ -2,6 +2,7 @@
 #define TRACE_SHADE_BOUNCE_H
 
 // Where the light of eight hits goes on.
+#include "trace/paint.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 #include "trace/shade_lanes.h"
@@ -31,12 +32,10 @@ LANES_INLINE struct real8 fresnel8(struct real8 c, struct real8 n)
     return r8_select(all, one, r8_max(r8_set(0), r8_min(one, f)));
 }
 
-// finish_reflectivity.
-LANES_INLINE void reflectivity8(const struct simple_class *k,
-                                const struct simple_group *g, struct real8 cosine,
-                                struct simple_bounce *b)
+// finish_reflectivity; fills in b->weight.
+LANES_INLINE struct rgb8 reflectivity8(const struct finish *f, struct rgb8 color,
+                                       struct real8 cosine, struct simple_bounce *b)
 {
-    const struct finish *f = k->finish;
     struct real8 share;
     if (f->fresnel) {
         share = fresnel8(cosine, r8_load(b->index));
@@ -55,10 +54,9 @@ LANES_INLINE void reflectivity8(const struct simple_class *k,
                  rgb8_scale(part, rgb8_set(f->reflection_max)));
     const float most = fmaxf(rgb_max(f->reflection_min), rgb_max(f->reflection_max));
     f8_store(b->weight, f->fresnel ? f8_max(f8_max(r.r, r.g), r.b) : f8_set(most));
-    if (f->reflection_metallic != 0)
-        r = metal_tint8(r, rgb8_load((const float(*)[8])g->color), f->reflection_metallic,
-                        cosine);
-    rgb8_store(b->mirror, r);
+    return f->reflection_metallic != 0
+               ? metal_tint8(r, color, f->reflection_metallic, cosine)
+               : r;
 }
 
 LANES_INLINE struct float8 f8_abs(struct float8 x)
@@ -73,17 +71,20 @@ LANES_INLINE struct float8 grey8(struct rgb8 c)
                   f8_mul(f8_set(0.114f), c.b));
 }
 
-// What mirrored rays count (shade_mirrors of trace/shade_transmit.c).
-LANES_INLINE void mirrored_light(const struct simple_group *g, struct simple_bounce *b)
+// What mirrored rays count (shade_mirrors of trace/shade_transmit.c). share: of the surface,
+// trans: what passes the layers above, both NULL: all.
+LANES_INLINE void mirrored_light(const struct simple_group *g, struct rgb8 m,
+                                 const float *share, const float *trans,
+                                 struct simple_bounce *b)
 {
-    const struct rgb8 m = rgb8_load((const float(*)[8])b->mirror);
-    const struct float8 o = f8_set(0);
-    const unsigned black = f8_le(m.r, o) & f8_le(o, m.r) & f8_le(m.g, o) & f8_le(o, m.g) &
-                           f8_le(m.b, o) & f8_le(o, m.b);
-    const struct float8 weight = f8_mul(f8_load(b->from_weight), f8_load(b->weight));
+    const struct float8 own = f8_load(b->weight),
+                        weight = f8_mul(f8_load(b->from_weight),
+                                        trans ? f8_mul(f8_load(trans), own) : own);
+    b->mirrors = f8_le(f8_set(b->least), weight) & ~black8(m);
+    if (share)
+        m = rgb8_scale(f8_load(share), m);
     rgb8_store(b->mirrored, rgb8_mul(m, rgb8_load((const float(*)[8])g->through)));
     f8_store(b->mirror_weight, weight);
-    b->mirrors = f8_le(f8_set(b->least), weight) & ~black;
 }
 
 // What rays through the surface count (shade_refract).
@@ -134,11 +135,13 @@ static void bounce(const struct simple_class *c, const struct simple_group *g,
     const struct vec8 d = v8_load((const double(*)[8])g->d),
                       n = v8_load((const double(*)[8])g->n);
     const struct real8 along = v8_dot(d, n), cosine = r8_neg(along);
-    reflectivity8(c, g, cosine, b);
+    const struct rgb8 mirror =
+        reflectivity8(c->finish, rgb8_load((const float(*)[8])g->color), cosine, b);
+    rgb8_store(b->mirror, mirror);
     const struct vec8 back = v8_normalize(v8_mad(d, r8_mul(r8_set(-2), along), n));
     v8_store(b->mirror_d, back);
     v8_store(b->mirror_o, offset8(g, back));
-    mirrored_light(g, b);
+    mirrored_light(g, mirror, NULL, NULL, b);
     if (!c->clear)
         return;
     passing_light(c, g, b);
@@ -151,6 +154,32 @@ static void bounce(const struct simple_class *c, const struct simple_group *g,
     b->total = m8_bits(r8_lt(k, r8_set(0))) & ~b->straight;
     v8_store(b->bent_d, bent);
     v8_store(b->bent_o, offset8(g, bent));
+}
+
+// `mirrored` of trace/shade_transmit.c.
+LANES_INLINE struct vec8 mirrored8(struct vec8 d, struct vec8 n, struct vec8 surface)
+{
+    const struct real8 zero = r8_set(0), twice = r8_set(-2);
+    const struct vec8 q = v8_mad(d, r8_mul(twice, v8_dot(d, n)), n);
+    const struct real8 up = v8_dot(q, surface);
+    const struct vec8 plain = v8_mad(d, r8_mul(twice, v8_dot(d, surface)), surface);
+    const struct vec8 lifted = v8_mad(q, r8_mul(twice, up), surface);
+    const struct vec8 other = v8_select(r8_lt(v8_dot(q, n), zero), plain, lifted);
+    return v8_normalize(v8_select(r8_lt(up, zero), other, q));
+}
+
+static void mirror_sheet(const struct paint_group *g, const struct paint_sheet *s,
+                         const float share[8], struct simple_bounce *b)
+{
+    const struct vec8 d = v8_load((const double(*)[8])g->hits.d),
+                      n = v8_load((const double(*)[8])s->n);
+    const struct rgb8 mirror =
+        reflectivity8(s->layer->finish, rgb8_load((const float(*)[8])s->color),
+                      r8_neg(v8_dot(d, n)), b);
+    const struct vec8 back = mirrored8(d, n, v8_load((const double(*)[8])g->hits.n));
+    v8_store(b->mirror_d, back);
+    v8_store(b->mirror_o, offset8(&g->hits, back));
+    mirrored_light(&g->hits, mirror, share, s->trans, b);
 }
 
 #endif

@@ -107,6 +107,9 @@ struct shade_kernels {
     uint32_t (*light_sheets)(struct tracer *t, bool side_test, const struct lamp *lamp,
                              const struct paint_group *g, uint32_t groups,
                              uint32_t queued);
+    // Fills what one layer mirrors, of which `share` is the surface's, as bounce does.
+    void (*mirror_sheet)(const struct paint_group *g, const struct paint_sheet *s,
+                         const float share[8], struct simple_bounce *b);
     // The light of photons of a map that the layers of one hit send on, summed in their order;
     // finishes with crand, irid or subsurface light are not for this.
     struct rgb (*caustics)(const struct shading *s, const struct photon *photon,

@@ -44,6 +44,12 @@ LANES_INLINE struct rgb8 rgb8_scale(struct float8 s, struct rgb8 a)
 {
     return (struct rgb8){f8_mul(s, a.r), f8_mul(s, a.g), f8_mul(s, a.b)};
 }
+LANES_INLINE unsigned black8(struct rgb8 c)
+{
+    const struct float8 o = f8_set(0);
+    return f8_le(c.r, o) & f8_le(o, c.r) & f8_le(c.g, o) & f8_le(o, c.g) & f8_le(c.b, o) &
+           f8_le(o, c.b);
+}
 
 // metal_tint of trace/shade_light.c.
 LANES_INLINE struct rgb8 metal_tint8(struct rgb8 c, struct rgb8 tint, float metallic,

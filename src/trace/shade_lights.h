@@ -33,13 +33,6 @@ LANES_INLINE void add_own(struct tracer *t, const struct simple_group *g, unsign
     }
 }
 
-LANES_INLINE unsigned black8(struct rgb8 c)
-{
-    const struct float8 o = f8_set(0);
-    return f8_le(c.r, o) & f8_le(o, c.r) & f8_le(c.g, o) & f8_le(o, c.g) & f8_le(c.b, o) &
-           f8_le(o, c.b);
-}
-
 // Queues the shadow rays of the lanes (trace_offset).
 LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
                              const struct simple_group *g, unsigned live,

@@ -94,5 +94,12 @@ void simple_shade(struct tracer *t);
 // The rays that go on from a group (trace/simple_bounce.c).
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g);
+// The rays that came to the lanes of a group; those from the camera are made, in `made`.
+void bounce_from(const struct tracer *t, const struct simple_group *g, unsigned lanes,
+                 struct path made[8], const struct path *from[8]);
+// Sends on what b->mirrors says; way: of the lane's random numbers.
+void bounce_mirrors(struct tracer *t, const struct simple_group *g,
+                    const struct path *const from[8], const struct simple_bounce *b,
+                    const uint32_t way[8]);
 
 #endif

@@ -149,16 +149,59 @@ static void lane_ask(struct tracer *t, const struct simple_class *c, int i, uint
     ask_fade(b, i, x, from->inside, t->hit->t[ray]);
 }
 
+void bounce_from(const struct tracer *t, const struct simple_group *g, unsigned lanes,
+                 struct path made[8], const struct path *from[8])
+{
+    const struct wavefront *wave = &t->wave;
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        if (wave->path && !t->job->has_air) {
+            from[i] = &wave->path[wave->order[g->slot[i]]];
+        } else {
+            made[i] = wave_path(t, g->slot[i]);
+            from[i] = &made[i];
+        }
+    }
+}
+
+static struct lane lane_of(struct tracer *t, const struct simple_group *g,
+                           const struct path *from, const struct simple_bounce *b, int i)
+{
+    struct lane l = {.t = t,
+                     .b = b,
+                     .i = i,
+                     .from = from,
+                     .level = from->level,
+                     .parent = g->slot[i],
+                     .flags = from->flags & (uint8_t)~PATH_OF_ONE_WAY};
+    if (!(from->flags & PATH_CONTINUED))
+        l.level++;
+    return l;
+}
+
+void bounce_mirrors(struct tracer *t, const struct simple_group *g,
+                    const struct path *const from[8], const struct simple_bounce *b,
+                    const uint32_t way[8])
+{
+    path_queue_reserve(t->wave.next, 8);
+    for (unsigned lanes = b->mirrors; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        struct lane l = lane_of(t, g, from[i], b, i);
+        if (l.level < t->job->max_level)
+            emit_back(&l, (const float(*)[8])b->mirrored, b->mirror_weight[i], way[i]);
+    }
+}
+
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g)
 {
     const struct job *job = t->job;
-    const struct wavefront *wave = &t->wave;
     struct simple_bounce b; // not set to zero as a whole: it is large
     const struct inside *beyond[8];
     const struct path *from[8];
     struct path camera[8];
     struct sides_known known = {.interior = NULL};
+    bounce_from(t, g, g->live, camera, from);
     b.least = job->adc_bailout;
     b.fading = b.straight = 0;
     for (int i = 0; i < 8; i++) {
@@ -170,12 +213,6 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
         }
         if (!(g->live >> i & 1))
             continue;
-        if (wave->path && !job->has_air) {
-            from[i] = &wave->path[wave->order[g->slot[i]]];
-        } else {
-            camera[i] = wave_path(t, g->slot[i]);
-            from[i] = &camera[i];
-        }
         lane_ask(t, c, i, g->ray[i], from[i], &known, &b);
         beyond[i] = known.sides.inside;
     }
@@ -184,16 +221,8 @@ void simple_bounce(struct tracer *t, const struct simple_class *c,
     for (unsigned live = g->live; live; live &= live - 1) {
         const int i = __builtin_ctz(live);
         const uint32_t leaf = t->hit->leaf[g->ray[i]];
-        struct lane l = {.t = t,
-                         .b = &b,
-                         .i = i,
-                         .from = from[i],
-                         .level = from[i]->level,
-                         .parent = g->slot[i],
-                         .flags = from[i]->flags & (uint8_t)~PATH_OF_ONE_WAY,
-                         .key = path_key_within(job->world->leaf[leaf].surface)};
-        if (!(from[i]->flags & PATH_CONTINUED))
-            l.level++;
+        struct lane l = lane_of(t, g, from[i], &b, i);
+        l.key = path_key_within(job->world->leaf[leaf].surface);
         const bool level_counts = l.level < job->max_level;
         if (b.straight >> i & 1)
             go_straight(g, &b, i);
