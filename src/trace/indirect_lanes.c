@@ -46,24 +46,59 @@ void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct ve
     ask(t, k, &hit, matt, back);
 }
 
-// Lane i of a group, whose n is the surface's own.
-static void ask_lane(struct tracer *t, const struct simple_group *g, int i,
-                     const struct indirect_side *side, struct vec3 n)
+static struct vec3 lane_vec(const double v[3][8], int i)
+{
+    return vec3(v[0][i], v[1][i], v[2][i]);
+}
+
+static void keep_place(const struct simple_group *g, int i, struct indirect_kept *out)
+{
+    out->p = lane_vec((const double(*)[8])g->p, i);
+    out->ng = lane_vec((const double(*)[8])g->ng, i);
+    out->ns = lane_vec((const double(*)[8])g->n, i);
+    out->error = g->error[i];
+}
+
+// One side of what ray k asks.
+static void ask_side(struct tracer *t, uint32_t k, const struct indirect_kept *x,
+                     bool back)
 {
     const struct world *w = t->job->world;
-    const uint32_t k = g->ray[i];
     const struct ray ray = ray_of(t, k);
     const struct hit met = hit_batch_at(t->hit, k);
     const struct leaf *l = &w->leaf[met.b.leaf];
     // As trace_interaction; what only textures look at is left out.
-    const struct interaction at = {.p = vec3(g->p[0][i], g->p[1][i], g->p[2][i]),
-                                   .error = g->error[i],
-                                   .ng = vec3(g->ng[0][i], g->ng[1][i], g->ng[2][i]),
-                                   .ns = vec3(g->n[0][i], g->n[1][i], g->n[2][i]),
+    const struct interaction at = {.p = x->p,
+                                   .error = x->error,
+                                   .ng = x->ng,
+                                   .ns = x->ns,
                                    .leaf = l,
                                    .surface = &w->surface[l->surface]};
-    const struct indirect_hit hit = {&ray, &met, &at, n, NULL};
-    ask(t, k, &hit, side->matt[i], side->back);
+    const struct indirect_hit hit = {&ray, &met, &at, x->n[back], NULL};
+    ask(t, k, &hit, x->matt[back], back);
+}
+
+void indirect_keep(const struct simple_group *g, const struct indirect_side *side,
+                   struct indirect_kept *kept)
+{
+    for (unsigned lanes = side->lanes; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        struct indirect_kept *x = &kept[g->ray[i]];
+        if (!x->any) {
+            keep_place(g, i, x);
+            x->matt[!side->back] = rgb(0, 0, 0);
+        }
+        x->any = true;
+        x->matt[side->back] = side->matt[i];
+        x->n[side->back] = lane_vec((const double(*)[8])side->n, i);
+    }
+}
+
+void indirect_ask_kept(struct tracer *t, uint32_t k, const struct indirect_kept *kept)
+{
+    for (int back = 0; back < 2; back++)
+        if (rgb_max(kept->matt[back]) > 0)
+            ask_side(t, k, kept, back);
 }
 
 // What the lanes of a group ask, with the normals n.
@@ -138,10 +173,15 @@ void indirect_side_light(struct tracer *t, const struct simple_group *g,
         lanes = add_known(t, g, side);
     for (; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
-        const struct vec3 n = {side->n[0][i], side->n[1][i], side->n[2][i]};
-        if ((side->perturbed >> i) & 1)
+        const struct vec3 n = lane_vec((const double(*)[8])side->n, i);
+        if ((side->perturbed >> i) & 1) {
             indirect_ask(t, g->ray[i], side->matt[i], &n, side->back);
-        else
-            ask_lane(t, g, i, side, n);
+        } else {
+            struct indirect_kept x;
+            keep_place(g, i, &x);
+            x.matt[side->back] = side->matt[i];
+            x.n[side->back] = n;
+            ask_side(t, g->ray[i], &x, side->back);
+        }
     }
 }

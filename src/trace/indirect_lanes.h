@@ -33,6 +33,18 @@ unsigned indirect_known(struct tracer *t, const struct simple_group *g,
                         struct rgb light[8]);
 // The hits whose light nobody looks at that ask with that normal and would be answered without a ray.
 unsigned indirect_settled(struct tracer *t, const struct simple_group *g);
+// What a hit asks, whose n is the surface's own, kept until it is the ray's turn.
+struct indirect_kept {
+    bool any;
+    struct vec3 p, ng, ns; // as in interaction
+    double error;
+    struct rgb matt[2]; // in front and behind; black: nothing is asked
+    struct vec3 n[2];
+};
+// Keeps it by ray.
+void indirect_keep(const struct simple_group *g, const struct indirect_side *side,
+                   struct indirect_kept *kept);
+void indirect_ask_kept(struct tracer *t, uint32_t k, const struct indirect_kept *kept);
 // Adds the light of one hit, that of ray k of the batch; n: of the layer, NULL: the surface's own.
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back);

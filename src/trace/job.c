@@ -174,6 +174,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .normals = q >= 8,
         .atmosphere = q >= 9,
         .photons = settings->purpose == RENDER_SCOUT ? NULL : settings->photons,
+        .collects = settings->purpose != RENDER_PICTURE && settings->indirect.data,
     };
     const unsigned never =
         settings->purpose == RENDER_GATHER ? (unsigned)OBJECT_NO_RADIOSITY : 0;
@@ -186,7 +187,7 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
     lamps_init(job, a, w);
     spectrum_init(job);
     media_compile(job, a);
-    job->shoots = photons_wanted(job);
+    job->shoots = settings->purpose != RENDER_SCOUT && photons_wanted(job);
     if (s->subsurface.on && job->atmosphere &&
         (settings->purpose == RENDER_PICTURE ||
          (settings->purpose == RENDER_GATHER && s->radiosity_settings.subsurface)))

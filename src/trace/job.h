@@ -80,11 +80,12 @@ struct job {
     const struct pigment_tape *const *sky_tape;
     // Shading eight hits at a time (trace/simple.h).
     const struct shade_kernels *kernels;
-    double reach;       // of rays with PATH_SHORT; 0: none has a limit
-    bool general;       // for tests: no hit is shaded in lanes
-    bool quick_camera;  // its rays are made eight at a time
-    bool asks_in_order; // light by way of others, in the order of the rays
-    const bool *quiet;  // per surface (trace/scout.h); NULL: none is
+    double reach;      // of rays with PATH_SHORT; 0: none has a limit
+    bool general;      // for tests: no hit is shaded in lanes
+    bool quick_camera; // its rays are made eight at a time
+    bool
+        collects; // light by way of others, whose samples depend on the order of the rays
+    const bool *quiet;                   // per surface (trace/scout.h); NULL: none is
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;
     uint32_t simple_class_count;

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "scene/image_map.h"
 #include "scene/pigment_tape.h"
-#include "scene/shapes/mesh.h"
 #include "trace/indirect_lanes.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
@@ -30,6 +30,7 @@ void paint_init(struct tracer *t)
     for (uint32_t i = 0; i < count; i++)
         s->head[i] = END;
     s->seen_count = s->group_count = s->sheet_count = s->coat_count = 0;
+    s->asks = t->job->collects ? must_calloc(BATCH_SIZE, sizeof *s->asks) : NULL;
 }
 
 void paint_end(struct tracer *t)
@@ -38,6 +39,7 @@ void paint_end(struct tracer *t)
         return;
     free(t->paint->head);
     free(t->paint->tail);
+    free(t->paint->asks);
     free(t->paint);
 }
 
@@ -47,14 +49,9 @@ bool paint_take(struct tracer *t, uint32_t k)
     struct paint_scratch *s = t->paint;
     if (!job->paint)
         return false;
-    const struct leaf *l = &job->world->leaf[t->hit->leaf[k]];
-    const uint32_t surface = l->surface;
+    const uint32_t surface = job->world->leaf[t->hit->leaf[k]].surface;
     const struct paint_surface *p = &job->paint[surface];
     if (!p->top)
-        return false;
-    // Where samples are taken depends on the order in which hits ask; those of meshes with
-    // textures of their own ask in the order of the rays.
-    if (job->settings.purpose == RENDER_SCOUT && mesh_whole_texture(l->ops, l->shape))
         return false;
     if (s->head[p->number] == END) {
         s->seen[s->seen_count++] = surface;
@@ -497,8 +494,7 @@ void paint_shade(struct tracer *t)
             uint16_t ray[8];
             uint32_t count = 0;
             for (; count < 8 && k != END; k = s->link[k])
-                if (!(t->settled && t->settled[k]))
-                    ray[count++] = k;
+                ray[count++] = k;
             if (count)
                 brush_paint(&b, ray, count);
         }
@@ -506,6 +502,35 @@ void paint_shade(struct tracer *t)
     }
     if (s)
         s->seen_count = 0;
+}
+
+static bool is_painted(const struct job *job, uint32_t surface)
+{
+    return job->paint[surface].top &&
+           !(job->simple && job->simple[surface].class != SIMPLE_NONE);
+}
+
+void paint_first(struct tracer *t)
+{
+    const struct world *w = t->job->world;
+    for (uint32_t k = 0; k < t->wave.count && t->paint; k++) {
+        if (!(t->hit->t[k] < INFINITY) || (t->settled && t->settled[k]) ||
+            !is_painted(t->job, w->leaf[t->hit->leaf[k]].surface))
+            continue;
+        t->paint->asks[k].any = false;
+        paint_take(t, k);
+    }
+    paint_shade(t);
+}
+
+bool paint_ask(struct tracer *t, uint32_t k)
+{
+    const struct job *job = t->job;
+    if (!t->paint || !is_painted(job, job->world->leaf[t->hit->leaf[k]].surface))
+        return false;
+    if (t->paint->asks[k].any)
+        indirect_ask_kept(t, k, &t->paint->asks[k]);
+    return true;
 }
 
 // ---- shadow rays ------------------------------------------------------------------------

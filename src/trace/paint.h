@@ -65,6 +65,7 @@ struct paint_scratch {
     struct paint_sheet sheet[PAINT_SHEETS];
     struct paint_coat coat[PAINT_COATS];
     uint32_t group_count, sheet_count, coat_count;
+    struct indirect_kept *asks; // by ray, where job.collects
 };
 
 // A layer at one hit.
@@ -88,6 +89,11 @@ void paint_end(struct tracer *t);
 bool paint_take(struct tracer *t, uint32_t k);
 // Shades the hits that were kept.
 void paint_shade(struct tracer *t);
+// Where the order of hits counts for light by way of others (job.collects): shades all painted hits
+// of the batch but for that.
+void paint_first(struct tracer *t);
+// And then asks for that of ray k, if its surface is painted.
+bool paint_ask(struct tracer *t, uint32_t k);
 
 // ---- shadow rays ---------------------------------------------------------------------
 // Whether paint_pass knows what the surface lets through.

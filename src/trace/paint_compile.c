@@ -152,7 +152,8 @@ static struct paint_surface surface_compile(struct build *b, const struct surfac
                                      paint_lights_texture(b->job, x) &&
                                      (!back || paint_lights_texture(b->job, back))};
     const bool works = has_work(b->job, x) || (back && has_work(b->job, back));
-    if (s->parts || s->cutaway || !(p.lit || works))
+    // Hit by hit, the order of those that ask for light by way of others would be lost.
+    if (s->parts || s->cutaway || !(p.lit || (works && !b->job->collects)))
         return p;
     if (back && !(p.back = side_compile(b, back)))
         return p;

@@ -26,13 +26,22 @@ bool paint_lights_texture(const struct job *job, const struct texture *x)
     return lights;
 }
 
+// Their light would be added before that by way of others where it waits for the ray's turn.
+static bool some_unshadowed(const struct job *job, const struct lamp_list *lamps)
+{
+    bool some = false;
+    for (uint32_t i = 0; i < lamps->count; i++)
+        some |= !lamps->lamp[i]->inert &&
+                (lamps->lamp[i]->light->shadowless || !job->shadows);
+    return some;
+}
+
 bool paint_lights_surface(const struct job *job, const struct surface *s)
 {
-    // Where light by way of others is collected, the order of hits counts.
-    const bool collects =
-        job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
-    return !collects && !(job->shoots && (!s->photons || s->photons->collect)) &&
-           lamps_are_simple(job, &job->lamps[s->light_group]);
+    const struct lamp_list *lamps = &job->lamps[s->light_group];
+    return !(job->collects && some_unshadowed(job, lamps)) &&
+           !(job->shoots && (!s->photons || s->photons->collect)) &&
+           lamps_are_simple(job, lamps);
 }
 
 // ---- rays that go on --------------------------------------------------------------------
@@ -211,7 +220,10 @@ static void group_indirect(struct tracer *t, const struct paint_group *g)
         }
     }
     for (int k = 0; k < sides; k++)
-        indirect_side_light(t, &g->hits, &side[k]);
+        if (t->paint->asks)
+            indirect_keep(&g->hits, &side[k], t->paint->asks);
+        else
+            indirect_side_light(t, &g->hits, &side[k]);
 }
 
 void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)

@@ -180,14 +180,10 @@ void simple_compile(struct job *job, struct arena *a)
     const bool general = job->general;
     const struct camera *c = job->camera;
     job->kernels = ISA_NAMED(w->accel->kernels->name, shade_kernels);
-    // Where light by way of others is collected, the order of hits counts: the camera's are left to
-    // the general rule, others ask before they are kept (simple_ask).
-    const bool collects =
-        job->settings.purpose != RENDER_PICTURE && job->settings.indirect.data;
     job->quick_camera = !general && c->kind != CAMERA_MESH;
-    job->asks_in_order = collects && job->settings.purpose == RENDER_GATHER;
-    if (general || (collects && !job->asks_in_order) || !job->lights || !job->pigments ||
-        !(1 > job->adc_bailout))
+    // Scouts look at little of a hit.
+    if (general || job->settings.purpose == RENDER_SCOUT || !job->lights ||
+        !job->pigments || !(1 > job->adc_bailout))
         return;
     struct simple_surface *simple =
         arena_new_array(a, struct simple_surface, w->surface_count + 1);
@@ -206,7 +202,7 @@ void simple_compile(struct job *job, struct arena *a)
             x = simple[i - 1];
         else if (!color_compile(job, &compiler, l->pigment, &x))
             continue;
-        if (job->asks_in_order && !asks_simply(job, l, &x))
+        if (job->collects && !asks_simply(job, l, &x))
             continue;
         x.class = class_of(job, all, &w->surface[i]);
         x.normal = job->normals ? l->normal : NULL;
@@ -346,7 +342,7 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
         if (t->group[i].bare)
             shade_bare(t, &t->group[i]);
         kernels->own(t, c, &t->group[i]);
-        if (t->job->settings.indirect.data && !t->job->asks_in_order)
+        if (t->job->settings.indirect.data && !t->job->collects)
             group_indirect(t, c, &t->group[i]);
     }
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)

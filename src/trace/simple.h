@@ -86,7 +86,7 @@ void simple_end(struct tracer *t);
 // Keeps the hits of `count` rays of the batch from k on, all of one leaf, if its surface is
 // simple.
 bool simple_take(struct tracer *t, uint32_t k, uint32_t count);
-// Where the order of hits counts for light by way of others (asks_in_order): asks for that of
+// Where the order of hits counts for light by way of others (job.collects): asks for that of
 // rays from k to end, which were kept.
 void simple_ask(struct tracer *t, uint32_t k, uint32_t end);
 // Shades the hits that were kept.

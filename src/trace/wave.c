@@ -214,13 +214,15 @@ static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
 {
     const struct wavefront *w = &t->wave;
     const struct job *job = t->job;
-    // Elsewhere the order of hits counts, or rays come together.
+    // Elsewhere the order of hits counts (then it is that of the general rule), or rays come together.
     const bool fine =
         job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
     uint16_t key[BATCH_SIZE];
     for (uint32_t i = 0; i < w->count; i++) {
         const struct path *p = &w->path[w->order[i]];
-        key[i] = (uint16_t)(fine ? fine_key(p) : p->key ? p->key : path_key_direction(p));
+        key[i] = (uint16_t)(fine                       ? fine_key(p)
+                            : p->key && !job->collects ? p->key
+                                                       : path_key_direction(p));
     }
     if (fine)
         places_by_digits(key, w->count, place);
@@ -363,7 +365,8 @@ static void first_keep(struct tracer *t)
 static void shade_alone(struct tracer *t, uint32_t k, uint32_t end)
 {
     for (; k < end; k++) {
-        if (paint_take(t, k) || (t->settled && t->settled[k]))
+        if ((t->settled && t->settled[k]) ||
+            (t->job->collects ? paint_ask(t, k) : paint_take(t, k)))
             continue;
         t->slot = t->wave.slot[k];
         const struct path p = wave_path(t, t->slot);
@@ -406,6 +409,8 @@ static void wave_trace(struct tracer *t)
         air_wave(t);
     if (t->settled)
         scout_settle(t);
+    if (t->job->collects)
+        paint_first(t);
     for (uint32_t k = 0, end; k < w->count && !tracer_gives_up(t); k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
@@ -418,7 +423,7 @@ static void wave_trace(struct tracer *t)
         end = run_end(t, k);
         if (!simple_take(t, k, end - k))
             shade_alone(t, k, end);
-        else if (t->job->asks_in_order)
+        else if (t->job->collects)
             simple_ask(t, k, end);
     }
     if (sky.count)
