@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "scene/shape.h"
-#include "trace/coplanar.h"
+#include "trace/face_pairs.h"
 #include "trace/packet.h"
 
 static bool is_flat(const struct world *w, const struct world_object *o)
@@ -38,20 +38,19 @@ static void mark_clear(struct world *w)
     for (uint32_t i = 0; i < w->object_count; i++) {
         struct world_object *o = &w->object[i];
         const struct aabb box = aabb_is_finite(o->bounds) ? o->bounds : w->bounds;
-        o->may_coincide = !o->opaque && o->flat && others_near(w, box).count > 0;
+        o->clear_flat = !o->opaque && o->flat && others_near(w, box).count > 0;
+        o->may_coincide = o->clear_flat;
         w->has_coincident |= o->may_coincide;
     }
 }
 
-static void mark_opaque(struct world *w)
+static void mark_pairs(struct world *w)
 {
-    if (!coplanar_mark(w))
+    if (!face_pairs_mark(w))
         return;
     for (uint32_t i = 0; i < w->leaf_count; i++)
-        if (w->leaf[i].coplanar) {
-            struct world_object *o = &w->object[w->leaf[i].object];
-            o->flat = o->may_coincide = true;
-        }
+        if (w->leaf[i].paired)
+            w->object[w->leaf[i].object].may_coincide = true;
     w->has_coincident = true;
 }
 
@@ -59,7 +58,7 @@ void coincident_mark(struct world *w)
 {
     if (w->has_transparent)
         mark_clear(w);
-    mark_opaque(w);
+    mark_pairs(w);
 }
 
 static struct aabb box_around(struct vec3 p, double reach)
@@ -68,16 +67,26 @@ static struct aabb box_around(struct vec3 p, double reach)
     return (struct aabb){vec3_sub(p, r), vec3_add(p, r)};
 }
 
-// Puts the opaque face that is to be seen in place of hit i of a clear one, between q's ends.
+// Errors of a hit's distance within which another face is looked for.
+static const double wide = 32;
+
+static void look_between(struct ray_query *q, double t, double reach)
+{
+    q->ray.t_min = fmax(q->ray.t_min, t - reach);
+    q->ray.t_max = fmin(q->ray.t_max, t + reach);
+}
+
+// Puts the opaque face that is to be seen in place of hit i of a clear one.
 static void behind_clear(const struct world *w, struct trace_scratch *s,
-                         const struct ray_query *q, double reach, uint32_t i,
-                         const struct hit_batch *hit)
+                         struct ray_query q, uint32_t i, const struct hit_batch *hit)
 {
     const double t = hit->t[i], dt = hit->dt[i];
     const uint32_t own = w->leaf[hit->leaf[i]].object;
-    const struct others x = others_near(w, box_around(ray_at(&q->ray, t), reach));
+    const struct others x =
+        others_near(w, box_around(ray_at(&q.ray, t), wide * dt * vec3_max_abs(q.ray.d)));
+    look_between(&q, t, wide * dt);
     for (uint32_t k = 0; k < x.count; k++) {
-        struct search f = search_of(w, s, q, SWEEP_CLOSEST);
+        struct search f = search_of(w, s, &q, SWEEP_CLOSEST);
         if (x.object[k] != own && search_try_object(&f, x.object[k]) &&
             fabs(f.b.t - t) <= f.b.dt + dt)
             hit_batch_put(hit, i, &f.b);
@@ -91,47 +100,63 @@ static bool is_near(const struct aabb *b, struct vec3 p, double reach)
            p.z >= b->min.z - reach && p.z <= b->max.z + reach;
 }
 
-// Puts the first of the opaque faces in one plane in place of hit i of one, likewise.
-static void first_of_opaque(const struct world *w, struct trace_scratch *s,
-                            const struct ray_query *q, double reach, uint32_t i,
-                            const struct hit_batch *hit)
+// How far apart along the ray its hits of two faces may lie that are `apart`. Where a ray
+// touches the face it bends away; the root of rounding is more than that makes of it.
+static double along_ray(const struct world *w, const struct ray *ray,
+                        const struct hit *hit, double apart)
+{
+    struct interaction at;
+    trace_interaction(w, ray, hit, &at);
+    const double length = vec3_length(ray->d);
+    const double cosine = fabs(vec3_dot(at.ng, ray->d)) / length;
+    return apart / (length * fmax(cosine, sqrt(GAMMA(64))));
+}
+
+// Puts the face that is to be seen of those in one place in place of hit i of another one;
+// whether there is one.
+static bool first_of_pairs(const struct world *w, struct trace_scratch *s,
+                           const struct ray_query *q, uint32_t i,
+                           const struct hit_batch *hit)
 {
     const uint32_t leaf = hit->leaf[i];
+    const double reach = wide * hit->dt[i];
     const struct vec3 point = ray_at(&q->ray, hit->t[i]);
     for (uint32_t k = w->leaf[leaf].first_pair;
-         k < w->coplanar_pair_count && w->coplanar_pair[k].leaf == leaf; k++) {
-        const struct coplanar_pair *p = &w->coplanar_pair[k];
-        if (!is_near(&p->where, point, reach))
+         k < w->face_pair_count && w->face_pair[k].leaf == leaf; k++) {
+        const struct face_pair *p = &w->face_pair[k];
+        if (!is_near(&p->where, point, reach * vec3_max_abs(q->ray.d) + p->error))
             continue;
-        struct search f = search_of(w, s, q, SWEEP_CLOSEST);
-        if (search_try_object(&f, p->earlier) && w->leaf[f.b.leaf].coplanar) {
+        const struct hit found = hit_batch_at(hit, i);
+        struct ray_query near = *q;
+        look_between(&near, found.b.t, reach + along_ray(w, &q->ray, &found, p->error));
+        struct search f = search_of(w, s, &near, SWEEP_CLOSEST);
+        if (search_try_object(&f, p->seen) && w->leaf[f.b.leaf].paired) {
             hit_batch_put(hit, i, &f.b);
-            return;
+            return true;
         }
     }
+    return false;
 }
 
 void coincident_hits(const struct world *w, struct trace_scratch *s,
                      const struct ray_batch *rays, const struct hit_batch *hit)
 {
-    // Errors of the hit's distance within which another face is looked for. Of opaque faces,
-    // which lie in one plane, it also covers the rounding of the ray's way into their spaces.
-    static const double wide = 32;
     for (uint32_t i = 0; i < rays->count; i++) {
-        const double t = hit->t[i], dt = hit->dt[i];
-        if (!(t < INFINITY))
+        if (!(hit->t[i] < INFINITY))
             continue;
         const struct leaf *l = &w->leaf[hit->leaf[i]];
-        const bool opaque = w->surface[l->surface].opaque;
-        if (!w->object[l->object].may_coincide || (opaque && !l->coplanar))
+        const struct world_object *o = &w->object[l->object];
+        if (!o->may_coincide)
             continue;
         const struct ray_query q = {
             .ray = {.o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
                     .d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]},
-                    .t_min = fmax(rays->t_min[i], t - wide * dt),
-                    .t_max = fmin(rays->t_max[i], t + wide * dt)},
+                    .t_min = rays->t_min[i],
+                    .t_max = rays->t_max[i]},
             .hidden_by = rays->hidden_by[i]};
-        (opaque ? first_of_opaque
-                : behind_clear)(w, s, &q, wide * dt * vec3_max_abs(q.ray.d), i, hit);
+        if (l->paired && first_of_pairs(w, s, &q, i, hit))
+            continue;
+        if (o->clear_flat && !w->surface[l->surface].opaque)
+            behind_clear(w, s, q, i, hit);
     }
 }

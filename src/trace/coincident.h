@@ -1,18 +1,18 @@
 #ifndef TRACE_COINCIDENT_H
 #define TRACE_COINCIDENT_H
 
-// Flat faces of two objects in one place. Which of them a ray meets first is rounding; here
+// Faces of two objects in one place. Which of them a ray meets first is rounding; here
 // it is a rule:
 // - of a clear one and an opaque one (a block of glass on a table) the opaque one is met:
 //   behind the clear one the ray would start beyond the other;
-// - of two opaque ones (coplanar.h) the one that comes first in the scene.
-// Curved faces in one place, two clear ones, and those of objects that are opaque in part,
-// are not looked for.
+// - of two opaque ones (face_pairs.h) the one that comes first in the scene.
+// Two clear ones, the opaque parts of objects that are opaque in part, and curved faces of which
+// a part alone coincides, are not looked for.
 #include "trace/intersect.h"
 
 // Says which objects that may concern (world_object.may_coincide): those with clear and flat
 // faces whose boxes touch those of wholly opaque ones with flat faces, and those with
-// coplanar leaves.
+// paired leaves.
 void coincident_mark(struct world *w);
 // Hits of these objects become hits of the face that is to be seen, which are no farther from
 // them than rounding.

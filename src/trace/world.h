@@ -48,8 +48,8 @@ struct leaf {
                    // intersections lie above it
     bool inverted;
     bool drawn;          // false: a clip; its boundaries only change states
-    bool coplanar;       // flat faces lie in those of another opaque object (coplanar.h)
-    uint32_t first_pair; // if coplanar: the first of the world's pairs that has this leaf
+    bool paired;         // faces lie in those of another object (face_pairs.h)
+    uint32_t first_pair; // if paired: the first of the world's pairs that has this leaf
 };
 
 // The rounding, in shape space, of a point o + t d with coordinates of these sizes on its
@@ -91,19 +91,21 @@ struct world_object {
     bool is_csg;               // false: the single leaf stands alone, without a node
     bool opaque;               // every leaf is
     bool mixed;                // some are, some are not
-    bool flat;                 // it may have flat faces, or has coplanar leaves
-    bool may_coincide;         // clear faces, or coplanar leaves, may lie in others'
-                               // opaque ones (coincident.h)
+    bool flat;                 // it may have flat faces
+    bool clear_flat;           // some of them clear, that may lie in others' opaque ones
+    bool may_coincide;         // it has these, or paired leaves (coincident.h)
     unsigned flags;            // visibility of the whole
     const struct object *source;
     const struct user_bound *bound; // bounded_by, its own and those of unions around it
     uint32_t bound_count;
 };
 
-// A face of a leaf that lies in one of an object earlier in the scene (coplanar.h).
-struct coplanar_pair {
-    uint32_t leaf, earlier; // a leaf, an object
-    struct aabb where;      // what both faces have in common lies within
+// A face of a leaf that lies in one of an object which is seen in its place: one earlier in
+// the scene, or of a clear face an opaque one (face_pairs.h).
+struct face_pair {
+    uint32_t leaf, seen; // a leaf, an object
+    double error;           // bounds how far the faces are apart
+    struct aabb where;      // what they have in common lies within
 };
 
 struct light_group {
@@ -130,8 +132,8 @@ struct world {
     uint32_t light_group_count;
     bool has_transparent;                      // some surface is not opaque
     bool has_coincident;                       // some object may_coincide
-    const struct coplanar_pair *coplanar_pair; // by leaf, then by object
-    uint32_t coplanar_pair_count;
+    const struct face_pair *face_pair;         // by leaf, then by object
+    uint32_t face_pair_count;
     struct aabb bounds;  // of the finite objects
     struct accel *accel; // trace/accel.h
     // The same world with nothing to meet but the objects that are not wholly opaque, for
