@@ -281,4 +281,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/386-windows-lanes.pov \
 	%D%/387-caustics-lanes.pov \
 	%D%/388-coincident-curved.pov \
+	%D%/389-thin-poly.pov \
 	%D%/379-shadow-textured.pov

@@ -148,8 +148,25 @@ static bool in_box(const struct aabb *box, struct vec3 o, struct vec3 u, double 
     return *lo < *hi;
 }
 
-static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double lo,
-                    double hi, struct polynomial_root *root)
+// A root whose error is dt, by one step of Newton's method from the value of the terms at its
+// point: along the line terms cancel that are small there. A thin set's far side is less than
+// 1e-5 away, and a ray that starts on it must not find its own root in front.
+static double sharpened(const struct poly *s, const struct line_poly *p, struct vec3 o,
+                        struct vec3 u, double shift, double t, double dt)
+{
+    if (!(POLY_ROUGH * 0x1p-51 * (fabs(shift) + fabs(t)) < dt))
+        return t;
+    double slope = 0, v = 0;
+    for (int i = p->degree; i >= 0; i--) {
+        slope = slope * t + v;
+        v = v * t + p->c[i];
+    }
+    const double step = value_at(s, vec3_mad(o, t, u)) / slope;
+    return fabs(step) <= dt ? t - step : t;
+}
+
+static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double shift,
+                    double lo, double hi, struct polynomial_root *root)
 {
     struct line_poly p;
     poly_along(s, o, u, &p);
@@ -159,9 +176,15 @@ static int roots_on(const struct poly *s, struct vec3 o, struct vec3 u, double l
     if (s->order > POLY_LOW_ORDER)
         return lo < hi ? poly_line_roots(s, o, u, lo, hi, root) : 0;
     const int n = polynomial_roots(p.c, p.degree, lo, hi, 4 * s->order, root);
-    for (int i = 0; i < n; i++)
-        root[i].dt +=
-            polynomial_root_error(p.c, p.degree, root[i].t, lost_at(s, o, u, root[i].t));
+    double limit = -HUGE_VAL; // half way between roots, so that they stay in order
+    for (int i = 0; i < n; i++) {
+        const double t = root[i].t, from = limit;
+        limit = i + 1 < n ? .5 * (t + root[i + 1].t) : HUGE_VAL;
+        root[i].dt += polynomial_root_error(p.c, p.degree, t, lost_at(s, o, u, t));
+        const double sharp = sharpened(s, &p, o, u, shift, t, root[i].dt);
+        if (from < sharp && sharp < limit)
+            root[i].t = sharp;
+    }
     return n;
 }
 
@@ -178,7 +201,7 @@ static void intersect(const void *shape, const struct ray *ray, struct boundary_
     if ((s->compact && !in_box(&s->box, o, u, &lo, &hi)) || boundary_list_gives_up(out))
         return;
     struct polynomial_root root[POLYNOMIAL_DEGREE_MAX];
-    const int n = roots_on(s, o, u, lo, hi, root);
+    const int n = roots_on(s, o, u, to_nearest, lo, hi, root);
     for (int i = 0; i < n; i++) {
         const double dt = root[i].dt + 0x1p-51 * (fabs(to_nearest) + fabs(root[i].t));
         boundary_list_add(out, (root[i].t + to_nearest) / length, dt / length,

@@ -27,6 +27,9 @@ struct poly {
 // all of a line.
 enum { POLY_LOW_ORDER = 7 };
 
+// Roots whose error is so many times the rounding of where they are gain from another look.
+enum { POLY_ROUGH = 64 };
+
 // A polynomial in the ray's parameter, ascending powers; degree -1: zero. What lies behind
 // the degree is not set.
 struct line_poly {

@@ -252,6 +252,24 @@ static struct real8 error_at(const struct poly *s, const struct line_poly8 *p,
                   r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l->shift), r8_abs(t))));
 }
 
+// As sharpened of poly.c, of roots whose error is dt.
+static struct real8 sharpened(const struct poly *s, const struct line_poly8 *p,
+                              const struct lines8 *l, struct real8 t, struct real8 dt)
+{
+    const struct real8 own =
+        r8_mul(r8_set(POLY_ROUGH * 0x1p-51), r8_add(r8_abs(l->shift), r8_abs(t)));
+    const struct mask8 rough = r8_lt(own, dt);
+    if (!m8_bits(rough))
+        return t;
+    struct real8 slope = r8_set(0), v = slope;
+    for (int i = p->degree; i >= 0; i--) {
+        slope = r8_add(r8_mul(slope, t), v);
+        v = r8_add(r8_mul(v, t), p->c[i]);
+    }
+    const struct real8 step = r8_div(value_at(s, l, t), slope);
+    return r8_select(m8_and(rough, r8_le(r8_abs(step), dt)), r8_sub(t, step), t);
+}
+
 static unsigned closest(const struct poly *s, const struct shape_rays *rays,
                         unsigned lanes, bool any, struct shape_hits *out)
 {
@@ -280,12 +298,13 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
     lanes &= m8_bits(r8_lt(l.lo, r8_min(reach, l.hi)));
     if (!lanes)
         return 0;
-    const struct first8 f = first_root(s, &p, &l, lanes, halved, any, out->cancel);
+    struct first8 f = first_root(s, &p, &l, lanes, halved, any, out->cancel);
     struct real8 dt = r8_set(0);
     unsigned unsure = f.unsure, found = f.found;
     if (found && !any) {
         dt = error_at(s, &p, &l, f.t);
         unsure |= found & ~m8_bits(r8_lt(dt, r8_set(INFINITY)));
+        f.t = sharpened(s, &p, &l, f.t, dt);
     }
     // Clearly beyond it there is nothing to tell.
     const struct real8 margin =
@@ -332,7 +351,10 @@ LANES_INLINE unsigned roots_of(const struct poly *s, const struct line_poly8 *p,
         const struct real8 dt = error_at(s, p, l, t);
         const unsigned simple = lanes & m8_bits(r8_lt(dt, r8_set(INFINITY)));
         unsure |= lanes & ~simple;
-        lines_put(out, l, simple, k, t, dt);
+        // Within the bracket, so that roots stay in order.
+        const struct real8 sharp = sharpened(s, p, l, t, dt);
+        const struct mask8 here = m8_and(r8_lt(r.a, sharp), r8_lt(sharp, r.b));
+        lines_put(out, l, simple, k, r8_select(here, sharp, t), dt);
         lanes = simple & m8_bits(r8_lt(r.b, l->hi));
         l->lo = r.b;
         sign = r8_neg(r.sign);
