@@ -18,7 +18,7 @@ liblambert_a_SOURCES += \
 # What is compiled once per instruction set.
 packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_bounds_kernel.c \
 	src/scene/cells_bounds_kernel.c src/scene/cells_kernel.c src/scene/rings_kernel.c src/scene/grid_kernel.c src/scene/fractal_kernel.c src/scene/pattern_lanes.h \
-	src/scene/surface_kernel.c src/scene/shape_kernels.c src/scene/tape_kernel.c src/scene/tape_kernel.h \
+	src/scene/surface_kernel.c src/scene/shape_kernels.c src/scene/tape_kernel.c src/scene/tape_kernel.h src/scene/tape_slope_lanes.h \
 	src/scene/shapes/blob.h src/scene/shapes/blob_lanes.c \
 	src/scene/shapes/extrude_lanes.c src/scene/shapes/extrude_lanes.h src/scene/shapes/outline_lanes.h \
 	src/scene/shapes/polygon.h src/scene/shapes/polygon_lanes.c \
