@@ -20,6 +20,7 @@ struct parse;
 #include <string.h>
 
 #include "lang/parse_state.h"
+#include "nodes.h"
 
 // Small, since directives inside expressions run the grammar inside itself; it
 // grows on the heap.
@@ -35,101 +36,6 @@ struct parse;
 static int sdl_lex(SDL_STYPE *value, struct span *where, struct parse *p);
 static void sdl_error(struct span *where, struct parse *p, const char *message);
 
-static struct ast *of_list(struct parse *p, enum ast_kind kind, struct span where,
-                           enum word word, struct ast *list)
-{
-    struct ast *n = ast_new(p->arena, kind, where);
-    n->word = (uint16_t)word;
-    n->list = list;
-    return n;
-}
-
-static struct ast *unary(struct parse *p, struct span where, int op, struct ast *operand)
-{
-    struct ast *n = ast_new(p->arena, AST_UNARY, where);
-    n->op = (uint16_t)op;
-    n->left = operand;
-    return n;
-}
-
-static struct ast *binary(struct parse *p, struct span where, int op, struct ast *left,
-                          struct ast *right)
-{
-    struct ast *n = ast_new(p->arena, AST_BINARY, where);
-    n->op = (uint16_t)op;
-    n->left = left;
-    n->right = right;
-    return n;
-}
-
-static struct ast *conditional(struct parse *p, struct span where, struct ast *condition,
-                               struct ast *yes, struct ast *no)
-{
-    condition->next = yes;
-    yes->next = no;
-    return of_list(p, AST_CONDITIONAL, where, WORD_NONE, condition);
-}
-
-static struct ast *word(struct parse *p, struct span where, enum word w)
-{
-    return of_list(p, AST_WORD, where, w, NULL);
-}
-
-// A list while it is read is its last node, whose `next` is the first: one pointer goes
-// through the parser's stack, as values written in parts stall it when they are copied.
-static struct ast *append(struct ast *list, struct ast *node)
-{
-    node->next = list ? list->next : node;
-    if (list)
-        list->next = node;
-    return node;
-}
-
-static struct ast *one(struct ast *node) { return append(NULL, node); }
-
-static struct ast *join(struct ast *a, struct ast *b)
-{
-    struct ast *first = a->next;
-    a->next = b->next;
-    b->next = first;
-    return b;
-}
-
-// The first node of a list that is complete.
-static struct ast *all(struct ast *list)
-{
-    if (!list)
-        return NULL;
-    struct ast *first = list->next;
-    list->next = NULL;
-    return first;
-}
-
-static struct ast *apply(struct ast *function, struct span where, struct ast *arguments)
-{
-    function->kind = AST_APPLY;
-    function->where = where;
-    function->list = arguments;
-    return function;
-}
-
-static struct ast *subscripts(struct ast *array, struct span where, struct ast *list)
-{
-    array->kind = AST_INDEX;
-    array->where = where;
-    array->list = list;
-    return array;
-}
-
-// A list's comma: false when there is nothing for it to follow.
-static bool comma(struct ast *list)
-{
-    if (!list || list->comma_after)
-        return false;
-    list->comma_after = 1;
-    return true;
-}
-
 #define COMMA(list, where)                                                               \
     do {                                                                                 \
         if (!comma(list)) {                                                              \
@@ -137,42 +43,6 @@ static bool comma(struct ast *list)
             YYABORT;                                                                     \
         }                                                                                \
     } while (0)
-
-// An array element of several items is one node.
-static struct ast *element(struct parse *p, struct ast *items)
-{
-    struct ast *last = items, *first = all(items);
-    if (first == last)
-        return first;
-    return of_list(p, AST_BLOCK, span_join(first->where, last->where), WORD_NONE, first);
-}
-
-static bool is_texture(const struct ast *n)
-{
-    return n && n->kind == AST_BLOCK && n->word == WORD_texture;
-}
-
-// Adds an element to an initialiser; textures with no comma between are layers.
-static struct ast *add_element(struct parse *p, struct ast *last, struct ast *n)
-{
-    bool layers = last && last->kind == AST_BLOCK && last->word == WORD_NONE &&
-                  is_texture(last->list);
-    if (!is_texture(n) || !last || last->comma_after || !(layers || is_texture(last)))
-        return append(last, n);
-    if (!layers) {
-        struct ast *first = arena_new_struct(p->arena, struct ast);
-        *first = *last;
-        first->next = NULL;
-        last->word = WORD_NONE;
-        last->list = first;
-    }
-    struct ast *end = last->list;
-    while (end->next)
-        end = end->next;
-    end->next = n;
-    last->where = span_join(last->where, n->where);
-    return last;
-}
 }
 
 %token END 0 "the end of the file"
