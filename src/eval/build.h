@@ -46,7 +46,6 @@ struct builder {
     struct pointer_list cameras; // if one of them is to be chosen
     bool gamma_set, noise_set;
     struct image_file *images;  // read so far
-    uint8_t warned[WORD_COUNT]; // read but not rendered: told once
 };
 
 // The items of one block, read in order.
@@ -77,7 +76,6 @@ void args_unknown(struct args *a, const enum word *known, size_t count);
 bool args_expected(struct args *a, const char *role, const char *type);
 void args_skip(struct args *a);      // to the next word or block
 void args_not_built(struct args *a); // the next item: one error, passed over
-void args_not_rendered(struct args *a, enum word w, struct span where);
 // As args_find_file, but says nothing when there is none.
 bool args_look_for_file(struct args *a, const char *name, const char **path);
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out);
@@ -182,6 +180,7 @@ bool build_settings(struct args *a, const struct ast *block);
 bool build_photons_settings(struct args *a, const struct ast *block);
 // radiosity { importance } of an object or of #default.
 double build_importance(struct args *a);
+void build_photons(struct args *a, struct object *o); // of an object
 bool build_radiosity_settings(struct args *a, const struct ast *block);
 bool build_old_setting(struct args *a);
 void settings_finish(struct builder *b);

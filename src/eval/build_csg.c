@@ -78,7 +78,7 @@ struct object *build_light_group(struct args *a)
         else if (args_take(a, WORD_global_lights))
             o->group_global_lights = args_switch(a);
         else if (args_at_block(a) == WORD_photons)
-            args_not_rendered(a, WORD_photons, args_next(a)->where);
+            build_photons(a, o);
         else
             args_unknown(a, known, ARRAY_COUNT(known));
     }

@@ -202,14 +202,6 @@ void args_not_built(struct args *a)
         args_skip(a);
 }
 
-void args_not_rendered(struct args *a, enum word w, struct span where)
-{
-    if (a->b->warned[w])
-        return;
-    a->b->warned[w] = 1;
-    diag_at(args_diags(a), DIAG_NOT_RENDERED, where, word_text(w));
-}
-
 bool args_at_color(struct args *a) { return a->at && ast_is_color_start(a->at); }
 
 bool args_color(struct args *a, bool rgb_only, struct rgbft *out)

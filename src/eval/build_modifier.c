@@ -210,7 +210,7 @@ static void photon_conflict(struct args *a, struct span where, bool pass_through
         t->pass_through = false;
 }
 
-static void object_photons(struct args *a, struct object *o)
+void build_photons(struct args *a, struct object *o)
 {
     static const enum word words[] = {WORD_target, WORD_refraction, WORD_reflection,
                                       WORD_pass_through, WORD_collect};
@@ -255,7 +255,7 @@ static bool block_modifier(struct args *a, struct object *o)
     case WORD_material: material(a, o); return true;
     case WORD_clipped_by: clip_or_bound(a, o, true); return true;
     case WORD_bounded_by: clip_or_bound(a, o, false); return true;
-    case WORD_photons: object_photons(a, o); return true;
+    case WORD_photons: build_photons(a, o); return true;
     case WORD_radiosity: o->importance = (float)build_importance(a); return true;
     default: return false;
     }

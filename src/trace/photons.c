@@ -28,15 +28,20 @@ static bool is_pair(const struct photon_target *target, const struct light *ligh
            (photons_refract(target, light) || photons_reflect(target, light));
 }
 
+// Lights of light groups shoot no photons, others none at what they do not light.
+static bool is_lit(const struct world *w, const struct surface *s)
+{
+    return !s->light_group || w->light_group[s->light_group - 1].global_lights;
+}
+
 // How an object is aimed at; NULL: it is not.
 static const struct photon_target *target_of(const struct world *w,
                                              const struct world_object *o)
 {
     for (uint32_t i = 0; i < o->leaf_count; i++) {
-        const struct photon_target *p =
-            w->surface[w->leaf[o->first_leaf + i].surface].photons;
-        if (p && p->target)
-            return p;
+        const struct surface *s = &w->surface[w->leaf[o->first_leaf + i].surface];
+        if (s->photons && s->photons->target && is_lit(w, s))
+            return s->photons;
     }
     return NULL;
 }

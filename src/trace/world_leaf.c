@@ -75,6 +75,31 @@ static const struct interior *plain_interior(struct build *b, const struct conte
     return b->plain[hollow];
 }
 
+// What is written for a union holds for its parts beside what they say themselves, and wins
+// over it. What photons pass as if nothing were there is no target.
+static const struct photon_target *photons_of(struct build *b,
+                                              const struct photon_target *own,
+                                              const struct photon_target *whole)
+{
+    if (!own || (!whole && !(own->target && own->pass_through)))
+        return own ? own : whole;
+    struct photon_target *both = arena_new_struct(b->arena, struct photon_target);
+    *both = *own;
+    if (whole) {
+        if (whole->target)
+            both->spacing = whole->spacing;
+        if (whole->refraction)
+            both->refraction = whole->refraction;
+        if (whole->reflection)
+            both->reflection = whole->reflection;
+        both->target |= whole->target;
+        both->pass_through |= whole->pass_through;
+        both->collect &= whole->collect;
+    }
+    both->target = both->target && !both->pass_through;
+    return both;
+}
+
 struct context world_build_enter(struct build *b, const struct object *o,
                                  const struct context *c)
 {
@@ -94,8 +119,7 @@ struct context world_build_enter(struct build *b, const struct object *o,
     in.interior = interior_of(b, o, c, (in.flags & OBJECT_HOLLOW) != 0);
     in.interior_given = o->interior || old_finish(o) || c->interior_given;
     in.inverted = c->inverted != ((o->flags & OBJECT_INVERSE) != 0);
-    if (o->photons)
-        in.photons = o->photons;
+    in.photons = photons_of(b, o->photons, c->photons);
     in.world = transform_then(o->transform, &c->world);
     return in;
 }
