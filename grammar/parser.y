@@ -43,6 +43,13 @@ static void sdl_error(struct span *where, struct parse *p, const char *message);
             YYABORT;                                                                     \
         }                                                                                \
     } while (0)
+
+// A setting of old scenes, outside of global_settings { }.
+#define BARE(what, where)                                                                \
+    do {                                                                                 \
+        if (!parse_is_bare(p, (enum word)(what), where))                                 \
+            YYABORT;                                                                     \
+    } while (0)
 }
 
 %token END 0 "the end of the file"
@@ -135,8 +142,8 @@ statement:
   | OTHER_NAME
   | NAME
   | subs
-  | WORD NUMBER                         { $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
-  | WORD NAME                           { $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
+  | WORD NUMBER                         { BARE($1, @1); $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
+  | WORD NAME                           { BARE($1, @1); $$ = of_list(p, AST_BLOCK, @$, $1, $2); }
   ;
 
 block:

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "eval/builder.h"
 #include "eval/include_hint.h"
 
 // The cursor over a block's items and the tables of simple items.
@@ -146,7 +147,9 @@ static const char *misplaced_hint(const struct args *a, const struct ast *n)
         return "a file stands in its map, as in image_map { png \"NAME\" }";
     if (texture && n->kind == AST_BLOCK && n->word == WORD_interior)
         return "an interior stands beside its texture";
-    if (n->kind == AST_WORD && n->word == WORD_contained_by)
+    if (n->kind == AST_WORD &&
+        (n->word == WORD_contained_by || builder_is_block_word((enum word)n->word) ||
+         builder_is_object_word((enum word)n->word)))
         return "a '{' is missing after it";
     if (n->kind == AST_WORD && n->word == WORD_type && strcmp(a->name, "fog") == 0)
         return "did you mean 'fog_type'?";

@@ -42,7 +42,9 @@ static bool not_numeric(struct eval *e, const struct ast *n)
         diag_hint(e->diags, DIAG_UNDECLARED, n->where, hint, (int)n->len, n->text);
     } else {
         diag_at(e->diags, DIAG_EXPECTED_NUMBER, n->where,
-                n->value ? value_kind_name(n->value) : "something else");
+                n->value                ? value_kind_name(n->value)
+                : n->kind == AST_STRING ? "a string"
+                                        : "something else");
     }
     return false;
 }

@@ -38,8 +38,11 @@ static bool continues(const struct parse *p, int kind)
            (kind == ';' && p->start == TOK_START_RVALUE);
 }
 
-static void note_brackets(struct parse *p, int kind)
+static void note_brackets(struct parse *p, const struct token *t)
 {
+    const int kind = t->kind;
+    if (kind == '(' && p->parens == 0)
+        p->paren = t->where;
     if (kind == '(' || kind == '[' || kind == '{')
         p->nest++;
     else if (kind == ')' || kind == ']' || kind == TOK_MORE || kind == '}')
@@ -214,7 +217,7 @@ int parse_token(struct parse *p, struct span *where)
         take_undeclared(p, t);
     t->kind = sign(p, t->kind);
     if (t->kind != TOK_STOP) {
-        note_brackets(p, t->kind);
+        note_brackets(p, t);
         p->operand = completes(p, t->kind);
         p->after_period = t->kind == '.';
     }
@@ -463,7 +466,8 @@ static void skip_broken(struct parse *p)
         struct token t = stream_next(s);
         if (t.kind == TOK_END)
             break;
-        note_brackets(p, last = t.kind);
+        last = t.kind;
+        note_brackets(p, &t);
     }
     if (p->start == TOK_START_RVALUE)
         raw_take_if(s, ';');

@@ -145,6 +145,9 @@ static const char *habit_hint(int kind, int last, const int *expected, int count
     if ((kind == TOK_NAME || kind == TOK_WORD) && among(TOK_STRING, expected, count) &&
         !among(TOK_NUMBER, expected, count))
         return "strings, as names of files, are written in double quotes";
+    if (kind == '<' && among(TOK_STRING, expected, count) &&
+        !among(TOK_NUMBER, expected, count))
+        return "names of files are written in double quotes";
     if (kind == TOK_STRING && last == '+')
         return "concat() joins strings";
     if (kind == '+' && (last == TOK_STRING || last == TOK_STRING_NAME))
@@ -217,6 +220,66 @@ static struct token first_of(const struct token *t)
     return first;
 }
 
+// The bracket that must be closed before what was found; NULL: that is not what is wrong.
+static const char *open_bracket(int kind, const int *expected, int count)
+{
+    if (kind != '}' && kind != '{' && kind != ';' && kind != TOK_END)
+        return NULL;
+    if (among(']', expected, count))
+        return "]";
+    if (among(')', expected, count))
+        return ")";
+    // Behind a value alone it may be "greater than".
+    return among('>', expected, count) && among(',', expected, count) ? ">" : NULL;
+}
+
+static bool report_bracket(struct parse *p, const struct token *t, const char *bracket)
+{
+    struct stream *s = p->in;
+    const struct parse_block *b = p->block_count ? &p->blocks[p->block_count - 1] : NULL;
+    const struct span *opened = *bracket == ')' && p->parens > 0   ? &p->paren
+                                : *bracket == ']' && b && b->entry ? &b->where
+                                                                   : NULL;
+    if (t->kind == TOK_END && !opened)
+        return false;
+    if (t->kind == TOK_END)
+        diag_report(s->diags, DIAG_UNCLOSED, t->where, opened, NULL,
+                    *bracket == ')' ? "(" : "[", bracket);
+    else
+        diag_report(s->diags, DIAG_MISSING, t->where, opened, NULL, bracket,
+                    arena_printf(p->arena, "before this '%c'", t->kind));
+    return true;
+}
+
+static bool has_braces(enum word w)
+{
+    const enum word_class c = word_class(w);
+    return c == CLASS_OBJECTS || c == CLASS_VALUE_BLOCKS ||
+           c == CLASS_OTHER_SCENE_LEVEL_BLOCKS;
+}
+
+static void report_brace(struct parse *p, enum word w, struct span where)
+{
+    p->failed = true;
+    diag_at(p->in->diags, DIAG_MISSING, where, "{",
+            arena_printf(p->arena, "after '%s'", word_text(w)));
+}
+
+bool parse_is_bare(struct parse *p, enum word word, struct span where)
+{
+    if (!has_braces(word))
+        return true;
+    report_brace(p, word, where);
+    return false;
+}
+
+// A string among numbers is read as far as a comparison goes.
+static bool is_stray_string(const struct token *last, const int *expected, int count)
+{
+    return (last->kind == TOK_STRING || last->kind == TOK_STRING_NAME) &&
+           among(TOK_LE, expected, count) && !among(TOK_STRING, expected, count);
+}
+
 void parse_syntax_error(struct parse *p, const int *expected, int count)
 {
     struct stream *s = p->in;
@@ -244,6 +307,18 @@ void parse_syntax_error(struct parse *p, const int *expected, int count)
     }
     if (t->kind == TOK_END && s->diags->errors)
         return; // a string that has no end has taken the rest
+    const char *bracket = open_bracket(t->kind, expected, count);
+    if (bracket && report_bracket(p, t, bracket))
+        return;
+    if (p->start == TOK_START_STATEMENT && last->kind == TOK_WORD &&
+        among('{', expected, count) && has_braces((enum word)last->word)) {
+        report_brace(p, (enum word)last->word, last->where);
+        return;
+    }
+    if (is_stray_string(last, expected, count)) {
+        diag_at(s->diags, DIAG_EXPECTED_NUMBER, last->where, "a string");
+        return;
+    }
     char text[256];
     expected_text(text, sizeof text, expected, count);
     diag_hint(s->diags, DIAG_UNEXPECTED, t->where,

@@ -27,6 +27,7 @@ struct parse {
     bool failed;
     int nest;           // open ( [ {
     int parens;         // open (
+    struct span paren;  // the first of them
     int braces;         // open {
     int vectors;        // open < outside all of them
     struct token *last; // the token before the one looked at
@@ -62,6 +63,8 @@ struct ast *parse_finish(struct parse *p, struct ast *node);
 bool parse_joins(struct parse *p, struct ast *last, const struct ast *item);
 // After a value: it may not begin with a bare `t`, which POV-Ray takes for no value there.
 void parse_check_first(struct parse *p, const struct ast *value);
+// Of a word with a number and no braces: whether it may stand so; reports.
+bool parse_is_bare(struct parse *p, enum word word, struct span where);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
 // A ';' that only version 3.5 and later ask for; said of the first.
 void parse_old_semicolon(struct stream *s, struct span where);

@@ -20,14 +20,14 @@ bool container_read(struct args *a, struct container *c)
         shape = args_block(in, "sphere");
     }
     if (!shape) {
-        args_reject(in, "contained_by takes a box or a sphere");
+        args_reject(in, "it takes a box or a sphere");
         return true;
     }
     if (!read.ops->build(&read.shape, shape))
         return true;
     const struct aabb b = container_bounds(&read);
     if (!args_end(shape) || !args_end(in))
-        args_reject(in, "contained_by takes a plain box or sphere, nothing else");
+        args_reject(in, "it takes a plain box or sphere, nothing else");
     else if (!(b.min.x < b.max.x && b.min.y < b.max.y && b.min.z < b.max.z))
         args_reject(in, "the container has no volume");
     else

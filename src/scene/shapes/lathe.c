@@ -70,13 +70,18 @@ static void make_segment(const struct lathe *l, const struct vec2 *p, int points
 static bool read_points(struct lathe *l, struct args *args)
 {
     static const long least[] = {2, 3, 4, 4};
+    static const char *const too_few[] = {
+        "a linear_spline takes 2 points or more",
+        "a quadratic_spline takes 3 points or more",
+        "a cubic_spline takes 4 points or more",
+        "a bezier_spline takes 4 points for each of its pieces"};
     for (int i = 0; i < 4; i++)
         if (args_word(args, spline_word[i]))
             l->spline = (enum spline)i;
     if (!args_int(args, "number of points", &l->count))
         return false;
     if (l->count < least[l->spline] || (l->spline == SPLINE_BEZIER && l->count % 4)) {
-        args_reject(args, "wrong number of points for this spline");
+        args_reject(args, too_few[l->spline]);
         return false;
     }
     struct vec2 *p = arena_new_array(args_arena(args), struct vec2, (size_t)l->count);

@@ -120,10 +120,15 @@ static void read_kind(struct args *args, enum spline *spline, bool *conic)
 static bool read_points(struct args *args, enum spline spline, struct points *p)
 {
     static const long least[] = {3, 5, 6, 4};
+    static const char *const too_few[] = {
+        "a linear_spline takes 3 points or more",
+        "a quadratic_spline takes 5 points or more",
+        "a cubic_spline takes 6 points or more",
+        "a bezier_spline takes 4 points for each of its pieces"};
     if (!args_int(args, "number of points", &p->count))
         return false;
     if (p->count < least[spline] || (spline == SPLINE_BEZIER && p->count % 4)) {
-        args_reject(args, "wrong number of points for this spline");
+        args_reject(args, too_few[spline]);
         return false;
     }
     p->at = arena_new_array(args_arena(args), struct vec2, (size_t)p->count);

@@ -223,7 +223,8 @@ static bool build(void *shape, struct args *args)
     struct text *t = shape;
     struct vec3 offset;
     const char *path;
-    if (!read_font(t, args) || !args_string(args, "text", &t->string) ||
+    if (!read_font(t, args) ||
+        !args_string(args, "text behind the font file", &t->string) ||
         !args_float(args, "depth", &t->depth) || !args_vec3(args, "offset", &offset) ||
         !args_find_file(args, "font", t->font, ".ttf", &path))
         return false;
