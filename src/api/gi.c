@@ -304,6 +304,19 @@ static enum lambert_status patches_prepare(struct lambert_context *ctx,
     return LAMBERT_OK;
 }
 
+// Files of a light that nobody asks for.
+static enum lambert_status without(struct lambert_context *ctx)
+{
+    static const char *const files[] = {"gi-load", "gi-save", "gi-ply", "gi-aov"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (lambert_option_is_set(ctx, files[i]))
+            diag_at(&ctx->diags, DIAG_BLOCK_WARNING, (struct span){0},
+                    arena_printf(ctx->scene_arena, "--%s", files[i]),
+                    "the scene has no radiosity { }, and --gi asks for no light by way "
+                    "of other surfaces: the file has no part in this picture");
+    return LAMBERT_OK;
+}
+
 enum lambert_status gi_prepare(struct lambert_context *ctx,
                                struct render_settings *settings, struct gi **out)
 {
@@ -315,7 +328,7 @@ enum lambert_status gi_prepare(struct lambert_context *ctx,
     if (!patches && !asked &&
         !(strcmp(method, "auto") == 0 && ctx->world->scene->settings.radiosity &&
           settings->quality >= BEST_QUALITY))
-        return LAMBERT_OK;
+        return without(ctx);
     warn_missing(ctx);
     if (patches)
         warn_unlit(ctx);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define KIND(k) LAMBERT_OPTION_##k
 static const struct lambert_option options[] = {
@@ -184,9 +185,12 @@ static enum lambert_status set_value(struct lambert_context *ctx,
             return bad_value(ctx, o, value);
         break;
     case LAMBERT_OPTION_STRING:
-        if (strstr(o->name, "-gamma") && parse_number(value, &gamma) && gamma <= 0)
-            return context_fail(ctx, LAMBERT_ERROR_OPTION, "--%s must be above 0",
-                                o->name);
+        if (strstr(o->name, "-gamma") && strcasecmp(value, "sRGB") != 0 &&
+            (!parse_number(value, &gamma) || gamma <= 0))
+            return context_fail(
+                ctx, LAMBERT_ERROR_OPTION,
+                "'%s' is no value for --%s; it takes sRGB or a number above 0", value,
+                o->name);
         break;
     case LAMBERT_OPTION_LIST:
         add_to_list(ctx, v, arena_strndup(ctx->arena, value, strlen(value)));
@@ -274,7 +278,7 @@ bool option_flag(const struct lambert_context *ctx, const char *name)
     return lambert_option_number(ctx, name) != 0;
 }
 
-// A number is a power; 1 is no encoding. Anything else ("sRGB") is the sRGB curve.
+// A number is a power; 1 is no encoding. Else it is "sRGB".
 struct transfer option_transfer(const struct lambert_context *ctx, const char *name)
 {
     double gamma;

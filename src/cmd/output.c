@@ -78,6 +78,8 @@ static const char *extension_of(struct cmd *c, const char *name, size_t *stem, i
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code)
 {
     const char *given = lambert_option_text(c->ctx, "output");
+    if (given && !*given)
+        given = NULL;
     char *base = scene_base(scene), *path = NULL;
     char number[32] = "";
     size_t stem;

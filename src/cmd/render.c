@@ -110,11 +110,12 @@ static void say_done(struct cmd *c, const char *path, bool whole)
 static void say_stats(struct cmd *c, const char *path)
 {
     const char *form = lambert_option_text(c->ctx, "stats");
-    bool json = form && strcmp(form, "json") == 0;
+    const bool json = form && strcmp(form, "json") == 0;
+    const bool piped = path && strcmp(path, "-") == 0; // the picture is what stdout has
     if (c->stream[STREAM_STATISTIC])
         stats_print(c, c->stream[STREAM_STATISTIC], false, path);
     if (form || c->verbose)
-        stats_print(c, json ? stdout : stderr, json, path);
+        stats_print(c, json && !piped ? stdout : stderr, json, path);
 }
 
 // Beside the picture; standard output and devices have no beside. Unless tiles are to be kept

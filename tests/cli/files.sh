@@ -65,6 +65,10 @@ types()
 check "file types" types
 stats() { exits 0 "$lambert" $small sphere.pov --stats=json && has out '^{"v":1,.*"pixels":768,.*}$'; }
 check "counts as JSON" stats
+piped_stats() { exits 0 "$lambert" -q $small sphere.pov --stats=json -o - && cmp out a.png && has err '^{"v":1,'; }
+check "counts beside a picture on standard output" piped_stats
+unnamed() { rm -f sphere.png && exits 0 "$lambert" -q $small sphere.pov -o "" && test -s sphere.png && test ! -e .png; }
+check "an empty name is none" unnamed
 
 # lambert is its own reference here.
 side_by_side()

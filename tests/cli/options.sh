@@ -190,4 +190,12 @@ settings() {
     exits 0 "$lambert" kept.ini +F -o again.ppm +FP && size_ppm again.ppm 20 10
 }
 check "Create_Ini can be read again" settings
+gammas()
+{
+  for wrong in x 1.8x 0 -2 ''; do
+    exits 64 "$lambert" sphere.pov +W8 +H8 -o g.ppm "--file-gamma=$wrong" && has err 'it takes sRGB or a number above 0' || return 1
+  done
+  exits 0 "$lambert" sphere.pov +W8 +H8 -o g.ppm Display_Gamma=srgb File_Gamma=1.8
+}
+check "encodings are sRGB or a number" gammas
 finish

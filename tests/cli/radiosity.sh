@@ -143,6 +143,8 @@ for s in elimination jacobi gauss-seidel shooting cg stochastic hierarchical; do
 done
 gather() { render asks.pov -o g.ppm --gi-gather=16 && ! cmp -s lit.ppm g.ppm; }
 check "a final gathering" gather
+unasked() { render room.pov -o u.ppm --gi-save=u.sol && has err 'warning: --gi-save: the scene has no radiosity' && test ! -e u.sol; }
+check "a file of light that nobody asks for" unasked
 target() { render asks.pov -o e.ppm --error=10% && has err 'error about'; }
 check "an error target" target
 bad_target() { exits 64 "$lambert" asks.pov +W8 +H8 --error=much && has err "'much' is no value for --error"; }

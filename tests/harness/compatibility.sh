@@ -10,7 +10,7 @@ table=$top/doc/compatibility.md
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
-# Lines "E0900 word": not built; "E0901 word": read and not rendered.
+# Lines "E0900 word": not built.
 probe()
 {
   (cd "$work" && for scene in "$top"/tests/words/*.pov; do
@@ -54,8 +54,7 @@ rows()
     }
     function why(word,  w) {
       w = word in code ? word : owner[word]
-      return code[w] == "E0901" ? "read, not rendered" \
-        : w == word ? "reported as not built" : "in `" w "`, which is reported as not built"
+      return w == word ? "reported as not built" : "in `" w "`, which is reported as not built"
     }
     BEGIN {
       while ((getline line < probed) > 0) { split(line, f, " "); code[f[2]] = f[1] }
