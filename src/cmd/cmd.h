@@ -82,6 +82,9 @@ struct cmd {
     FILE *stream[STREAM_COUNT]; // NULL: none
     bool streams_open;
     char *held; // warnings from before the streams were open
+    bool animation;
+    char **told; // its warnings so far
+    size_t told_count;
     struct progress progress;
     struct command_place place; // what commands are told
     pthread_t watch;            // the thread that waits for signals
@@ -120,6 +123,8 @@ char *text_format_list(const char *fmt, va_list ap) __attribute__((format(printf
 int streams_open(struct cmd *c);
 void streams_write(struct cmd *c, const struct lambert_message *m);
 void streams_warn(struct cmd *c, const char *line); // of the command itself
+// Whether a frame before has said so.
+bool streams_repeat(struct cmd *c, const struct lambert_message *m);
 int streams_close(struct cmd *c);
 int settings_write(struct cmd *c); // Create_Ini
 

@@ -51,6 +51,8 @@ static bool is_shown(struct cmd *c, enum lambert_message_kind kind)
 static void on_message(void *user, const struct lambert_message *m)
 {
     struct cmd *c = user;
+    if (streams_repeat(c, m))
+        return;
     streams_write(c, m);
     if (!is_shown(c, m->kind))
         return;

@@ -30,6 +30,9 @@ static void start(const struct process *p)
     dup2(out, STDOUT_FILENO);
     dup2(out, STDERR_FILENO);
     execvp(p->argv[0], (char *const *)(const void *)p->argv);
+    static const char why[] = "error: there is no such program\n";
+    if (write(STDERR_FILENO, why, sizeof why - 1) < 0)
+        _exit(126);
     _exit(127);
 }
 

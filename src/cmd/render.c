@@ -303,6 +303,7 @@ static int render_animation(struct cmd *c, const char *scene)
     if (a.last < a.first)
         return cmd_fail(CMD_USAGE, "the last frame (%ld) comes before the first (%ld)",
                         a.last, a.first);
+    c->animation = true;
     set_number(c, "frame-initial", (double)a.first);
     set_number(c, "frame-final", (double)a.last);
     set_number(c, "frame-initial-clock", a.clock_first);

@@ -220,6 +220,8 @@ static void find_reason(struct row *r, const char *log, double seconds, int stat
     r->reason[0] = 0;
     while (f && !r->reason[0] && fgets(line, sizeof line, f)) {
         char *at = strstr(line, "error: ");
+        if (!at)
+            at = strstr(line, "Error: "); // POV-Ray's
         if (!at && strncmp(line, "lambert: ", 9) == 0 && !strstr(line, "warning: "))
             at = line + 2; // "lambert: " and "error: " + 2
         if (at)
@@ -232,6 +234,8 @@ static void find_reason(struct row *r, const char *log, double seconds, int stat
         snprintf(r->reason, sizeof r->reason, "time limit");
     else if (WIFSIGNALED(status))
         snprintf(r->reason, sizeof r->reason, "signal %d", WTERMSIG(status));
+    else if (!r->reason[0] && WEXITSTATUS(status) == 0)
+        snprintf(r->reason, sizeof r->reason, "it failed and does not say why");
     else if (!r->reason[0])
         snprintf(r->reason, sizeof r->reason, "exit code %d", WEXITSTATUS(status));
 }
@@ -286,7 +290,7 @@ static void compare_scene(const struct job *j, struct row *r)
         find_reason(r, log, r->seconds, status);
     } else if (r->reference_seconds < 0) {
         r->verdict = NO_REFERENCE;
-        snprintf(r->reason, sizeof r->reason, "the reference program failed");
+        find_reason(r, reference_log, r->reference_seconds, 0);
     } else {
         judge(j->cmd, r, reference, picture, map);
     }

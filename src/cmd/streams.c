@@ -66,6 +66,21 @@ void streams_warn(struct cmd *c, const char *line)
     c->held = all;
 }
 
+bool streams_repeat(struct cmd *c, const struct lambert_message *m)
+{
+    enum { MOST = 200 }; // to be remembered
+    if (!c->animation || m->kind != LAMBERT_WARNING)
+        return false;
+    for (size_t i = 0; i < c->told_count; i++)
+        if (strcmp(c->told[i], m->rendered) == 0)
+            return true;
+    if (!c->told)
+        c->told = calloc(MOST, sizeof *c->told);
+    if (c->told && c->told_count < MOST)
+        c->told[c->told_count++] = text_format("%s", m->rendered);
+    return false;
+}
+
 void streams_write(struct cmd *c, const struct lambert_message *m)
 {
     static const enum stream of[] = {[LAMBERT_NOTE] = STREAM_WARNING,
@@ -77,6 +92,11 @@ void streams_write(struct cmd *c, const struct lambert_message *m)
 
 int streams_close(struct cmd *c)
 {
+    for (size_t i = 0; i < c->told_count; i++)
+        free(c->told[i]);
+    free(c->told);
+    c->told = NULL;
+    c->told_count = 0;
     bool ok = true;
     for (int i = 0; i < STREAM_COUNT; i++) {
         if (c->stream[i] && (ferror(c->stream[i]) | fclose(c->stream[i])) != 0)

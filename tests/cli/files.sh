@@ -81,6 +81,14 @@ side_by_side()
     test -s page/sphere.reference.png && test -s "page/a&b.heat.png"
 }
 check "scenes side by side" side_by_side
+no_program() { exits 1 "$lambert" compare $small sphere.pov --out page --reference ./nowhere && has out 'sphere.pov: there is no such program'; }
+check "a reference that is no program" no_program
+no_reference()
+{
+  printf '#!/bin/sh\necho "Parse Error: no fun"\nexit 1\n' >fails && chmod +x fails &&
+    exits 1 "$lambert" compare $small sphere.pov --out page --reference "$PWD/fails" && has out 'sphere.pov: no fun'
+}
+check "a reference that fails says why" no_reference
 part() { exits 0 "$lambert" $small sphere.pov +SC9 +EC16 +SR0.5 +FP -o part.ppm && size_ppm part.ppm 32 24; }
 check "a part keeps the size" part
 check "a part beyond the end" exits 64 "$lambert" $small sphere.pov +SC20 +EC10

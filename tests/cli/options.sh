@@ -190,6 +190,13 @@ settings() {
     exits 0 "$lambert" kept.ini +F -o again.ppm +FP && size_ppm again.ppm 20 10
 }
 check "Create_Ini can be read again" settings
+repeated()
+{
+  printf '#version 3.7;\ncamera { location -z }\n#warning "twice"\n#warning str(clock, 0, 1)\n' >warns.pov
+  exits 0 "$lambert" warns.pov +KFF3 +W8 +H8 -q -o w.ppm && test "$(grep -c 'warning: twice' err)" = 1 &&
+    test "$(grep -c 'warning: [01].[05]' err)" = 3 && test "$(grep -c assumed_gamma err)" = 1
+}
+check "warnings of an animation are said once" repeated
 gammas()
 {
   for wrong in x 1.8x 0 -2 ''; do
