@@ -16,7 +16,7 @@ liblambert_a_SOURCES += \
 	%D%/wave.c %D%/wave.h
 
 # What is compiled once per instruction set.
-packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_bounds_kernel.c \
+packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_lattice.h src/scene/noise_bounds_kernel.c \
 	src/scene/cells_bounds_kernel.c src/scene/cells_kernel.c src/scene/rings_kernel.c src/scene/grid_kernel.c src/scene/fractal_kernel.c src/scene/pattern_lanes.h \
 	src/scene/surface_kernel.c src/scene/shape_kernels.c src/scene/tape_kernel.c src/scene/tape_kernel.h src/scene/tape_slope_lanes.h \
 	src/scene/shapes/blob.h src/scene/shapes/blob_lanes.c \
