@@ -254,33 +254,37 @@ static void set_up(struct sweep8 *e, const struct extrude_solid *s,
 
 // ---- the first crossing ------------------------------------------------------------------
 
-static struct extrude_ray ray_of(const struct sweep8 *e, int lane)
+// What lanes are taken out of.
+struct sweep_lanes {
+    double o[3][8], d[3][8], w[8], segment[8];
+};
+
+static void set_lanes(const struct sweep8 *e, const struct walls8 *x,
+                      struct sweep_lanes *out)
 {
-    double v[6][8];
-    struct extrude_ray r;
     for (int k = 0; k < 3; k++) {
-        r8_store(v[k], e->o[k]);
-        r8_store(v[3 + k], e->d[k]);
-        r.o[k] = v[k][lane];
-        r.d[k] = v[3 + k][lane];
+        r8_store(out->o[k], e->o[k]);
+        r8_store(out->d[k], e->d[k]);
     }
-    return r;
+    r8_store(out->w, x->w);
+    r8_store(out->segment, x->segment);
 }
 
 static void put_wall(const struct sweep8 *e, const struct outline *o,
-                     const struct walls8 *x, int lane, bool in, uint32_t part,
+                     const struct sweep_lanes *x, int lane, bool in, uint32_t part,
                      struct shape_hits *out)
 {
-    double w[8], segment[8];
-    r8_store(w, x->w);
-    r8_store(segment, x->segment);
-    const struct extrude_ray r = ray_of(e, lane);
-    const uint32_t i = (uint32_t)segment[lane];
+    struct extrude_ray r;
+    for (int k = 0; k < 3; k++) {
+        r.o[k] = x->o[k][lane];
+        r.d[k] = x->d[k][lane];
+    }
+    const uint32_t i = (uint32_t)x->segment[lane];
     struct boundary b;
     if (e->s->conic)
-        conic_wall(o, e->s->low, e->s->high, &r, i, w[lane], &b);
+        conic_wall(o, e->s->low, e->s->high, &r, i, x->w[lane], &b);
     else
-        b = extrude_wall(o, &r, i, w[lane]);
+        b = extrude_wall(o, &r, i, x->w[lane]);
     b.crossing = in ? CROSS_EXIT : CROSS_ENTER;
     b.u = in ? -b.u : b.u;
     b.part |= part;
@@ -314,9 +318,12 @@ static unsigned first(const struct sweep8 *e, const struct outline *o, unsigned 
     const unsigned wall = lanes & ~entry & m8_bits(r8_lt(x.t, e->t1));
     const unsigned exit =
         capped & ~entry & ~wall & (start ^ x.before_t1) & m8_bits(r8_lt(e->t_min, e->t1));
+    struct sweep_lanes lane;
+    if (wall)
+        set_lanes(e, &x, &lane);
     for (unsigned m = wall; m; m &= m - 1) {
         const int l = __builtin_ctz(m);
-        put_wall(e, o, &x, l, (start ^ x.before) >> l & 1, part, out);
+        put_wall(e, o, &lane, l, (start ^ x.before) >> l & 1, part, out);
     }
     for (unsigned m = entry | exit; m; m &= m - 1) {
         const int l = __builtin_ctz(m);

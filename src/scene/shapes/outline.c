@@ -122,30 +122,51 @@ static double slope(const struct cubic *f, double w)
     return (3 * f->c[3] * w + 2 * f->c[2]) * w + f->c[1];
 }
 
-// The root of f in (lo, hi), where `rising` says which way its sign changes: Newton
-// kept inside the bracket, which shrinks to neighbouring numbers at worst. A step too small to
-// change w ends it: w is an end of the bracket by then, whose other end may be far.
+// The root of f in (lo, hi), where `rising` says which way its sign changes: Newton from where
+// the chord has it, kept inside the bracket, which shrinks to neighbouring numbers at worst. It
+// ends with a step whose square, by the curvature, is below rounding, or too small to change w: w is
+// an end of the bracket by then, whose other end may be far.
 static double root_between(const struct cubic *f, double lo, double hi, bool rising)
 {
-    double w = 0.5 * (lo + hi);
+    const double from = value(f, lo), to = value(f, hi);
+    double w = lo + (hi - lo) * (from / (from - to));
+    if (!(w > lo && w < hi))
+        w = 0.5 * (lo + hi);
     for (int i = 0; i < 80; i++) {
-        double v = value(f, w);
+        const double v = value(f, w), along = slope(f, w);
         if (v == 0)
             return w;
         if ((v > 0) == rising)
             hi = w;
         else
             lo = w;
-        double next = w - v / slope(f, w);
+        double next = w - v / along, step = next - w;
         if (next == w)
             return w;
-        if (!(next > lo && next < hi))
+        if (!(next > lo && next < hi)) {
             next = 0.5 * (lo + hi);
+            step = HUGE_VAL;
+        }
         if (next <= lo || next >= hi)
             return next;
+        const double bend =
+            fabs(6 * f->c[3] * w + 2 * f->c[2]) + fabs(6 * f->c[3] * step);
         w = next;
+        if (step * step * bend < 0x1p-54 * (w * fabs(along)))
+            return w;
     }
     return w;
+}
+
+// The same of a parabola, by the formula that does not cancel.
+static double parabola_root(const struct cubic *f, double lo, double hi, bool rising)
+{
+    const double a = f->c[2], b = f->c[1], c = f->c[0];
+    const double square = b * b - 4 * (a * c), root = sqrt(square < 0 ? 0 : square);
+    const double q = -0.5 * (b < 0 ? b - root : b + root);
+    double w = rising == (b < 0) ? q / a : c / q;
+    w = w > lo ? w : lo;
+    return w < hi ? w : hi;
 }
 
 // The extrema of f inside (0, 1), ascending.
@@ -208,7 +229,8 @@ int outline_roots(const struct outline_segment *s, const double k[3],
         double end = i < n ? stop[i] : 1;
         bool above_end = i < n ? value(&f, end) >= 0 : above_b;
         if (above_end != above)
-            w[roots++] = root_between(&f, stop[i - 1], end, above_end);
+            w[roots++] = s->degree == 2 ? parabola_root(&f, stop[i - 1], end, above_end)
+                                        : root_between(&f, stop[i - 1], end, above_end);
         above = above_end;
     }
     return roots;
