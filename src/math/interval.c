@@ -264,9 +264,6 @@ static struct interval whole_power(struct interval a, double n)
     return interval_widened(lo, p > q ? p : q, INTERVAL_ELEMENTARY);
 }
 
-// A power as a bound: quick_pow is off by 3 |y log x| + 4 roundings, 2104 at most.
-#define INTERVAL_POWER 0x1p-41
-
 static double power(double x, double y)
 {
     if (x >= DBL_MIN && x <= DBL_MAX) {

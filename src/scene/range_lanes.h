@@ -3,6 +3,8 @@
 
 // Interval arithmetic in lanes: each operation holds what math/interval.h says of it, with
 // bounds that are the same but for a few roundings.
+#include <float.h>
+
 #include "math/interval.h"
 #include "math/lanes.h"
 #include "math/quick_lanes.h"
@@ -238,6 +240,18 @@ LANES_INLINE struct range is_less_equal(struct range a, struct range b)
     return truth(r8_lt(b.hi, a.lo), r8_le(a.hi, b.lo));
 }
 
+LANES_INLINE struct range negated(struct range t)
+{
+    return range_of(r8_sub(r8_set(1), t.hi), r8_sub(r8_set(1), t.lo));
+}
+
+LANES_INLINE struct range is_equal(struct range a, struct range b)
+{
+    const struct mask8 point = m8_and(r8_eq(a.lo, a.hi), r8_eq(b.lo, b.hi));
+    return truth(m8_or(r8_lt(b.hi, a.lo), r8_lt(a.hi, b.lo)),
+                 m8_and(point, r8_eq(a.lo, b.lo)));
+}
+
 LANES_INLINE struct range hull(struct range a, struct range b)
 {
     return range_of(r8_min(a.lo, b.lo), r8_max(a.hi, b.hi));
@@ -251,6 +265,72 @@ LANES_INLINE struct range either(struct mask8 m, struct range a, struct range b)
 LANES_INLINE struct mask8 is_zero(struct range a)
 {
     return m8_and(r8_eq(a.lo, r8_set(0)), r8_eq(a.hi, r8_set(0)));
+}
+
+LANES_INLINE struct range both(struct range a, struct range b)
+{
+    return truth(m8_or(is_zero(a), is_zero(b)), m8_and(never_zero(a), never_zero(b)));
+}
+
+LANES_INLINE struct range one_of(struct range a, struct range b)
+{
+    return truth(m8_and(is_zero(a), is_zero(b)), m8_or(never_zero(a), never_zero(b)));
+}
+
+// ---- powers ---------------------------------------------------------------------------------
+
+// Of what is not negative to a constant power, as interval_pow.
+LANES_INLINE struct real8 log_of(struct real8 x)
+{
+    double v[8];
+    r8_store(v, x);
+    quick_log8(v, v);
+    return r8_load(v);
+}
+
+LANES_INLINE struct real8 exp_of(struct real8 x)
+{
+    double v[8];
+    r8_store(v, x);
+    quick_exp8(v, v);
+    return r8_load(v);
+}
+
+// Between e^from and e^to; null: lanes where it is 0 and e^to.
+LANES_INLINE struct range power_between(struct real8 from, struct real8 to,
+                                        struct mask8 null)
+{
+    const struct real8 zero = r8_set(0), e = r8_set(INTERVAL_POWER);
+    const struct real8 p = r8_select(null, zero, exp_of(from)), q = exp_of(to);
+    const struct real8 least = r8_min(p, q), most = r8_max(p, q);
+    const struct real8 lo = r8_sub(least, r8_mul(least, e));
+    return range_of(r8_select(r8_lt(lo, r8_set(0x1p-1000)), zero, lo),
+                    r8_add(most, r8_mul(most, e)));
+}
+
+// a^y, and its slope, the same rounding more; returns the lanes that are for interval_pow.
+LANES_INLINE unsigned power_of(struct range a, double y, struct range *v,
+                               struct range *by)
+{
+    const struct real8 zero = r8_set(0), one = r8_set(1), least = r8_set(DBL_MIN);
+    const struct mask8 null = r8_eq(a.lo, zero), below = r8_lt(a.lo, zero);
+    struct mask8 good = m8_and(r8_le(least, a.hi), r8_le(a.hi, r8_set(DBL_MAX)));
+    good = m8_and(good, y > 0 ? m8_or(null, r8_le(least, a.lo)) : r8_le(least, a.lo));
+    const struct real8 from = log_of(r8_select(m8_without(good, null), a.lo, one));
+    const struct real8 to = log_of(r8_select(good, a.hi, one));
+    const struct real8 most =
+        r8_mul(r8_max(r8_abs(from), r8_abs(to)), r8_set(fmax(fabs(y), fabs(y - 1))));
+    good = m8_and(good, r8_lt(most, r8_set(700)));
+    const struct real8 e0 = r8_select(good, from, zero), e1 = r8_select(good, to, zero);
+    const struct real8 less = r8_set(y - 1);
+    *v = whole_unless(good,
+                      power_between(r8_mul(r8_set(y), e0), r8_mul(r8_set(y), e1), null));
+    const struct range slope =
+        power_between(r8_mul(less, e0), r8_mul(less, e1), y > 1 ? null : m8_of(0));
+    *by = whole_unless(y > 1 ? good : m8_without(good, null),
+                       multiply(range_of(r8_set(y), r8_set(y)), slope));
+    // Of what is negative only whole powers are known.
+    return 255 & ~m8_bits(y == floor(y) ? good : m8_or(good, below));
 }
 
 #endif

@@ -180,6 +180,28 @@ static unsigned moving_of(const struct tape *t, const struct tape_step *s,
 
 // ---- bounds ---------------------------------------------------------------------------
 
+// Whether it is a power that lanes know.
+static bool is_power(const struct tape *t, const struct tape_step *s)
+{
+    if (s->op != TAPE_POW || s->b >= t->constant_count)
+        return false;
+    return fabs(t->constant[s->b]) < INFINITY;
+}
+
+// Returns the lanes that are left to do.
+LANES_INLINE unsigned power_step(const struct reg *a, unsigned moving, double y, int n,
+                                 struct reg *v)
+{
+    const struct range none = {r8_set(0), r8_set(0)};
+    struct range by;
+    const unsigned left = power_of(a->v, y, &v->v, &by);
+    scale(by, a->d, moving, n, v->d);
+    for (int i = 0; i < n; i++) // 0 times the whole
+        if (moving >> i & 1)
+            v->d[i] = either(is_zero(a->d[i]), none, v->d[i]);
+    return left;
+}
+
 LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
                               struct reg *r, const uint8_t *moving, unsigned all, int n)
 {
@@ -191,6 +213,11 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
     for (int i = 0; i < n; i++)
         v.d[i] = range_of(zero, zero);
     struct range by, other;
+    unsigned left = 0;
+    if (s->op == TAPE_POW && !is_power(t, s)) {
+        operation_by_lanes(s, r, n, all ? n : 0, 255, &r[s->to]);
+        return;
+    }
     switch ((enum tape_op)s->op) {
     case TAPE_NEGATE:
         v.v = negate(a->v);
@@ -221,7 +248,9 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
         waves(a->v, &by, &other);
         v.v = s->op == TAPE_SIN ? by : other;
         scale(s->op == TAPE_SIN ? other : negate(by), a->d, ma, n, v.d);
+        left = large_lanes(a->v);
         break;
+    case TAPE_POW: left = power_step(a, ma, t->constant[s->b], n, &v); break;
     case TAPE_ADD:
         v.v = add(a->v, b->v);
         for (int i = 0; i < n; i++)
@@ -276,6 +305,22 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
         v.v = is_less_equal(b->v, a->v);
         flat_of_two(a, ma, b, mb, n, &v);
         break;
+    case TAPE_EQUAL:
+        v.v = is_equal(a->v, b->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_NOT_EQUAL:
+        v.v = negated(is_equal(a->v, b->v));
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_AND:
+        v.v = both(a->v, b->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
+    case TAPE_OR:
+        v.v = one_of(a->v, b->v);
+        flat_of_two(a, ma, b, mb, n, &v);
+        break;
     case TAPE_SELECT: choose(a, b, &r[s->c], &r[s->d], ma, n, &v); break;
     case TAPE_MIN: extreme(false, a, b, n, &v); break;
     case TAPE_MAX: extreme(true, a, b, n, &v); break;
@@ -288,10 +333,8 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
             operation_by_lanes(s, r, n, all ? n : 0, 255, &r[s->to]);
         return;
     }
-    const bool wave = s->op == TAPE_SIN || s->op == TAPE_COS;
-    const unsigned large = wave ? large_lanes(a->v) : 0;
-    if (large)
-        operation_by_lanes(s, r, n, all ? n : 0, large, &v);
+    if (left)
+        operation_by_lanes(s, r, n, all ? n : 0, left, &v);
     struct reg *to = &r[s->to];
     to->v = v.v;
     for (int i = 0; i < n; i++)

@@ -205,23 +205,55 @@ static void check_gradient(const struct tape *t, const char *name, const struct 
     }
 }
 
+// The boxes with the bounds that lanes have for them.
+static void bound_in_lanes(const struct tape *t, const struct box b[TAPE_LANES],
+                           struct box out[TAPE_LANES])
+{
+    struct tape_boxes in;
+    struct tape_slopes r;
+    memcpy(out, b, TAPE_LANES * sizeof *out);
+    for (int l = 0; l < TAPE_LANES; l++)
+        for (int i = 0; i < 3; i++) {
+            in.lo[i][l] = b[l].side[i].lo;
+            in.hi[i][l] = b[l].side[i].hi;
+        }
+    tape_bounds_packet(t, &in, true, &r);
+    for (int l = 0; l < TAPE_LANES; l++) {
+        out[l].v = interval(r.lo[l], r.hi[l]);
+        for (int i = 0; i < 3; i++)
+            out[l].d[i] = interval(r.slope_lo[i][l], r.slope_hi[i][l]);
+    }
+}
+
+static void check_box(const struct tape *t, const char *name, const struct box *b,
+                      uint64_t *seed)
+{
+    double in[3][TAPE_LANES];
+    for (int k = 0; k < POINTS; k++) {
+        double p[3], v;
+        for (int i = 0; i < 3; i++)
+            in[i][k % TAPE_LANES] = p[i] = in_side(b->side[i], seed);
+        tape_run(t, p, &v);
+        if (!holds(b->v, v))
+            fail_msg("%s: (%.17g %.17g %.17g) gives %.17g, not in %.17g .. %.17g", name,
+                     p[0], p[1], p[2], v, b->v.lo, b->v.hi);
+        check_gradient(t, name, b, p);
+        check_slope(t, name, b, k % 3, seed);
+    }
+    check_packet(t, name, (const double(*)[TAPE_LANES])in);
+}
+
 static void check_tape(const struct tape *t, const char *name, double size, uint64_t seed)
 {
-    for (int n = 0; n < BOXES; n++) {
-        const struct box b = random_box(t, size, &seed);
-        double in[3][TAPE_LANES];
-        for (int k = 0; k < POINTS; k++) {
-            double p[3], v;
-            for (int i = 0; i < 3; i++)
-                in[i][k % TAPE_LANES] = p[i] = in_side(b.side[i], &seed);
-            tape_run(t, p, &v);
-            if (!holds(b.v, v))
-                fail_msg("%s: (%.17g %.17g %.17g) gives %.17g, not in %.17g .. %.17g",
-                         name, p[0], p[1], p[2], v, b.v.lo, b.v.hi);
-            check_gradient(t, name, &b, p);
-            check_slope(t, name, &b, k % 3, &seed);
+    for (int n = 0; n < BOXES; n += TAPE_LANES) {
+        struct box b[TAPE_LANES], in_lanes[TAPE_LANES];
+        for (int l = 0; l < TAPE_LANES; l++)
+            b[l] = random_box(t, size, &seed);
+        bound_in_lanes(t, b, in_lanes);
+        for (int l = 0; l < TAPE_LANES; l++) {
+            check_box(t, name, &b[l], &seed);
+            check_box(t, name, &in_lanes[l], &seed);
         }
-        check_packet(t, name, (const double(*)[TAPE_LANES])in);
     }
 }
 
@@ -305,6 +337,16 @@ static void operations_keep_promises(void **state)
             const uint32_t out = tape_binary(b, binary[i].op, x, y);
             check_tape(tape_finish(b, a, 3, &out, 1), binary[i].name, sizes[k % 4],
                        i + 70);
+        }
+    static const double exponents[] = {-2, -1.5, -0.5, 0.4, 0.5, 1, 1.5, 3, 10, 7.25};
+    for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++)
+        for (int k = 0; k < 8; k++) {
+            struct tape_builder *b = tape_builder_new(a);
+            const uint32_t x = tape_argument(b, 1);
+            const uint32_t size = k < 4 ? x : tape_unary(b, TAPE_ABS, x);
+            const uint32_t y = tape_constant(b, exponents[i]);
+            const uint32_t out = tape_binary(b, TAPE_POW, size, y);
+            check_tape(tape_finish(b, a, 3, &out, 1), "power", sizes[k % 4], i + 700);
         }
     struct tape_builder *b = tape_builder_new(a);
     const uint32_t x = tape_argument(b, 0), y = tape_argument(b, 1);
