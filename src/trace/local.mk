@@ -33,7 +33,7 @@ packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noi
 	src/radiosity/sight_kernel.c src/radiosity/sight_kernel.h \
 	%D%/media_kernel.c %D%/photon_kernel.c %D%/photon_search.h %D%/subsurface_kernel.c %D%/subsurface_kernel.h \
 	%D%/packet_kernel.c %D%/packet_product.h %D%/packet_quick.h \
-	%D%/packet.h %D%/packet_any.h %D%/packet_bound.h %D%/packet_carve.h %D%/packet_clip.h %D%/packet_cross.h %D%/packet_csg.h %D%/packet_objects.h %D%/packet_parts.h %D%/packet_shapes.h \
+	%D%/packet.h %D%/packet_any.h %D%/packet_bound.h %D%/packet_carve.h %D%/packet_clip.h %D%/packet_cross.h %D%/packet_csg.h %D%/packet_csg_spans.h %D%/packet_objects.h %D%/packet_parts.h %D%/packet_shapes.h \
 	%D%/packet_lanes.h %D%/packet_list.h %D%/packet_mesh.h %D%/packet_ring.h %D%/packet_shaft.h %D%/packet_sponge.h %D%/packet_torus.h %D%/packet_tree.h \
 	%D%/shade_kernel.c %D%/shade_kernel.h %D%/shade_air.h %D%/shade_area.h %D%/shade_lightlets.h %D%/shade_lights.h %D%/shade_bounce.h %D%/shade_camera.h %D%/shade_caustic.h \
 	%D%/shade_color.h %D%/shade_judge.h %D%/shade_lamp.h %D%/shade_lanes.h %D%/shade_lit.h %D%/shade_place.h \
