@@ -100,6 +100,21 @@ static struct span8 cut_span(const struct carving *c, const struct leaf *l,
     return s;
 }
 
+// Whether a leaf is cut out that no line comes near: its crossings are nowhere.
+static bool cut_is_far(const struct carving *c, uint32_t place, unsigned bits)
+{
+    const struct eight *e = c->e;
+    const struct leaf *l = &e->p->w->leaf[c->o->first_leaf + place];
+    const struct aabb *b = &l->bounds;
+    if (!l->inverted || !aabb_is_finite(*b))
+        return false;
+    const struct real8 size =
+        r8_add(e->ray.o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max))));
+    const struct real8 margin = r8_mul(r8_mul(r8_set(0x1p-30), e->ray.per_length), size);
+    return !(bits &
+             box_lanes_between(e, b, r8_sub(e->t_min, margin), r8_add(c->limit, margin)));
+}
+
 // Narrows the stretch to where the leaf is; returns the lanes where something is left.
 static unsigned cut_add(struct carving *c, uint32_t place, unsigned bits, bool shown)
 {
@@ -407,7 +422,7 @@ static unsigned carve8(struct eight *e, unsigned bits, uint32_t object,
         const struct leaf *l = &p->w->leaf[o->first_leaf + i];
         if (shape[i] == PACKET_LANES)
             c.solid = o->first_leaf + i;
-        else
+        else if (!cut_is_far(&c, i, bits))
             bits = cut_add(&c, i, bits, ends_search(p, l));
     }
     if (!bits)

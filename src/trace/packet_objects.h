@@ -209,11 +209,10 @@ static unsigned lone(struct eight *e, unsigned bits, uint32_t object)
 }
 
 // The lanes that meet the box on t_min to `far`, as box_meets.
-LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
-                                   struct real8 far)
+LANES_INLINE unsigned box_lanes_between(const struct eight *e, const struct aabb *b,
+                                        struct real8 near, struct real8 far)
 {
     const struct real8 grow = r8_set(1 + BOX_SLACK);
-    struct real8 near = e->t_min;
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const struct real8 o = a == 0 ? e->ray.o.x : a == 1 ? e->ray.o.y : e->ray.o.z;
@@ -227,6 +226,12 @@ LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
         far = r8_min(r8_mul(r8_select(back, t0, t1), grow), far);
     }
     return m8_bits(r8_le(near, far));
+}
+
+LANES_INLINE unsigned box_lanes_to(const struct eight *e, const struct aabb *b,
+                                   struct real8 far)
+{
+    return box_lanes_between(e, b, e->t_min, far);
 }
 
 // The lanes that meet the box before their nearest hit, or with it.
