@@ -10,13 +10,8 @@
 
 #include "math/dd_lanes.h"
 #include "math/elementary.h"
+#include "math/lanes_bits.h"
 #include "math/power.h"
-
-typedef double power_real8 __attribute__((vector_size(64)));
-typedef int64_t power_int8 __attribute__((vector_size(64)));
-
-#define POWER_BIG      0x1.8p52           // whole numbers appear in the last bits
-#define POWER_BIG_BITS 0x4338000000000000 // its own bits
 
 // exp(x.hi + x.lo) for |x.hi| < 700.
 LANES_INLINE struct real8 power8_exp(struct dd8 x)
@@ -36,25 +31,18 @@ LANES_INLINE struct real8 power8_exp(struct dd8 x)
     const struct dd8 s = dd8_fast_sum(r8_set(1), a.hi);
     const struct real8 rest = r8_add(r8_add(q, a.lo), r8_mul(a.lo, a.hi));
     const struct real8 e = dd8_fast_sum(s.hi, r8_add(s.lo, rest)).hi;
-    double v[8];
-    power_real8 whole, scale;
-    r8_store(v, k);
-    memcpy(&whole, v, sizeof v);
-    scale =
-        (power_real8)(((power_int8)(whole + POWER_BIG) - POWER_BIG_BITS + 1023) << 52);
-    memcpy(v, &scale, sizeof v);
-    return r8_mul(e, r8_load(v));
+    return r8_mul(e, r8_power_of_two(k));
 }
 
 // x > 0, finite and normal.
 LANES_INLINE struct dd8 power8_log(struct real8 x)
 {
     double v[8];
-    power_int8 bits;
+    bits_int8 bits;
     r8_store(v, x);
     memcpy(&bits, v, sizeof v);
-    const power_real8 exponent =
-        (power_real8)((bits >> 52) - 1022 + POWER_BIG_BITS) - POWER_BIG;
+    const bits_real8 exponent =
+        (bits_real8)((bits >> 52) - 1022 + BITS_BIG_BITS) - BITS_BIG;
     bits = (bits & 0x000fffffffffffff) | 0x3fe0000000000000;
     memcpy(v, &exponent, sizeof v);
     struct real8 k = r8_load(v);

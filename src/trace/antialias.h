@@ -19,10 +19,15 @@ struct vec2 jitter_at(const struct jitter_tables *t, double x, double y);
 typedef void sample_function(void *user, const struct vec2 *position, uint32_t count,
                              float (*out)[4]);
 
-// Colours as their differences are judged, by the curve of spec/lighting.md 2.2. `working`: the
-// gamma of scene numbers, which is undone first; 0: none, < 0: sRGB. gamma: the curve's.
+// Colours as their differences are judged, by the curve of spec/lighting.md 2.2, one array a
+// channel with room for eight more. `working`: the gamma of scene numbers, which is undone
+// first; 0: none, < 0: sRGB. gamma: the curve's.
 typedef void judge_function(double working, double gamma, const float (*color)[4],
-                            uint32_t count, float (*out)[4]);
+                            uint32_t count, float *const out[4]);
+
+// Which of eight judged colours from p on differ by the threshold from those from q on.
+typedef unsigned differ_function(float *const judged[4], uint32_t p, uint32_t q,
+                                 float threshold);
 
 // The pixels [x0, x1) x [y0, y1) of a block by anti-aliasing method 1 or 2
 // (spec/lighting.md 2.2) as four floats each, rows first.
@@ -31,6 +36,7 @@ struct antialias {
     const struct jitter_tables *jitter;
     double working;
     judge_function *judge;
+    differ_function *differ;
     sample_function *sample;
     void *user;
 };

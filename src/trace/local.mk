@@ -4,7 +4,7 @@ liblambert_a_SOURCES += \
 	%D%/stab.c %D%/sweep.c %D%/world.c %D%/world.h \
 	%D%/world_build.h %D%/world_flatten.c %D%/world_leaf.c %D%/world_light.c
 liblambert_a_SOURCES += \
-	%D%/antialias.c %D%/antialias.h %D%/area.c %D%/area.h %D%/fog.c \
+	%D%/antialias.c %D%/antialias.h %D%/antialias_methods.h %D%/antialias_quarters.c %D%/antialias_scan.c %D%/area.c %D%/area.h %D%/fog.c \
 	%D%/indirect.h %D%/indirect_lanes.c %D%/indirect_lanes.h %D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/media.c %D%/media.h \
 	%D%/media_light.c %D%/media_wave.c %D%/media_lit.c %D%/media_lit.h %D%/media_march.c %D%/media_march.h \

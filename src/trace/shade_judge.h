@@ -30,29 +30,35 @@ LANES_INLINE struct real8 judge8(double working, double exponent, struct real8 v
 
 // Eight colours at a time; their transparency stays as it is.
 static void judge(double working, double gamma, const float (*color)[4], uint32_t count,
-                  float (*out)[4])
+                  float *const out[4])
 {
     for (uint32_t i = 0; i < count; i += 8) {
         const uint32_t n = count - i < 8 ? count - i : 8;
+        struct float8 c[4];
         // Skies and backgrounds: all are what the one before them is.
         if (i && memcmp(color[i - 1], color[i], n * sizeof *color) == 0) {
-            for (uint32_t k = i; k < i + n; k++)
-                memcpy(out[k], out[i - 1], sizeof *out);
+            for (int k = 0; k < 4; k++)
+                f8_store(out[k] + i, f8_set(out[k][i - 1]));
             continue;
         }
-        float judged[3][8];
-        for (int c = 0; c < 3; c++) {
-            double v[8];
-            for (uint32_t k = 0; k < 8; k++)
-                v[k] = (double)color[i + (k < n ? k : 0)][c];
-            f8_store(judged[c], f8_of(judge8(working, 1 / gamma, r8_load(v))));
-        }
-        for (uint32_t k = 0; k < n; k++) {
-            const float j[4] = {judged[0][k], judged[1][k], judged[2][k],
-                                color[i + k][3]};
-            memcpy(out[i + k], j, sizeof j);
-        }
+        float last[8][4];
+        for (uint32_t k = 0; n < 8 && k < 8; k++)
+            memcpy(last[k], color[i + (k < n ? k : 0)], sizeof last[k]);
+        f8_load_rows(n < 8 ? last[0] : color[i], c);
+        for (int k = 0; k < 3; k++)
+            f8_store(out[k] + i, f8_of(judge8(working, 1 / gamma, r8_of_floats(c[k]))));
+        f8_store(out[3] + i, c[3]);
     }
+}
+
+static unsigned differ(float *const judged[4], uint32_t p, uint32_t q, float threshold)
+{
+    struct float8 sum = f8_set(0);
+    for (int k = 0; k < 4; k++) {
+        const struct float8 d = f8_sub(f8_load(judged[k] + p), f8_load(judged[k] + q));
+        sum = f8_add(sum, f8_max(d, f8_sub(f8_set(0), d)));
+    }
+    return f8_le(f8_set(threshold), sum);
 }
 
 #endif

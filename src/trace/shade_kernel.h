@@ -70,6 +70,7 @@ struct shade_kernels {
                   float out[8]);
     // struct antialias's.
     judge_function *judge;
+    differ_function *differ;
     // Which of eight rays of a batch meet one of the boxes, as box_meets.
     unsigned (*meets)(const struct aabb *box, uint32_t count,
                       const struct ray_batch *rays, uint32_t first);

@@ -161,9 +161,13 @@ static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
     float(*color)[4] = malloc((size_t)(width * height) * sizeof *color);
     if (!color)
         abort();
-    const struct antialias a = {
-        &job->settings,      jitter, working_gamma(&job->scene->settings),
-        job->kernels->judge, sample, t};
+    const struct antialias a = {&job->settings,
+                                jitter,
+                                working_gamma(&job->scene->settings),
+                                job->kernels->judge,
+                                job->kernels->differ,
+                                sample,
+                                t};
     antialias_block(&a, tile->x0, tile->y0, tile->x1, tile->y1, color);
     for (int i = 0; i < width * height; i++)
         store(out, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);

@@ -144,7 +144,8 @@ static void check(int method, int depth, double jitter, const float (*want)[8])
                                 .aa_gamma = 2.5,
                                 .aa_jitter = jitter > 0,
                                 .aa_jitter_amount = jitter};
-    const struct antialias a = {&s, &tables, 1, shade_kernels_base.judge, edge, NULL};
+    const struct antialias a = {
+        &s, &tables, 1, shade_kernels_base.judge, shade_kernels_base.differ, edge, NULL};
     float out[64][4];
     antialias_block(&a, 0, 0, 8, 8, out);
     for (int y = 0; y < 8; y++)
@@ -214,22 +215,48 @@ static void colors_are_judged_by_the_curve(void **state)
     static const double working[] = {-1, 0, 1, 2.2}, gamma[] = {1, 2.5};
     const struct shade_kernels *const kernels[] = {
         &shade_kernels_base, ISA_NAMED(packet_kernels_choose()->name, shade_kernels)};
-    float color[COUNT][4], out[COUNT + 1][4];
+    float color[COUNT][4], out[4][COUNT + 8];
+    float *const channel[4] = {out[0], out[1], out[2], out[3]};
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 4; k++)
             color[i][k] = i % 5 == k ? 0 : (float)((k * 37 + i * 11) % 64 - 4) / 40;
     for (int c = 0; c < 16; c++) {
         const double w = working[c & 3], g = gamma[c >> 2 & 1];
-        memset(out, 0xa5, sizeof out);
-        float after;
-        memcpy(&after, out[COUNT], sizeof after);
-        kernels[c >> 3]->judge(w, g, (const float(*)[4])color, COUNT, out);
+        kernels[c >> 3]->judge(w, g, (const float(*)[4])color, COUNT, channel);
         for (int i = 0; i < COUNT; i++) {
             for (int k = 0; k < 3; k++)
-                assert_true(out[i][k] == judged(w, g, (double)color[i][k]));
-            assert_true(out[i][3] == color[i][3]);
+                assert_true(out[k][i] == judged(w, g, (double)color[i][k]));
+            assert_true(out[3][i] == color[i][3]);
         }
-        assert_memory_equal(&after, out[COUNT], sizeof after); // nothing behind them
+    }
+}
+
+static void colors_differ_by_the_sum_over_channels(void **state)
+{
+    (void)state;
+    enum { COUNT = 40 };
+    const struct shade_kernels *const kernels[] = {
+        &shade_kernels_base, ISA_NAMED(packet_kernels_choose()->name, shade_kernels)};
+    float judged[4][COUNT];
+    float *const channel[4] = {judged[0], judged[1], judged[2], judged[3]};
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 4; k++)
+            judged[k][i] = (float)((k * 37 + i * i * 11) % 64) / 160;
+    judged[0][3] = NAN;
+    for (uint32_t p = 0; p < COUNT - 8; p++) {
+        for (uint32_t q = 0; q < COUNT - 8; q++) {
+            unsigned want = 0;
+            float threshold = 0.3f;
+            for (uint32_t i = 0; i < 8; i++) {
+                float sum = 0;
+                for (int k = 0; k < 4; k++)
+                    sum += fabsf(judged[k][p + i] - judged[k][q + i]);
+                threshold = i == 0 && p % 2 ? sum : threshold; // equal ones count
+                want |= (unsigned)(sum >= threshold) << i;
+            }
+            for (int k = 0; k < 2; k++)
+                assert_int_equal(kernels[k]->differ(channel, p, q, threshold), want);
+        }
     }
 }
 
@@ -243,6 +270,7 @@ int main(void)
         cmocka_unit_test(method_2_jitter),
         cmocka_unit_test(method_2_depth),
         cmocka_unit_test(colors_are_judged_by_the_curve),
+        cmocka_unit_test(colors_differ_by_the_sum_over_channels),
         cmocka_unit_test(shuffle_is_the_noise_permutation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
