@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/arena.h"
+
 void jitter_tables_init(struct jitter_tables *t)
 {
     enum { N = 4096 };
@@ -36,6 +38,24 @@ struct vec2 jitter_at(const struct jitter_tables *t, double x, double y)
 {
     return (struct vec2){jitter_axis(t, 1021 * x, 1019 * y),
                          jitter_axis(t, 1019 * x, 1021 * y)};
+}
+
+void antialias_seams_init(struct antialias_seams *s, struct arena *a,
+                          const struct render_settings *settings)
+{
+    const int width = settings->col_end - settings->col_begin;
+    const size_t blocks = render_tile_count(settings);
+    s->size = (uint32_t)settings->tile_size;
+    s->across = ((uint32_t)width + s->size - 1) / s->size;
+    s->column = arena_alloc(a, blocks * s->size * sizeof *s->column);
+    s->row = arena_alloc(a, blocks * s->size * sizeof *s->row);
+    s->known = arena_new_array(a, atomic_uchar, blocks);
+}
+
+void antialias_seams_known(const struct antialias_seams *s, uint32_t block)
+{
+    if (s->known)
+        atomic_store_explicit(&s->known[block], 1, memory_order_release);
 }
 
 void antialias_block(const struct antialias *a, int x0, int y0, int x1, int y1,

@@ -1,10 +1,13 @@
 #ifndef TRACE_ANTIALIAS_H
 #define TRACE_ANTIALIAS_H
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 #include "math/vec.h"
 #include "trace/render.h"
+
+struct arena;
 
 // The tables of spec/lighting.md 2.3: T, a shuffle of 0..4095 written twice, and J.
 struct jitter_tables {
@@ -29,6 +32,19 @@ typedef void judge_function(double working, double gamma, const float (*color)[4
 typedef unsigned differ_function(float *const judged[4], uint32_t p, uint32_t q,
                                  float threshold);
 
+// The centres of the last column and row of every block of a picture, which the blocks on
+// the right and below ask for: a sample depends on its place alone. A block traces those
+// itself that are not known yet.
+struct antialias_seams {
+    uint32_t across, size;         // blocks a row, pixels a side
+    float (*column)[4], (*row)[4]; // of block i from i * size on
+    atomic_uchar *known;           // NULL: none are kept
+};
+void antialias_seams_init(struct antialias_seams *s, struct arena *a,
+                          const struct render_settings *settings);
+// Says that the block was done.
+void antialias_seams_known(const struct antialias_seams *s, uint32_t block);
+
 // The pixels [x0, x1) x [y0, y1) of a block by anti-aliasing method 1 or 2
 // (spec/lighting.md 2.2) as four floats each, rows first.
 struct antialias {
@@ -39,6 +55,8 @@ struct antialias {
     differ_function *differ;
     sample_function *sample;
     void *user;
+    const struct antialias_seams *seams; // NULL: none are shared
+    uint32_t block;                      // its number there
 };
 void antialias_block(const struct antialias *a, int x0, int y0, int x1, int y1,
                      float (*out)[4]);

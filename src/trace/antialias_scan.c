@@ -41,15 +41,56 @@ static void scan_room(struct scan *s, size_t count)
     s->value = must_realloc(s->value, count, sizeof *s->value);
 }
 
+// Whether the block that is `back` blocks before this one is known.
+static bool is_known(const struct scan *s, uint32_t back)
+{
+    const struct antialias_seams *seams = s->a->seams;
+    return atomic_load_explicit(&seams->known[s->a->block - back], memory_order_acquire);
+}
+
+// Takes the centres on the left and above that other blocks know.
+static void seams_take(const struct scan *s, bool *left, bool *top)
+{
+    const struct antialias_seams *seams = s->a->seams;
+    const uint32_t block = s->a->block;
+    *left = *top = false;
+    if (!seams)
+        return;
+    *left = block % seams->across > 0 && is_known(s, 1);
+    *top = block >= seams->across && is_known(s, seams->across);
+    for (int y = 0; *left && y < s->height; y++)
+        memcpy(s->centre[scan_index(s, -1, y)],
+               seams->column[(block - 1) * seams->size + (uint32_t)y], sizeof *s->centre);
+    if (*top)
+        memcpy(s->centre[scan_index(s, 0, -1)],
+               seams->row[(block - seams->across) * seams->size],
+               (size_t)s->width * sizeof *s->centre);
+}
+
+static void seams_give(const struct scan *s)
+{
+    const struct antialias_seams *seams = s->a->seams;
+    if (!seams)
+        return;
+    const uint32_t first = s->a->block * seams->size;
+    for (int y = 0; y < s->height; y++)
+        memcpy(seams->column[first + (uint32_t)y],
+               s->centre[scan_index(s, s->width - 1, y)], sizeof *s->centre);
+    memcpy(seams->row[first], s->centre[scan_index(s, 0, s->height - 1)],
+           (size_t)s->width * sizeof *s->centre);
+}
+
 static void scan_centres(struct scan *s)
 {
     const int cells = s->stride * (s->height + 1);
+    bool left, top;
     scan_room(s, (size_t)cells);
+    seams_take(s, &left, &top);
     int *cell = s->wanted; // nothing is yet
     uint32_t n = 0;
     // Two rows at once: packets are near squares.
-    for (int y = 0; y <= s->height; y += 2) {
-        for (int x = 0; x < s->stride; x++) {
+    for (int y = top; y <= s->height; y += 2) {
+        for (int x = left; x < s->stride; x++) {
             for (int k = y; k <= y + 1 && k <= s->height; k++) {
                 cell[n] = k * s->stride + x;
                 s->position[n] = (struct vec2){s->x0 + x - 0.5, s->y0 + k - 0.5};
@@ -60,6 +101,7 @@ static void scan_centres(struct scan *s)
     sample_batch(s->a, s->position, n, s->value);
     for (uint32_t i = 0; i < n; i++)
         memcpy(s->centre[cell[i]], s->value[i], sizeof s->value[i]);
+    seams_give(s);
     judge(s->a, (const float(*)[4])s->centre, (uint32_t)cells, &s->centre_judged);
 }
 

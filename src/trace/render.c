@@ -91,7 +91,7 @@ static void tile_done(struct render *r, const struct render_tile *tile)
 }
 
 // A tile that a cancel broke off is as one that was never begun.
-static void drop(const struct image *out, const struct tile *tile)
+static void drop(const struct image *out, const struct render_tile *tile)
 {
     const size_t row = (size_t)(tile->x1 - tile->x0) * (size_t)out->channels;
     for (int y = tile->y0; y < tile->y1; y++)
@@ -109,15 +109,14 @@ static void work(void *user)
             break;
         if (r->progress && r->progress->have && r->progress->have[i])
             continue;
-        const struct render_tile at = tile_at(&r->job->settings, i);
-        const struct tile tile = {at.x0, at.y0, at.x1, at.y1};
+        const struct render_tile tile = tile_at(&r->job->settings, i);
         tile_render(t, &r->tables, &tile, r->out);
         if (t->scratch->crossings.cut) {
             drop(r->out, &tile);
             break;
         }
         pthread_mutex_lock(&r->lock);
-        tile_done(r, &at);
+        tile_done(r, &tile);
         pthread_mutex_unlock(&r->lock);
     }
     pthread_mutex_lock(&r->lock);

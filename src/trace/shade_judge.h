@@ -2,30 +2,30 @@
 #define TRACE_SHADE_JUDGE_H
 
 // Colours as anti-aliasing judges their differences, by the curve of spec/lighting.md 2.2.
+#include <float.h>
+
+#include "math/near_lanes.h"
 #include "trace/shade_lanes.h"
 
-// What scene numbers of gamma `working` (0: none, < 0: sRGB) mean; below 0: 0. There 1 is
-// what powers are made of, for their sake.
-LANES_INLINE struct real8 linear8(double working, struct real8 v, struct mask8 below)
+// What scene numbers of gamma `working` (0: none, < 0: sRGB) mean; normal.
+LANES_INLINE struct float8 linear8(float working, struct float8 v)
 {
-    const struct real8 zero = r8_set(0), one = r8_set(1);
-    if (working < 0) {
-        const struct real8 power = r8_pow_single(
-            r8_select(below, one, r8_div(r8_add(v, r8_set(0.055)), r8_set(1.055))), 2.4);
-        v = r8_select(r8_lt(v, r8_set(0.04045)), r8_div(v, r8_set(12.92)), power);
-    } else if (working != 0 && working != 1) {
-        v = r8_pow_single(r8_select(below, one, v), working);
-    }
-    return r8_select(below, zero, v);
+    if (working < 0)
+        return f8_select(
+            f8_le(v, f8_set(0.04045f)), f8_mul(v, f8_set(1 / 12.92f)),
+            near_pow8(f8_mul(f8_add(v, f8_set(0.055f)), f8_set(1 / 1.055f)), 2.4f));
+    return working == 0 || working == 1 ? v : near_pow8(v, working);
 }
 
-LANES_INLINE struct real8 judge8(double working, double exponent, struct real8 v)
+LANES_INLINE struct float8 judge8(float working, float exponent, struct float8 v)
 {
-    const struct mask8 below = r8_le(v, r8_set(0));
-    const struct real8 x = linear8(working, v, below);
-    if (exponent == 1)
-        return x;
-    return r8_select(below, x, r8_pow_single(r8_select(below, r8_set(1), x), exponent));
+    const struct float8 least = f8_set(FLT_MIN), most = f8_set(FLT_MAX);
+    const unsigned none = 255 & ~f8_le(least, v); // NaN too
+    struct float8 x = f8_min(f8_select(none, f8_set(1), v), most);
+    x = linear8(working, x);
+    if (exponent != 1)
+        x = near_pow8(f8_max(x, least), exponent);
+    return f8_select(none, f8_set(0), x);
 }
 
 // Eight colours at a time; their transparency stays as it is.
@@ -46,7 +46,7 @@ static void judge(double working, double gamma, const float (*color)[4], uint32_
             memcpy(last[k], color[i + (k < n ? k : 0)], sizeof last[k]);
         f8_load_rows(n < 8 ? last[0] : color[i], c);
         for (int k = 0; k < 3; k++)
-            f8_store(out[k] + i, f8_of(judge8(working, 1 / gamma, r8_of_floats(c[k]))));
+            f8_store(out[k] + i, judge8((float)working, (float)(1 / gamma), c[k]));
         f8_store(out[3] + i, c[3]);
     }
 }

@@ -45,6 +45,8 @@ void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *
     const int height = least(s->tile_size, s->row_end - s->row_begin);
     if (s->antialias || camera_has_lens(job->camera))
         jitter_tables_init(&t->jitter);
+    if (s->antialias == 1 && !camera_has_lens(job->camera))
+        antialias_seams_init(&t->seams, a, s);
     if (camera_has_lens(job->camera))
         lens_init(&t->lens, a, job->camera, &t->jitter);
     t->place_count = 0;
@@ -90,9 +92,9 @@ struct plain_batch {
 };
 
 // by_row: the places in the order of their pixels; NULL: as they come.
-static inline void store_places(const struct tile *tile, const struct tile_place *place,
-                                const uint16_t *by_row, uint32_t count,
-                                const float *color, struct image *out)
+static inline void store_places(const struct render_tile *tile,
+                                const struct tile_place *place, const uint16_t *by_row,
+                                uint32_t count, const float *color, struct image *out)
 {
     float *const corner = image_at(out, tile->x0, tile->y0);
     const int width = out->width, channels = out->channels;
@@ -103,7 +105,7 @@ static inline void store_places(const struct tile *tile, const struct tile_place
     }
 }
 
-static void plain_trace(struct tracer *t, const struct tile *tile,
+static void plain_trace(struct tracer *t, const struct render_tile *tile,
                         const struct tile_place *place, const uint16_t *by_row,
                         uint32_t count, struct plain_batch *b, struct image *out)
 {
@@ -120,7 +122,7 @@ static void plain_trace(struct tracer *t, const struct tile *tile,
 
 // One ray a pixel, in Morton order, so that rays of a packet stay close together.
 static void plain(struct tracer *t, const struct tile_tables *tables,
-                  const struct tile *tile, struct image *out)
+                  const struct render_tile *tile, struct image *out)
 {
     struct plain_batch b;
     const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
@@ -153,22 +155,26 @@ static double working_gamma(const struct settings *s)
                                           : 0;
 }
 
-static void smoothed(struct tracer *t, const struct jitter_tables *jitter,
-                     const struct tile *tile, struct image *out)
+static void smoothed(struct tracer *t, const struct tile_tables *tables,
+                     const struct render_tile *tile, struct image *out)
 {
     const struct job *job = t->job;
     const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
     float(*color)[4] = malloc((size_t)(width * height) * sizeof *color);
     if (!color)
         abort();
-    const struct antialias a = {&job->settings,
-                                jitter,
-                                working_gamma(&job->scene->settings),
-                                job->kernels->judge,
-                                job->kernels->differ,
-                                sample,
-                                t};
+    const struct antialias a = {.settings = &job->settings,
+                                .jitter = &tables->jitter,
+                                .working = working_gamma(&job->scene->settings),
+                                .judge = job->kernels->judge,
+                                .differ = job->kernels->differ,
+                                .sample = sample,
+                                .user = t,
+                                .seams = &tables->seams,
+                                .block = tile->index};
     antialias_block(&a, tile->x0, tile->y0, tile->x1, tile->y1, color);
+    if (!t->scratch->crossings.cut)
+        antialias_seams_known(&tables->seams, tile->index);
     for (int i = 0; i < width * height; i++)
         store(out, image_at(out, tile->x0 + i % width, tile->y0 + i / width), color[i]);
     free(color);
@@ -220,7 +226,8 @@ static void lens_trace(struct tracer *t, struct lens_rays *r)
 
 // Traces the next batch of every pixel that still needs one; returns how many do.
 static int blur_round(struct tracer *t, const struct tile_tables *tables,
-                      const struct tile *tile, struct blurred *pixel, struct lens_rays *r)
+                      const struct render_tile *tile, struct blurred *pixel,
+                      struct lens_rays *r)
 {
     const struct job *job = t->job;
     const struct lens *lens = &tables->lens;
@@ -248,7 +255,7 @@ static int blur_round(struct tracer *t, const struct tile_tables *tables,
 }
 
 static void blurred(struct tracer *t, const struct tile_tables *tables,
-                    const struct tile *tile, struct image *out)
+                    const struct render_tile *tile, struct image *out)
 {
     const int width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
     struct blurred *pixel = calloc((size_t)count, sizeof *pixel);
@@ -271,12 +278,12 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
 }
 
 void tile_render(struct tracer *t, const struct tile_tables *tables,
-                 const struct tile *tile, struct image *out)
+                 const struct render_tile *tile, struct image *out)
 {
     if (camera_has_lens(t->job->camera))
         blurred(t, tables, tile, out); // the samples lie all over a pixel: smooth too
     else if (t->job->settings.antialias)
-        smoothed(t, &tables->jitter, tile, out);
+        smoothed(t, tables, tile, out);
     else
         plain(t, tables, tile, out);
 }

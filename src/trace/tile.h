@@ -6,10 +6,6 @@
 #include "trace/lens.h"
 #include "trace/tracer.h"
 
-struct tile {
-    int x0, y0, x1, y1; // half-open
-};
-
 struct tile_place {
     uint16_t x, y; // from the tile's corner
 };
@@ -17,9 +13,10 @@ struct tile_place {
 // Worked out once for all tiles.
 struct tile_tables {
     struct jitter_tables jitter;
-    struct lens lens;         // of a camera that has one
-    struct tile_place *place; // the pixels of a whole tile in Morton order
-    uint16_t *by_row;         // of each BATCH_SIZE of them, the order of their rows
+    struct antialias_seams seams; // of method 1
+    struct lens lens;             // of a camera that has one
+    struct tile_place *place;     // the pixels of a whole tile in Morton order
+    uint16_t *by_row;             // of each BATCH_SIZE of them, the order of their rows
     uint32_t place_count;
 };
 
@@ -27,6 +24,6 @@ void tile_tables_init(struct tile_tables *t, struct arena *a, const struct job *
 
 // Renders the pixels of a tile into the picture.
 void tile_render(struct tracer *t, const struct tile_tables *tables,
-                 const struct tile *tile, struct image *out);
+                 const struct render_tile *tile, struct image *out);
 
 #endif

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "math/elementary.h"
 #include "math/isa.h"
 #include "trace/antialias.h"
@@ -144,13 +145,76 @@ static void check(int method, int depth, double jitter, const float (*want)[8])
                                 .aa_gamma = 2.5,
                                 .aa_jitter = jitter > 0,
                                 .aa_jitter_amount = jitter};
-    const struct antialias a = {
-        &s, &tables, 1, shade_kernels_base.judge, shade_kernels_base.differ, edge, NULL};
+    const struct antialias a = {.settings = &s,
+                                .jitter = &tables,
+                                .working = 1,
+                                .judge = shade_kernels_base.judge,
+                                .differ = shade_kernels_base.differ,
+                                .sample = edge};
     float out[64][4];
     antialias_block(&a, 0, 0, 8, 8, out);
     for (int y = 0; y < 8; y++)
         for (int x = 0; x < 8; x++)
             assert_near(out[8 * y + x][0], want[y][x], tolerance);
+}
+
+static void edge_counted(void *user, const struct vec2 *position, uint32_t count,
+                         float (*out)[4])
+{
+    *(uint32_t *)user += count;
+    edge(NULL, position, count, out);
+}
+
+// Blocks of 4 x 4 pixels, in the order of their numbers or the other way round.
+static uint32_t in_blocks(const struct antialias_seams *seams,
+                          const struct render_settings *s, bool back, float (*out)[16][4])
+{
+    struct jitter_tables tables;
+    jitter_tables_init(&tables);
+    uint32_t samples = 0;
+    struct antialias a = {.settings = s,
+                          .jitter = &tables,
+                          .working = 1,
+                          .judge = shade_kernels_base.judge,
+                          .differ = shade_kernels_base.differ,
+                          .sample = edge_counted,
+                          .user = &samples,
+                          .seams = seams};
+    for (int k = 0; k < 4; k++) {
+        a.block = (uint32_t)(back ? 3 - k : k);
+        const struct render_tile t = render_tile_at(s, a.block);
+        antialias_block(&a, t.x0, t.y0, t.x1, t.y1, out[a.block]);
+        if (seams)
+            antialias_seams_known(seams, a.block);
+    }
+    return samples;
+}
+
+static void seams_save_samples_and_change_nothing(void **state)
+{
+    (void)state;
+    const struct render_settings s = {.width = 8,
+                                      .height = 8,
+                                      .col_end = 8,
+                                      .row_end = 8,
+                                      .tile_size = 4,
+                                      .antialias = 1,
+                                      .aa_threshold = 0.3,
+                                      .aa_depth = 3,
+                                      .aa_gamma = 2.5,
+                                      .aa_jitter = true,
+                                      .aa_jitter_amount = 1};
+    float alone[4][16][4], out[4][16][4];
+    const uint32_t all = in_blocks(NULL, &s, false, alone);
+    for (int back = 0; back < 2; back++) {
+        struct arena *arena = arena_new(1024);
+        struct antialias_seams seams;
+        antialias_seams_init(&seams, arena, &s);
+        const uint32_t fewer = in_blocks(&seams, &s, back, out);
+        assert_memory_equal(out, alone, sizeof out);
+        assert_int_equal(all - fewer, back ? 0 : 16); // four sides of four pixels
+        arena_free(arena);
+    }
 }
 
 static void method_1_plain(void **state)
@@ -211,22 +275,27 @@ static float judged(double working, double gamma, double v)
 static void colors_are_judged_by_the_curve(void **state)
 {
     (void)state;
-    enum { COUNT = 33 }; // an odd one: the last stands alone
+    enum { COUNT = 1001 }; // an odd one: the last stands alone
     static const double working[] = {-1, 0, 1, 2.2}, gamma[] = {1, 2.5};
     const struct shade_kernels *const kernels[] = {
         &shade_kernels_base, ISA_NAMED(packet_kernels_choose()->name, shade_kernels)};
-    float color[COUNT][4], out[4][COUNT + 8];
-    float *const channel[4] = {out[0], out[1], out[2], out[3]};
+    static float color[COUNT][4], out[2][4][COUNT + 8];
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 4; k++)
-            color[i][k] = i % 5 == k ? 0 : (float)((k * 37 + i * 11) % 64 - 4) / 40;
-    for (int c = 0; c < 16; c++) {
-        const double w = working[c & 3], g = gamma[c >> 2 & 1];
-        kernels[c >> 3]->judge(w, g, (const float(*)[4])color, COUNT, channel);
+            color[i][k] = i % 5 == k ? 0 : (float)((k * 37 + i * 11) % 4001 - 100) / 1900;
+    for (int c = 0; c < 8; c++) {
+        const double w = working[c & 3], g = gamma[c >> 2];
+        for (int k = 0; k < 2; k++) {
+            float *const channel[4] = {out[k][0], out[k][1], out[k][2], out[k][3]};
+            kernels[k]->judge(w, g, (const float(*)[4])color, COUNT, channel);
+        }
         for (int i = 0; i < COUNT; i++) {
-            for (int k = 0; k < 3; k++)
-                assert_true(out[k][i] == judged(w, g, (double)color[i][k]));
-            assert_true(out[3][i] == color[i][3]);
+            for (int k = 0; k < 3; k++) {
+                const float want = judged(w, g, (double)color[i][k]);
+                assert_true(out[0][k][i] == out[1][k][i]);
+                assert_true(fabsf(out[0][k][i] - want) <= want * 0x1p-19f);
+            }
+            assert_true(out[0][3][i] == color[i][3] && out[1][3][i] == color[i][3]);
         }
     }
 }
@@ -269,6 +338,7 @@ int main(void)
         cmocka_unit_test(method_2_plain),
         cmocka_unit_test(method_2_jitter),
         cmocka_unit_test(method_2_depth),
+        cmocka_unit_test(seams_save_samples_and_change_nothing),
         cmocka_unit_test(colors_are_judged_by_the_curve),
         cmocka_unit_test(colors_differ_by_the_sum_over_channels),
         cmocka_unit_test(shuffle_is_the_noise_permutation),
