@@ -66,11 +66,9 @@ const struct inside *inside_among(struct arena *a, const struct world *w,
     return any ? inside_at(a, w, p) : NULL;
 }
 
-static float fade_channel(const struct interior *i, double s, float color)
+static float fade_channel(double loss, float color)
 {
-    const double way = s / i->fade_distance;
-    return (float)(color +
-                   (1 - (double)color) / (1 + det_pow_single(way, i->fade_power)));
+    return (float)(color + (1 - (double)color) / loss);
 }
 
 struct rgb interior_fade(const struct interior *i, double s)
@@ -81,6 +79,7 @@ struct rgb interior_fade(const struct interior *i, double s)
         return rgb((float)det_exp_single(e[0]), (float)det_exp_single(e[1]),
                    (float)det_exp_single(e[2]));
     }
-    return rgb(fade_channel(i, s, i->fade_color.r), fade_channel(i, s, i->fade_color.g),
-               fade_channel(i, s, i->fade_color.b));
+    const double loss = 1 + det_pow_single(s / i->fade_distance, i->fade_power);
+    return rgb(fade_channel(loss, i->fade_color.r), fade_channel(loss, i->fade_color.g),
+               fade_channel(loss, i->fade_color.b));
 }
