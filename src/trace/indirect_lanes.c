@@ -34,15 +34,34 @@ static void ask(struct tracer *t, uint32_t k, const struct indirect_hit *hit,
                        rgb_mul(matt, light)));
 }
 
+static struct interaction interaction_of(const struct tracer *t, const struct ray *ray,
+                                         const struct hit *met)
+{
+    struct interaction at;
+    trace_interaction(t->job->world, ray, met, &at);
+    return at;
+}
+
+static struct vec3 towards(struct vec3 n, struct vec3 d)
+{
+    return vec3_dot(n, d) > 0 ? vec3_neg(n) : n;
+}
+
+struct vec3 bare_normal(const struct tracer *t, uint32_t k)
+{
+    const struct ray ray = ray_of(t, k);
+    const struct hit met = hit_batch_at(t->hit, k);
+    return towards(interaction_of(t, &ray, &met).ns, ray.d);
+}
+
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back)
 {
     const struct ray ray = ray_of(t, k);
     const struct hit met = hit_batch_at(t->hit, k);
-    struct interaction at;
-    trace_interaction(t->job->world, &ray, &met, &at);
-    const struct vec3 own = vec3_dot(at.ns, ray.d) > 0 ? vec3_neg(at.ns) : at.ns;
-    const struct indirect_hit hit = {&ray, &met, &at, n ? *n : own, NULL};
+    const struct interaction at = interaction_of(t, &ray, &met);
+    const struct indirect_hit hit = {&ray, &met, &at, n ? *n : towards(at.ns, ray.d),
+                                     NULL};
     ask(t, k, &hit, matt, back);
 }
 

@@ -45,6 +45,8 @@ struct indirect_kept {
 void indirect_keep(const struct simple_group *g, const struct indirect_side *side,
                    struct indirect_kept *kept);
 void indirect_ask_kept(struct tracer *t, uint32_t k, const struct indirect_kept *kept);
+// The surface's own normal where ray k of the batch meets it, towards the ray.
+struct vec3 bare_normal(const struct tracer *t, uint32_t k);
 // Adds the light of one hit, that of ray k of the batch; n: of the layer, NULL: the surface's own.
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back);

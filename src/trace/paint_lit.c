@@ -3,6 +3,7 @@
 #include "scene/effects.h"
 #include "trace/indirect_lanes.h"
 #include "trace/paint.h"
+#include "trace/photons.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 
@@ -26,7 +27,8 @@ bool paint_lights_texture(const struct job *job, const struct texture *x)
     return lights;
 }
 
-// Their light would be added before that by way of others where it waits for the ray's turn.
+// Their light, and that of photons, would be added before that by way of others where it waits for
+// the ray's turn.
 static bool some_unshadowed(const struct job *job, const struct lamp_list *lamps)
 {
     bool some = false;
@@ -39,9 +41,8 @@ static bool some_unshadowed(const struct job *job, const struct lamp_list *lamps
 bool paint_lights_surface(const struct job *job, const struct surface *s)
 {
     const struct lamp_list *lamps = &job->lamps[s->light_group];
-    return !(job->collects && some_unshadowed(job, lamps)) &&
-           !(job->shoots && (!s->photons || s->photons->collect)) &&
-           lamps_are_simple(job, lamps);
+    const bool more = some_unshadowed(job, lamps) || (job->shoots && photons_collect(s));
+    return !(job->collects && more) && lamps_are_simple(job, lamps);
 }
 
 // ---- rays that go on --------------------------------------------------------------------
@@ -226,6 +227,25 @@ static void group_indirect(struct tracer *t, const struct paint_group *g)
             indirect_side_light(t, &g->hits, &side[k]);
 }
 
+// As shade_photons of each lane.
+static void group_photons(struct tracer *t, const struct paint_group *g)
+{
+    const struct simple_group *h = &g->hits;
+    struct shading s; // not set to zero: it is large
+    s.t = t;
+    s.at.surface = g->surface;
+    for (unsigned live = h->live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        const struct path path = wave_path(t, h->slot[i]);
+        t->slot = h->slot[i];
+        s.path = &path;
+        s.at.p = vec3(h->p[0][i], h->p[1][i], h->p[2][i]);
+        s.view.n = vec3(h->n[0][i], h->n[1][i], h->n[2][i]);
+        lane_layers(t, g, i, &s);
+        shade_photons(&s);
+    }
+}
+
 void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
 {
     const struct shade_kernels *kernels = t->job->kernels;
@@ -250,4 +270,6 @@ void paint_light(struct tracer *t, const struct paint_group *g, uint32_t count)
                 kernels->light_sheets(t, side_test, lamps->lamp[i], g, count, queued);
     if (queued)
         shadow_flush_simple(t, queued);
+    for (uint32_t i = 0; i < count && t->job->photons && photons_collect(surface); i++)
+        group_photons(t, &g[i]);
 }

@@ -28,13 +28,19 @@ struct photons *photons_shoot(const struct job *job, const struct photon_store *
                               const volatile bool *cancel);
 void photons_free(struct photons *p);
 
-// Whether photons bring the light of a lamp to a surface past targets, which then throw
-// shadows (spec/lighting.md 7.5). 0: no; 1: past those with refraction on; 2: past all.
-static inline uint8_t photons_instead(const struct job *job, const struct surface *to,
+// Whether a surface gathers photons where there are any.
+static inline bool photons_collect(const struct surface *s)
+{
+    return !s->photons || s->photons->collect;
+}
+// Whether photons bring the light of a lamp, past targets, which then throw shadows
+// (spec/lighting.md 7.5), to a surface that gathers them. 0: no; 1: past those with refraction
+// on; 2: past all.
+static inline uint8_t photons_instead(const struct job *job, bool collects,
                                       const struct light *light)
 {
     if (!job->photons || !job->photons->surface.count || light->photon_refraction < 0 ||
-        (to->photons && !to->photons->collect))
+        !collects)
         return 0;
     return light->photon_refraction > 0 ? 2 : 1;
 }

@@ -187,14 +187,15 @@ static void shade_lamp(struct shading *s, const struct lamp *lamp)
         tracer_add(s->t, value);
         return;
     }
-    struct shadow_request r = {.o = trace_offset(&s->at, view.l),
-                               .d = view.l,
-                               .t_max = view.distance,
-                               .value = value,
-                               .inside = s->path->inside,
-                               .slot = s->t->slot,
-                               .lamp = lamp->index,
-                               .photons = photons_instead(job, s->at.surface, light)};
+    struct shadow_request r = {
+        .o = trace_offset(&s->at, view.l),
+        .d = view.l,
+        .t_max = view.distance,
+        .value = value,
+        .inside = s->path->inside,
+        .slot = s->t->slot,
+        .lamp = lamp->index,
+        .photons = photons_instead(job, photons_collect(s->at.surface), light)};
     if (area && !light->shadowless)
         area_add(s->t, &(struct area_request){lamp, s->at.p, s->at.ng, s->at.error, value,
                                               r.slot, s->path->hash, r.photons});

@@ -5,6 +5,7 @@
 // of area lights that wait.
 #include "math/lanes_pack.h"
 #include "trace/area.h"
+#include "trace/photons.h"
 #include "trace/projected.h"
 #include "trace/shade_lightlets.h"
 #include "trace/shade_lit.h"
@@ -33,13 +34,36 @@ LANES_INLINE void add_own(struct tracer *t, const struct simple_group *g, unsign
     }
 }
 
+// What shade_lamp asks of the lamp alone.
+struct shaded_lamp {
+    const struct lamp *lamp;
+    bool even, shadowed, area, lightlets;
+    uint8_t photons; // photons_instead
+};
+
+static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp,
+                                      bool collects)
+{
+    const struct light *l = lamp->light;
+    const bool shadowed = t->job->shadows && (!l->shadowless || lamp->window);
+    return (struct shaded_lamp){
+        lamp,
+        !lamp_has_lightlets(t->job, l) && l->kind == LIGHT_POINT &&
+            !(l->fade_power > 0 && l->fade_distance != 0),
+        shadowed,
+        shadowed && !l->shadowless && l->area && t->job->area_lights,
+        lamp_has_lightlets(t->job, l),
+        photons_instead(t->job, collects, l)};
+}
+
 // Queues the shadow rays of the lanes (trace_offset).
-LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
+LANES_INLINE uint32_t queue8(struct tracer *t, const struct shaded_lamp *lamp,
                              const struct simple_group *g, unsigned live,
                              const struct light8 *v, struct rgb8 value, uint32_t queued)
 {
     struct shadow_batch *b = &t->simple;
-    memset(b->air + queued, air_counts(t->job, lamp->index), 8);
+    memset(b->air + queued, air_counts(t->job, lamp->lamp->index), 8);
+    memset(b->photons + queued, lamp->photons, 8);
     const struct vec8 ng = v8_load((const double(*)[8])g->ng);
     const struct real8 side =
         r8_select(r8_lt(v8_dot(v->to, ng), r8_set(0)), r8_set(-1), r8_set(1));
@@ -60,28 +84,11 @@ LANES_INLINE uint32_t queue8(struct tracer *t, const struct lamp *lamp,
     return queued;
 }
 
-// What shade_lamp asks of the lamp alone.
-struct shaded_lamp {
-    const struct lamp *lamp;
-    bool even, shadowed, area, lightlets;
-};
-
-static struct shaded_lamp shaded_lamp(const struct tracer *t, const struct lamp *lamp)
-{
-    const struct light *l = lamp->light;
-    const bool shadowed = t->job->shadows && (!l->shadowless || lamp->window);
-    return (struct shaded_lamp){
-        lamp,
-        !lamp_has_lightlets(t->job, l) && l->kind == LIGHT_POINT &&
-            !(l->fade_power > 0 && l->fade_distance != 0),
-        shadowed, shadowed && !l->shadowless && l->area && t->job->area_lights,
-        lamp_has_lightlets(t->job, l)};
-}
-
 // Keeps the lanes as places of an area light.
-static void area_add8(struct tracer *t, const struct lamp *lamp,
+static void area_add8(struct tracer *t, const struct shaded_lamp *shaded,
                       const struct simple_group *g, unsigned live, struct rgb8 value)
 {
+    const struct lamp *lamp = shaded->lamp;
     float c[3][8];
     f8_store(c[0], value.r);
     f8_store(c[1], value.g);
@@ -95,7 +102,8 @@ static void area_add8(struct tracer *t, const struct lamp *lamp,
                         .error = g->error[i],
                         .value = {c[0][i], c[1][i], c[2][i]},
                         .slot = g->slot[i],
-                        .hash = lamp->light->jitter ? wave_hash(t, g->slot[i]) : 0});
+                        .hash = lamp->light->jitter ? wave_hash(t, g->slot[i]) : 0,
+                        .photons = shaded->photons});
     }
 }
 
@@ -116,7 +124,7 @@ LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
         add_own(t, g, bare, value);
     live &= ~bare;
     if (live && lamp->area) {
-        area_add8(t, lamp->lamp, g, live, value);
+        area_add8(t, lamp, g, live, value);
         return queued;
     }
     if (!live)
@@ -125,7 +133,7 @@ LANES_INLINE uint32_t lamp_add(struct tracer *t, const struct shaded_lamp *lamp,
         shadow_flush_simple(t, queued);
         queued = 0;
     }
-    const uint32_t end = queue8(t, lamp->lamp, g, live, v, value, queued);
+    const uint32_t end = queue8(t, lamp, g, live, v, value, queued);
     return lamp->lamp->window ? window_take(t, lamp->lamp, queued, end) : end;
 }
 
@@ -209,7 +217,7 @@ static uint32_t light(struct tracer *t, const struct simple_class *c,
                       const struct lamp *lamp, const struct simple_group *g,
                       uint32_t groups, uint32_t queued)
 {
-    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
+    const struct shaded_lamp shaded = shaded_lamp(t, lamp, c->collects);
     struct lit_hits x = {.class = c, .side_test = c->side_test};
     if (shaded.even && is_black(lamp->light->color))
         return queued;
@@ -225,7 +233,7 @@ static uint32_t light_sheets(struct tracer *t, bool side_test, const struct lamp
                              const struct paint_group *g, uint32_t groups,
                              uint32_t queued)
 {
-    const struct shaded_lamp shaded = shaded_lamp(t, lamp);
+    const struct shaded_lamp shaded = shaded_lamp(t, lamp, photons_collect(g->surface));
     struct lit_hits x = {.side_test = side_test};
     if (shaded.even && is_black(lamp->light->color))
         return queued;

@@ -1,11 +1,6 @@
+#include "trace/indirect_lanes.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
-
-// Whether the surface gathers photons.
-static bool collects(const struct surface *s)
-{
-    return !s->photons || s->photons->collect;
-}
 
 static struct rgb photon_lit(const struct shading *s, const struct photon *p,
                              bool side_test)
@@ -33,7 +28,7 @@ void shade_photons(struct shading *s)
     const struct photons *photons = s->t->job->photons;
     const struct photon_map *m = &photons->surface;
     bool any = false, plain = true;
-    if (!m->count || !collects(s->at.surface))
+    if (!m->count || !photons_collect(s->at.surface))
         return;
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const struct finish *f = s->layer[i].finish;
@@ -52,4 +47,35 @@ void shade_photons(struct shading *s)
     if (reach > 0)
         tracer_add(s->t, rgb_mul(s->path->through,
                                  rgb_scale((float)(1 / (pi * reach * reach)), sum)));
+}
+
+void simple_photons(struct tracer *t, const struct simple_class *c,
+                    const struct simple_group *g)
+{
+    if (!t->job->photons)
+        return;
+    struct shading s; // not set to zero: it is large
+    struct path path = {.hash = 0};
+    s.t = t;
+    s.path = &path;
+    s.layer = s.few;
+    s.layer_count = 1;
+    for (unsigned live = g->live; live; live &= live - 1) {
+        const int i = __builtin_ctz(live);
+        const uint32_t surface = t->job->world->leaf[t->hit->leaf[g->ray[i]]].surface;
+        t->slot = g->slot[i];
+        path.d = vec3(g->d[0][i], g->d[1][i], g->d[2][i]);
+        path.through = rgb(g->through[0][i], g->through[1][i], g->through[2][i]);
+        s.at.surface = &t->job->world->surface[surface];
+        s.at.p = vec3(g->p[0][i], g->p[1][i], g->p[2][i]);
+        s.few[0] =
+            (struct layer){.finish = c->finish,
+                           .n = vec3(g->n[0][i], g->n[1][i], g->n[2][i]),
+                           .color = rgb(g->color[0][i], g->color[1][i], g->color[2][i]),
+                           .att = g->att[i],
+                           .filter = rgb(1, 1, 1)};
+        s.view.n =
+            t->job->simple[surface].normal ? bare_normal(t, g->ray[i]) : s.few[0].n;
+        shade_photons(&s);
+    }
 }

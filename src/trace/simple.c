@@ -10,6 +10,7 @@
 #include "trace/accel.h"
 #include "trace/indirect_lanes.h"
 #include "trace/packet.h"
+#include "trace/photons.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
 
@@ -82,7 +83,7 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
-        s->parts || s->cutaway || (job->shoots && (!s->photons || s->photons->collect)))
+        s->parts || s->cutaway)
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;
@@ -132,10 +133,12 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
     const struct finish *f = s->texture->layer[0].finish;
     const bool side_test = !(s->flags & OBJECT_DOUBLE_ILLUMINATE);
     const bool clear = pigment_is_clear(s->texture->layer[0].pigment);
+    const bool collects = job->shoots && photons_collect(s);
     const uint32_t count = job->simple_class_count;
     for (uint32_t i = count; i-- > 0 && count - i <= RECENT;)
         if (all[i].side_test == side_test && all[i].light_group == s->light_group &&
-            all[i].clear == clear && same_finish(all[i].finish, f))
+            all[i].clear == clear && all[i].collects == collects &&
+            same_finish(all[i].finish, f))
             return i;
     all[count] = (struct simple_class){
         .finish = f,
@@ -145,6 +148,7 @@ static uint32_t class_of(struct job *job, struct simple_class *all,
         .side_test = side_test,
         .takes_light = finish_takes_light(f),
         .clear = clear,
+        .collects = collects,
         .mirror = job->mirrors && finish_has_mirror(f),
     };
     return job->simple_class_count++;
@@ -348,6 +352,8 @@ static void shade_class(struct tracer *t, const struct simple_class *c, uint32_t
     for (uint32_t i = 0; i < c->lamps->count && c->takes_light; i++)
         if (!c->lamps->lamp[i]->inert)
             *queued = kernels->light(t, c, c->lamps->lamp[i], t->group, groups, *queued);
+    for (uint32_t i = 0; i < groups && c->collects && c->takes_light; i++)
+        simple_photons(t, c, &t->group[i]);
     for (uint32_t i = 0; i < groups && (c->mirror || c->clear); i++)
         simple_bounce(t, c, &t->group[i]);
 }

@@ -18,7 +18,8 @@ struct simple_class {
     struct rgb own; // light given off, before it is multiplied by the colour
     bool side_test; // light from behind counts apart
     bool takes_light, mirror;
-    bool clear; // lets light through
+    bool clear;    // lets light through
+    bool collects; // gathers photons
 };
 
 enum simple_pigment {
@@ -91,6 +92,9 @@ bool simple_take(struct tracer *t, uint32_t k, uint32_t count);
 void simple_ask(struct tracer *t, uint32_t k, uint32_t end);
 // Shades the hits that were kept.
 void simple_shade(struct tracer *t);
+// The light of photons on a group (trace/shade_photons.c).
+void simple_photons(struct tracer *t, const struct simple_class *c,
+                    const struct simple_group *g);
 // The rays that go on from a group (trace/simple_bounce.c).
 void simple_bounce(struct tracer *t, const struct simple_class *c,
                    const struct simple_group *g);

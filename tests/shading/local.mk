@@ -3,7 +3,7 @@ noinst_PROGRAMS += check_pixels
 check_pixels_SOURCES = %D%/check_pixels.c
 check_pixels_LDADD = $(lambert_libs)
 TESTS += %D%/run-shading.sh
-EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirrors-painted.scn %D%/not-built.txt \
+EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirrors-painted.scn %D%/photons-painted.scn %D%/not-built.txt \
 	%D%/001-camera-default.pov \
 	%D%/002-camera-perspective-angle.pov \
 	%D%/003-camera-perspective-lookat.pov \
