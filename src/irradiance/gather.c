@@ -67,7 +67,7 @@ void gatherer_start(struct gatherer *g, uint32_t direction)
     for (uint32_t k = 0; k < g->cache->depths; k++) {
         struct gather_level *l = &g->level[k];
         l->next = direction % g->cache->direction_count;
-        l->asked = l->asked_fresh = (struct store_memo){.cell_count = 0};
+        l->asked = (struct store_memo){.cell_count = 0};
     }
 }
 
@@ -360,7 +360,7 @@ bool gather_is_wanted(const struct irradiance_cache *c, const struct cache_sampl
                                    s->depth, false, least};
     struct cache_mean mean = {0};
     if (c->store.count)
-        store_mean(&c->store, &at, NULL, &mean);
+        store_mean(&c->store, &at, &mean);
     return mean.weight < least;
 }
 
@@ -389,14 +389,15 @@ static void tell_quality(const struct gather_level *l, const struct indirect_que
             (float)fmin(1, sample_weight * weight / required(l->owner, l->depth));
 }
 
-static struct cache_mean mean_known(struct gather_level *l, const struct cache_point *at)
+static struct cache_mean mean_known(const struct gather_level *l,
+                                    const struct cache_point *at)
 {
     const struct store *known = &l->owner->cache->store, *fresh = l->owner->fresh;
     struct cache_mean mean = {0};
     if (known->count)
-        store_mean(known, at, &l->asked, &mean);
+        store_mean(known, at, &mean);
     if (fresh && fresh->count && mean.weight < at->enough)
-        store_mean(fresh, at, &l->asked_fresh, &mean);
+        store_mean(fresh, at, &mean);
     return mean;
 }
 

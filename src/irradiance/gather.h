@@ -38,7 +38,7 @@ struct gather_level {
     float *quality; // of what each met, as the next depth tells
     struct gather_waiting *waiting;
     uint32_t waiting_count, waiting_most;
-    struct store_memo asked, asked_fresh;
+    struct store_memo asked;
 };
 
 struct gatherer {

@@ -1,10 +1,12 @@
 #include "irradiance/store_kernel.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "math/isa.h"
 
 void store_init(struct store *s, const char *isa)
@@ -19,8 +21,10 @@ void store_init(struct store *s, const char *isa)
 void store_free(struct store *s)
 {
     free(s->sample);
+    free(s->spot);
     free(s->filed);
     free(s->cell);
+    free(s->tag);
 }
 
 // ---- weights ----------------------------------------------------------------------------
@@ -72,13 +76,7 @@ double cache_weight(const struct cache_sample *s, const struct cache_point *at)
 
 static uint32_t cell_hash(const struct cache_cell *c)
 {
-    uint32_t h = (uint32_t)c->size * 0x9e3779b9u + c->depth;
-    for (int k = 0; k < 3; k++) {
-        h ^= (uint32_t)c->place[k];
-        h *= 0x85ebca6bu;
-        h ^= h >> 15;
-    }
-    return h * 0xc2b2ae35u;
+    return cache_cell_hash(c->place, c->size, c->depth);
 }
 
 static bool same_cell(const struct cache_cell *a, const struct cache_cell *b)
@@ -87,24 +85,33 @@ static bool same_cell(const struct cache_cell *a, const struct cache_cell *b)
            a->place[2] == b->place[2] && a->size == b->size && a->depth == b->depth;
 }
 
-// Where the cell is looked for first.
-static uint32_t cell_home(const struct store *s, const struct cache_cell *c)
+// Where a cell with that hash is looked for first.
+static uint32_t cell_home(const struct store *s, uint32_t hash)
 {
-    return cell_hash(c) >> 7 & (s->cell_capacity - 1);
+    return hash >> 7 & (s->cell_capacity - 1);
 }
 
-// The slot that holds the cell whose home that is, or the free one where it belongs.
-static struct cache_cell *cell_from(const struct store *s, const struct cache_cell *c,
-                                    uint32_t home)
+static uint8_t cell_tag(uint32_t hash) { return (uint8_t)(128 | (hash & 127)); }
+
+// The slot that holds the cell, or the free one where it belongs. Most cells that points ask
+// for do not exist, which the tags alone tell: few bytes, that stay near.
+static uint32_t cell_slot(const struct store *s, const struct cache_cell *c,
+                          uint32_t hash)
 {
-    for (uint32_t i = home;; i = (i + 1) & (s->cell_capacity - 1))
-        if (!s->cell[i].count || same_cell(&s->cell[i], c))
-            return &s->cell[i];
+    const uint8_t tag = cell_tag(hash);
+    for (uint32_t i = cell_home(s, hash);; i = (i + 1) & (s->cell_capacity - 1))
+        if (!s->tag[i] || (s->tag[i] == tag && same_cell(&s->cell[i], c)))
+            return i;
 }
 
-static struct cache_cell *cell_slot(const struct store *s, const struct cache_cell *c)
+static const struct cache_cell no_cell = {.count = 0};
+
+// The cell, or an empty one.
+static const struct cache_cell *cell_find(const struct store *s,
+                                          const struct cache_cell *c, uint32_t hash)
 {
-    return cell_from(s, c, cell_home(s, c));
+    const uint32_t i = cell_slot(s, c, hash);
+    return s->tag[i] ? &s->cell[i] : &no_cell;
 }
 
 static void *grown(void *at, uint32_t *capacity, size_t size)
@@ -118,15 +125,21 @@ static void *grown(void *at, uint32_t *capacity, size_t size)
 
 static void cells_grow(struct store *s)
 {
-    struct store old = *s;
-    s->cell_capacity = old.cell_capacity ? 2 * old.cell_capacity : 256;
-    s->cell = calloc(s->cell_capacity, sizeof *s->cell);
-    if (!s->cell)
-        abort();
-    for (uint32_t i = 0; i < old.cell_capacity; i++)
-        if (old.cell[i].count)
-            *cell_slot(s, &old.cell[i]) = old.cell[i];
+    enum { FEWEST = 256 };
+    const struct store old = *s;
+    s->cell_capacity = old.cell_capacity ? 2 * old.cell_capacity : FEWEST;
+    s->cell = must_calloc(s->cell_capacity, sizeof *s->cell);
+    s->tag = must_calloc(s->cell_capacity, sizeof *s->tag);
+    for (uint32_t i = 0; i < old.cell_capacity; i++) {
+        if (!old.tag[i])
+            continue;
+        const uint32_t hash = cell_hash(&old.cell[i]),
+                       to = cell_slot(s, &old.cell[i], hash);
+        s->cell[to] = old.cell[i];
+        s->tag[to] = cell_tag(hash);
+    }
     free(old.cell);
+    free(old.tag);
 }
 
 // A cell's part of `filed` has room for a power of two; when that is used up, the cell
@@ -151,18 +164,21 @@ static bool is_used_up(uint32_t count)
 
 static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
 {
+    const uint32_t hash = cell_hash(&at);
     if (!s->cell_capacity)
         cells_grow(s);
-    struct cache_cell *c = cell_slot(s, &at);
-    if (!c->count) {
+    uint32_t i = cell_slot(s, &at, hash);
+    if (!s->tag[i]) {
         // Never without a new cell: a memo would not see that cells have moved.
         if (2 * (s->cell_count + 1) > s->cell_capacity) {
             cells_grow(s);
-            c = cell_slot(s, &at);
+            i = cell_slot(s, &at, hash);
         }
-        *c = at;
+        s->cell[i] = at;
+        s->tag[i] = cell_tag(hash);
         s->cell_count++;
     }
+    struct cache_cell *c = &s->cell[i];
     if (is_used_up(c->count))
         cell_move(s, c);
     s->filed[c->first + c->count++] = sample;
@@ -189,13 +205,30 @@ static int32_t place_doubled(int32_t place, double x, double cells_per_unit)
     return place < 0 ? -1 - (-1 - place) / 2 : place / 2;
 }
 
+static bool holds(float f) { return fabsf(f) <= FLT_MAX; }
+
+static struct cache_spot spot_of(const struct cache_sample *s)
+{
+    struct cache_spot spot = {.p = {(float)s->p.x, (float)s->p.y, (float)s->p.z},
+                              .radius = (float)s->radius,
+                              .n = {(float)s->n.x, (float)s->n.y, (float)s->n.z}};
+    if (!holds(spot.p[0]) || !holds(spot.p[1]) || !holds(spot.p[2])) {
+        spot.p[0] = spot.p[1] = spot.p[2] = 0;
+        spot.radius = INFINITY;
+    }
+    return spot;
+}
+
 void store_add(struct store *s, const struct cache_sample *sample)
 {
     enum { SIZE_LEAST = -1000 }; // its inverse is a number, too
     const double reach = sample->reach;
     if (s->count == s->capacity)
         s->sample = grown(s->sample, &s->capacity, sizeof *s->sample);
+    if (s->count == s->spot_capacity)
+        s->spot = grown(s->spot, &s->spot_capacity, sizeof *s->spot);
     s->sample[s->count] = *sample;
+    s->spot[s->count] = spot_of(sample);
     int size;
     frexp(reach, &size);
     if (size < SIZE_LEAST)
@@ -252,55 +285,62 @@ static void memo_update(const struct store *s, struct store_memo *memo)
     memo->cell_count = s->cell_count;
 }
 
-// Finds the cells of a point that are `count` sizes from that of the key on. The memory of all
-// is asked for before any is looked at.
-static void cells_find(const struct store *s, struct cache_cell key, struct vec3 p,
-                       uint32_t count, struct store_memo *memo,
-                       const struct cache_cell **cell)
+static bool is_within(const int32_t place[3])
 {
-    struct cache_cell own[SIZES];
-    uint32_t home[SIZES];
-    double scale = ldexp(1, -key.size);
-    for (int k = 0; k < 3; k++)
-        key.place[k] = place_of(vec3_axis(p, k), scale);
+    return abs(place[0]) < LAST_PLACE && abs(place[1]) < LAST_PLACE &&
+           abs(place[2]) < LAST_PLACE;
+}
+
+static struct cache_cell cell_at(struct vec3 p, int size, uint32_t depth)
+{
+    const double scale = ldexp(1, -size);
+    return (struct cache_cell){
+        .place = {place_of(p.x, scale), place_of(p.y, scale), place_of(p.z, scale)},
+        .size = (int16_t)size,
+        .depth = (uint16_t)depth};
+}
+
+// Finds the cells of a point that are `count` sizes from `size` on. The memory of all is asked
+// for before any is looked at.
+static void cells_find(const struct store *s, const struct cache_point *at, int size,
+                       uint32_t count, const struct cache_cell **cell)
+{
+    const struct cache_cell first = cell_at(at->p, size, at->depth);
+    const bool within = is_within(first.place);
+    uint32_t hash[STORE_SIZES];
+    s->kernels->hashes(first.place, size, at->depth, hash);
+    for (uint32_t i = 0; within && i < count; i++)
+        __builtin_prefetch(&s->tag[cell_home(s, hash[i])]);
     for (uint32_t i = 0; i < count; i++) {
-        own[i] = key;
-        cell[i] = memo ? cell_remembered(&key, memo) : NULL;
-        if (!cell[i]) {
-            home[i] = cell_home(s, &key);
-            __builtin_prefetch(&s->cell[home[i]]);
-        }
-        scale /= 2;
-        for (int k = 0; k < 3; k++)
-            key.place[k] = place_doubled(key.place[k], vec3_axis(p, k), scale);
-        key.size++;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        if (cell[i])
+        struct cache_cell own = first;
+        if (!within) {
+            own = cell_at(at->p, size + (int)i, at->depth);
+            hash[i] = cell_hash(&own);
+        } else if (!s->tag[cell_home(s, hash[i])]) {
+            cell[i] = &no_cell;
             continue;
-        cell[i] = cell_from(s, &own[i], home[i]);
+        }
+        for (int k = 0; within && k < 3; k++)
+            own.place[k] >>= i; // which rounds down
+        own.size = (int16_t)(size + (int)i);
+        cell[i] = cell_find(s, &own, hash[i]);
         if (cell[i]->count)
             __builtin_prefetch(&s->filed[cell[i]->first + cell[i]->count - 1]);
-        if (memo)
-            cell_remember(memo, &own[i], cell[i]);
     }
 }
 
 void store_mean(const struct store *s, const struct cache_point *at,
-                struct store_memo *memo, struct cache_mean *mean)
+                struct cache_mean *mean)
 {
     const int high = s->size_high[at->depth];
-    if (memo)
-        memo_update(s, memo);
-    for (int size = s->size_low[at->depth]; size <= high; size += SIZES) {
-        const struct cache_cell *cell[SIZES];
-        const struct cache_cell key = {.size = (int16_t)size,
-                                       .depth = (uint16_t)at->depth};
-        const uint32_t count = high - size < SIZES ? (uint32_t)(high - size) + 1 : SIZES;
-        cells_find(s, key, at->p, count, memo, cell);
+    for (int size = s->size_low[at->depth]; size <= high; size += STORE_SIZES) {
+        const struct cache_cell *cell[STORE_SIZES];
+        const uint32_t left = (uint32_t)(high - size) + 1,
+                       count = left < STORE_SIZES ? left : STORE_SIZES;
+        cells_find(s, at, size, count, cell);
         for (uint32_t i = 0; i < count; i++)
-            if (cell[i]->count && !s->kernels->mean(s->sample, s->filed + cell[i]->first,
-                                                    cell[i]->count, at, mean))
+            if (cell[i]->count &&
+                !s->kernels->mean(s, s->filed + cell[i]->first, cell[i]->count, at, mean))
                 return;
     }
 }
@@ -317,8 +357,7 @@ static bool mean_alone(const struct store *s, const struct cache_cell *c,
                                       at->enough};
     struct cache_mean m = {mean->weight[i],
                            {mean->light[0][i], mean->light[1][i], mean->light[2][i]}};
-    const bool more =
-        s->kernels->mean(s->sample, s->filed + c->first, c->count, &point, &m);
+    const bool more = s->kernels->mean(s, s->filed + c->first, c->count, &point, &m);
     mean->weight[i] = m.weight;
     for (int k = 0; k < 3; k++)
         mean->light[k][i] = m.light[k];
@@ -349,18 +388,12 @@ static void places_of(const struct cache_points *at, unsigned lanes, double scal
     }
 }
 
-static bool is_within(const int32_t place[3])
-{
-    return abs(place[0]) < LAST_PLACE && abs(place[1]) < LAST_PLACE &&
-           abs(place[2]) < LAST_PLACE;
-}
-
 static const struct cache_cell *
 cell_asked(const struct store *s, const struct cache_cell *key, struct store_memo *memo)
 {
     const struct cache_cell *c = memo ? cell_remembered(key, memo) : NULL;
     if (!c) {
-        c = cell_slot(s, key);
+        c = cell_find(s, key, cell_hash(key));
         if (memo)
             cell_remember(memo, key, c);
     }
@@ -377,8 +410,7 @@ static unsigned means_in(const struct store *s, const struct cache_cell *c,
     if (!c->count)
         return lanes;
     if (__builtin_popcount(lanes) > FEW)
-        return s->kernels->means(s->sample, s->filed + c->first, c->count, at, lanes,
-                                 mean);
+        return s->kernels->means(s, s->filed + c->first, c->count, at, lanes, mean);
     for (; lanes; lanes &= lanes - 1)
         if (!mean_alone(s, c, at, __builtin_ctz(lanes), mean))
             more &= ~(lanes & -lanes);

@@ -27,6 +27,12 @@ struct cache_sample {
     double reach;     // it is filed for points within this distance
 };
 
+// The same in single precision, as much as tells of most samples that they say nothing.
+struct cache_spot {
+    float p[3], radius; // infinite where floats do not hold p
+    float n[3], unused;
+};
+
 struct cache_cell {
     int32_t place[3]; // of the cell, in its own size
     int16_t size;     // power of two
@@ -40,10 +46,12 @@ struct store_kernels;
 
 struct store {
     struct cache_sample *sample;
-    uint32_t count, capacity;
+    struct cache_spot *spot; // of each sample
+    uint32_t count, capacity, spot_capacity;
     uint32_t *filed; // samples, cell by cell in the order in which they came
     uint32_t filed_count, filed_capacity;
     struct cache_cell *cell; // hashed, open addressing; capacity a power of two
+    uint8_t *tag;            // some bits of each cell's hash; 0: it is free
     uint32_t cell_count, cell_capacity;
     const struct store_kernels *kernels;
     int16_t size_low[STORE_DEPTHS], size_high[STORE_DEPTHS]; // low > high: empty
@@ -66,6 +74,9 @@ struct cache_point {
 struct cache_mean {
     double weight, light[3]; // sums
 };
+void store_mean(const struct store *s, const struct cache_point *at,
+                struct cache_mean *mean);
+
 // The cells that a thread has asked last, one of a size: neighbours ask the same ones. All
 // zero at first, and when the store is another one.
 struct store_memo {
@@ -77,9 +88,6 @@ struct store_memo {
     const struct cache_cell *cell[16]; // NULL: none yet
     uint32_t cell_count;               // when they were asked
 };
-// memo: of this store alone; NULL: none.
-void store_mean(const struct store *s, const struct cache_point *at,
-                struct store_memo *memo, struct cache_mean *mean);
 // The same of eight points at once; those that are not `lanes` are left alone.
 struct cache_points {
     double p[3][8], n[3][8], error_bound[8];
@@ -91,6 +99,7 @@ struct cache_points {
 struct cache_means {
     double weight[8], light[3][8];
 };
+// memo: of this store alone; NULL: none.
 void store_means(const struct store *s, const struct cache_points *at,
                  struct store_memo *memo, struct cache_means *mean);
 // Whether a sample at p with the normal n may say something there, if its radius is not larger.

@@ -2,9 +2,20 @@
 // that of cache_weight, in the same order: the bits are the same.
 #include "irradiance/store_kernel.h"
 
+#include <float.h>
+
 #include "math/isa.h"
 #include "math/lanes.h"
 #include "math/lanes_vec.h"
+
+static void hashes_of(const int32_t place[3], int size, uint32_t depth,
+                      uint32_t hash[STORE_SIZES])
+{
+    for (int i = 0; i < STORE_SIZES; i++) {
+        const int32_t larger[3] = {place[0] >> i, place[1] >> i, place[2] >> i};
+        hash[i] = cache_cell_hash(larger, size + i, depth);
+    }
+}
 
 // What is asked for, in every lane.
 struct asked {
@@ -120,38 +131,76 @@ static bool add(const struct cache_sample *sample, const uint32_t *k, uint32_t c
     return true;
 }
 
-static bool mean_of(const struct cache_sample *sample, const uint32_t *filed,
-                    uint32_t count, const struct cache_point *at, struct cache_mean *mean)
+// What most samples fail already in floats, with room for what these lose.
+struct glance {
+    struct float8 p[3], n[3], bound, slack, turned;
+};
+
+static const float glance_rounding = 0x1p-20f;
+
+LANES_INLINE struct glance glance_of(const struct cache_point *at)
+{
+    const double p[3] = {at->p.x, at->p.y, at->p.z}, n[3] = {at->n.x, at->n.y, at->n.z};
+    const float bound = (float)at->error_bound;
+    float slack = FLT_MIN;
+    struct glance g = {.bound = f8_set(bound * (1 + glance_rounding)),
+                       .turned = f8_set(bound * bound / 4 + 4 * glance_rounding)};
+    for (int a = 0; a < 3; a++) {
+        g.p[a] = f8_set((float)p[a]);
+        g.n[a] = f8_set((float)n[a]);
+        slack += glance_rounding * fabsf((float)p[a]);
+    }
+    g.slack = f8_set(slack);
+    return g;
+}
+
+// Which of eight samples may count.
+LANES_INLINE unsigned glance_at(const struct glance *g, const float *const spot[8])
+{
+    struct float8 r[4], n[4];
+    f8_gather_rows(spot, 0, r);
+    const struct float8 x = f8_sub(g->p[0], r[0]), y = f8_sub(g->p[1], r[1]),
+                        z = f8_sub(g->p[2], r[2]);
+    const struct float8 d2 = f8_add(f8_add(f8_mul(x, x), f8_mul(y, y)), f8_mul(z, z));
+    const struct float8 limit = f8_add(f8_mul(r[3], g->bound), g->slack);
+    const unsigned near = f8_le(d2, f8_add(f8_mul(limit, limit), f8_set(FLT_MIN)));
+    if (!near)
+        return 0;
+    f8_gather_rows(spot, 4, n);
+    const struct float8 cosine = f8_add(
+        f8_add(f8_mul(g->n[0], n[0]), f8_mul(g->n[1], n[1])), f8_mul(g->n[2], n[2]));
+    return near & f8_le(f8_sub(f8_set(1), g->turned), cosine);
+}
+
+static bool mean_of(const struct store *s, const uint32_t *filed, uint32_t count,
+                    const struct cache_point *at, struct cache_mean *mean)
 {
     const double bound = at->error_bound;
     const struct asked a = {V8_SET(at->p), V8_SET(at->n), r8_set(bound),
                             r8_set(bound * bound), at->smooth};
+    const struct glance g = glance_of(at);
     uint32_t some[16], waiting = 0;
     for (uint32_t end = count, n; end; end -= n) {
-        const double *row[8];
-        struct real8 r[4], q[4];
+        const float *spot[8];
         n = end < 8 ? end : 8;
-        rows_of(sample, filed + end - n, n, row);
-        r8_load_rows(row, 0, r);
-        unsigned good = m8_bits(near_enough(&a, r)) & ((1u << n) - 1);
-        if (!good)
-            continue;
-        r8_load_rows(row, 4, q);
-        good &= m8_bits(even_enough(&a, q));
+        const uint32_t *k = filed + end - n;
+        for (uint32_t i = 0; i < 8; i++)
+            spot[i] = s->spot[k[i < n ? i : 0]].p;
+        unsigned good = glance_at(&g, spot) & ((1u << n) - 1);
         while (good) { // the last first
             const int i = 31 - __builtin_clz(good);
             good ^= 1u << i;
-            some[waiting++] = filed[end - n + (uint32_t)i];
+            some[waiting++] = k[i];
         }
         if (waiting < 8)
             continue;
-        if (!add(sample, some, 8, &a, at->enough, mean))
+        if (!add(s->sample, some, 8, &a, at->enough, mean))
             return false;
         waiting -= 8;
         for (uint32_t i = 0; i < waiting; i++)
             some[i] = some[8 + i];
     }
-    return !waiting || add(sample, some, waiting, &a, at->enough, mean);
+    return !waiting || add(s->sample, some, waiting, &a, at->enough, mean);
 }
 
 LANES_INLINE void set_row(const double *row, struct real8 r[4])
@@ -160,8 +209,8 @@ LANES_INLINE void set_row(const double *row, struct real8 r[4])
         r[i] = r8_set(row[i]);
 }
 
-static unsigned means_of(const struct cache_sample *sample, const uint32_t *filed,
-                         uint32_t count, const struct cache_points *at, unsigned lanes,
+static unsigned means_of(const struct store *s, const uint32_t *filed, uint32_t count,
+                         const struct cache_points *at, unsigned lanes,
                          struct cache_means *mean)
 {
     const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
@@ -171,8 +220,8 @@ static unsigned means_of(const struct cache_sample *sample, const uint32_t *file
     struct real8 weight = r8_load(mean->weight);
     struct vec8 light = v8_load((const double(*)[8])mean->light);
     for (uint32_t i = count; lanes && i-- > 0;) {
-        const struct cache_sample *x = &sample[filed[i]];
-        struct real8 r[4], q[4], s[4];
+        const struct cache_sample *x = &s->sample[filed[i]];
+        struct real8 r[4], q[4], rest[4];
         set_row(x->row, r);
         const unsigned near = m8_bits(near_enough(&a, r)) & lanes;
         if (!near)
@@ -180,8 +229,8 @@ static unsigned means_of(const struct cache_sample *sample, const uint32_t *file
         set_row(x->row + 4, q);
         if (!(m8_bits(even_enough(&a, q)) & near))
             continue;
-        set_row(x->row + 8, s);
-        const struct real8 w = weights(&a, r, q, s);
+        set_row(x->row + 8, rest);
+        const struct real8 w = weights(&a, r, q, rest);
         const struct mask8 on = m8_and(m8_of(lanes), r8_lt(nought, w));
         const struct real8 c[3] = {r8_set((double)x->light.r), r8_set((double)x->light.g),
                                    r8_set((double)x->light.b)};
@@ -199,4 +248,5 @@ static unsigned means_of(const struct cache_sample *sample, const uint32_t *file
     return lanes;
 }
 
-const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, mean_of, means_of};
+const struct store_kernels OF_ISA(store_kernels_) = {ISA_TEXT, hashes_of, mean_of,
+                                                     means_of};

@@ -476,6 +476,34 @@ LANES_INLINE void f8_store_rows(float *p, struct float8 x, struct float8 y,
 #endif
 }
 
+// Four numbers of each of eight rows, turned: lane i of each holds one of row i.
+LANES_INLINE void f8_gather_rows(const float *const row[8], int past,
+                                 struct float8 out[4])
+{
+#if defined(__AVX__) || defined(__AVX2__)
+#define F_PAIR(i)                                                                        \
+    _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[i] + past)),            \
+                         _mm_loadu_ps(row[(i) + 4] + past), 1)
+    const __m256 a = F_PAIR(0), b = F_PAIR(1), c = F_PAIR(2), d = F_PAIR(3);
+#undef F_PAIR
+    const __m256 ab0 = _mm256_unpacklo_ps(a, b), ab1 = _mm256_unpackhi_ps(a, b);
+    const __m256 cd0 = _mm256_unpacklo_ps(c, d), cd1 = _mm256_unpackhi_ps(c, d);
+    const __m256d ab[2] = {_mm256_castps_pd(ab0), _mm256_castps_pd(ab1)};
+    const __m256d cd[2] = {_mm256_castps_pd(cd0), _mm256_castps_pd(cd1)};
+    for (int i = 0; i < 2; i++) {
+        out[2 * i].a = _mm256_castpd_ps(_mm256_unpacklo_pd(ab[i], cd[i]));
+        out[2 * i + 1].a = _mm256_castpd_ps(_mm256_unpackhi_pd(ab[i], cd[i]));
+    }
+#else
+    float v[4][8];
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 4; k++)
+            v[k][i] = row[i][past + k];
+    for (int k = 0; k < 4; k++)
+        out[k] = f8_load(v[k]);
+#endif
+}
+
 // v in the lanes of `bits`.
 LANES_INLINE void u8_put(uint32_t p[8], unsigned bits, uint32_t v)
 {

@@ -60,26 +60,10 @@ LANES_INLINE struct float8 f8_select(unsigned bits, struct float8 x, struct floa
 // Eight rows of four, turned: as f8_store_rows puts them.
 LANES_INLINE void f8_load_rows(const float *p, struct float8 out[4])
 {
-#if defined(__AVX__) || defined(__AVX2__)
-    __m256 row[4]; // i and i + 4
-    for (int i = 0; i < 4; i++)
-        row[i] = _mm256_set_m128(_mm_loadu_ps(p + 16 + 4 * i), _mm_loadu_ps(p + 4 * i));
-    const __m256 xy0 = _mm256_unpacklo_ps(row[0], row[1]),
-                 zw0 = _mm256_unpackhi_ps(row[0], row[1]),
-                 xy1 = _mm256_unpacklo_ps(row[2], row[3]),
-                 zw1 = _mm256_unpackhi_ps(row[2], row[3]);
-    out[0].a = _mm256_shuffle_ps(xy0, xy1, 0x44);
-    out[1].a = _mm256_shuffle_ps(xy0, xy1, 0xee);
-    out[2].a = _mm256_shuffle_ps(zw0, zw1, 0x44);
-    out[3].a = _mm256_shuffle_ps(zw0, zw1, 0xee);
-#else
-    for (int k = 0; k < 4; k++) {
-        float v[8];
-        for (int i = 0; i < 8; i++)
-            v[i] = p[4 * i + k];
-        out[k] = f8_load(v);
-    }
-#endif
+    const float *row[8];
+    for (int i = 0; i < 8; i++)
+        row[i] = p + 4 * i;
+    f8_gather_rows(row, 0, out);
 }
 
 // The doubles of floats.

@@ -66,6 +66,25 @@ static bool isa_present(const char *name)
 
 static const char *const isas[] = {"base", "avx2", "avx512"};
 
+// The same elsewhere, and so much larger.
+static struct vec3 moved(struct vec3 p, struct vec3 by, double scale)
+{
+    return vec3_scale(scale, vec3_add(p, by));
+}
+
+// Near and far, tiny and huge, beyond what floats hold.
+static void move_both(struct cache_sample *x, struct cache_point *at)
+{
+    const double scale = exp(between(-120, 120)),
+                 far = between(0, 1) < 0.5 ? 0 : exp(between(0, 15));
+    const struct vec3 by = some_point(far);
+    x->p = moved(x->p, by, scale);
+    x->radius *= scale;
+    x->nearest *= scale;
+    x->reach *= scale;
+    at->p = moved(at->p, by, scale);
+}
+
 static void test_weight_of_one(void **state)
 {
     (void)state;
@@ -77,13 +96,15 @@ static void test_weight_of_one(void **state)
         for (int i = 0; i < POINTS; i++) {
             struct store s;
             const double bound = between(0.1, 2);
-            const struct cache_sample x = some_sample(bound);
-            const struct cache_point at = some_place(&x, bound);
+            struct cache_sample x = some_sample(bound);
+            struct cache_point at = some_place(&x, bound);
+            if (i % 2)
+                move_both(&x, &at);
             const double want = cache_weight(&x, &at);
             struct cache_mean mean = {0};
             store_init(&s, isas[k]);
             store_add(&s, &x);
-            store_mean(&s, &at, NULL, &mean);
+            store_mean(&s, &at, &mean);
             assert_true(mean.weight == want);
             assert_true(mean.light[1] == (want > 0 ? want * (double)x.light.g : 0));
             heard += want > 0;
@@ -99,7 +120,6 @@ static void test_sum_of_many(void **state)
     const double bound = 0.8;
     struct cache_sample sample[SAMPLES];
     struct store s[3];
-    struct store_memo memo[3] = {0};
     (void)state;
     random_state = 2;
     for (int i = 0; i < SAMPLES; i++)
@@ -122,7 +142,7 @@ static void test_sum_of_many(void **state)
             heard += w > 0;
         }
         for (int k = 0; k < 3; k++)
-            store_mean(&s[k], &at, k ? &memo[k] : NULL, &mean[k]);
+            store_mean(&s[k], &at, &mean[k]);
         assert_near(mean[0].weight, weight, SAMPLES * 0x1p-52 * weight);
         assert_memory_equal(&mean[0], &mean[1], sizeof mean[0]);
         assert_memory_equal(&mean[0], &mean[2], sizeof mean[0]);
@@ -132,7 +152,7 @@ static void test_sum_of_many(void **state)
         // Half of it is enough: no more is added than what exceeds it.
         struct cache_mean half = {0};
         at.enough = weight / 2;
-        store_mean(&s[0], &at, NULL, &half);
+        store_mean(&s[0], &at, &half);
         assert_true(half.weight >= at.enough && half.weight <= mean[0].weight);
     }
     assert_true(crowded > POINTS / 20);
@@ -149,7 +169,7 @@ static void test_eight_points(void **state)
     for (int k = 0; k < 3; k++) {
         struct cache_sample sample[SAMPLES];
         uint32_t heard = 0;
-        struct store_memo memo = {0}, eight = {0};
+        struct store_memo memo = {0};
         random_state = 3;
         store_init(&s, isa_present(isas[k]) ? isas[k] : isas[0]);
         for (int i = 0; i < SAMPLES; i++) {
@@ -171,7 +191,7 @@ static void test_eight_points(void **state)
                 at.n[0][j] = n.x, at.n[1][j] = n.y, at.n[2][j] = n.z;
                 at.error_bound[j] = bound * between(0.3, 1);
             }
-            store_means(&s, &at, i % 4 ? &eight : NULL, &got);
+            store_means(&s, &at, i % 4 ? &memo : NULL, &got);
             for (int j = 0; j < 8; j++) {
                 const struct cache_point alone = {
                     vec3(at.p[0][j], at.p[1][j], at.p[2][j]),
@@ -182,7 +202,7 @@ static void test_eight_points(void **state)
                     at.enough};
                 struct cache_mean want = {0};
                 if (at.lanes >> j & 1)
-                    store_mean(&s, &alone, &memo, &want);
+                    store_mean(&s, &alone, &want);
                 // Past what is enough either may have stopped elsewhere.
                 assert_true((got.weight[j] < at.enough) == (want.weight < at.enough));
                 if (want.weight >= at.enough)
@@ -209,12 +229,26 @@ static struct cache_sample plain_sample(struct vec3 p, double reach)
                                  .light = {1, 1, 1}};
 }
 
-static double weight_at(const struct store *s, struct vec3 p, struct store_memo *memo)
+static double weight_at(const struct store *s, struct vec3 p)
 {
     const struct cache_point at = {p, {0, 1, 0}, 1, 0, false, INFINITY};
     struct cache_mean mean = {0};
-    store_mean(s, &at, memo, &mean);
+    store_mean(s, &at, &mean);
     return mean.weight;
+}
+
+// The same, as eight points ask.
+static double weight_by_memo(const struct store *s, struct vec3 p,
+                             struct store_memo *memo)
+{
+    const struct cache_points at = {.p = {{p.x}, {p.y}, {p.z}},
+                                    .n = {{0}, {1}, {0}},
+                                    .error_bound = {1},
+                                    .lanes = 1,
+                                    .enough = INFINITY};
+    struct cache_means mean = {0};
+    store_means(s, &at, memo, &mean);
+    return mean.weight[0];
 }
 
 // A sample in cells that are known already, when half of the index is used: what a thread
@@ -232,11 +266,11 @@ static void test_memo_when_full(void **state)
     assert_int_equal(s.cell_count, 128);
     assert_int_equal(s.cell_capacity, 2 * s.cell_count);
     const struct vec3 p = vec3(0.1, 0, 0.1);
-    const double before = weight_at(&s, p, &memo);
+    const double before = weight_by_memo(&s, p, &memo);
     const struct cache_sample x = plain_sample(vec3(0, 0, 0), 0.3);
     store_add(&s, &x);
     assert_int_equal(s.cell_count, 128);
-    assert_true(before > 0 && weight_at(&s, p, &memo) == 2 * before);
+    assert_true(before > 0 && weight_by_memo(&s, p, &memo) == 2 * before);
     store_free(&s);
 }
 
@@ -252,8 +286,8 @@ static void test_far_from_origin(void **state)
             const struct cache_sample x = plain_sample(p, pow(10, i));
             store_add(&s, &x);
         }
-        assert_near(weight_at(&s, p, NULL), 10, 1e-12);
-        assert_true(weight_at(&s, vec3_add(p, vec3(0, 0.05, 0)), NULL) > 3);
+        assert_near(weight_at(&s, p), 10, 1e-12);
+        assert_true(weight_at(&s, vec3_add(p, vec3(0, 0.05, 0))) > 3);
         store_free(&s);
     }
 }
