@@ -8,7 +8,8 @@ liblambert_a_SOURCES += \
 	%D%/indirect.h %D%/indirect_lanes.c %D%/indirect_lanes.h %D%/inside.c %D%/inside.h %D%/job.c %D%/job.h %D%/lamp.c %D%/lamp.h \
 	%D%/layers.c %D%/layers.h %D%/lens.c %D%/media.c %D%/media.h \
 	%D%/media_light.c %D%/media_wave.c %D%/media_lit.c %D%/media_lit.h %D%/media_march.c %D%/media_march.h \
-	%D%/media_mix.c %D%/media_mix.h %D%/photon_flight.h %D%/photon_media.c %D%/photon_map.c %D%/photon_map.h %D%/photon_path.c %D%/photon_path.h %D%/photon_volley.c %D%/photon_volley.h \
+	%D%/media_mix.c %D%/media_mix.h %D%/photon_flight.h %D%/photon_media.c %D%/photon_grid.c %D%/photon_grid.h \
+	%D%/photon_map.c %D%/photon_map.h %D%/photon_path.c %D%/photon_path.h %D%/photon_volley.c %D%/photon_volley.h \
 	%D%/photons.c %D%/photons.h %D%/shade_photons.c %D%/subsurface.c %D%/subsurface.h %D%/subsurface_plan.c %D%/mesh_samples.c %D%/mesh_samples.h %D%/near_zero.h %D%/lens.h %D%/paint.c %D%/paint_lit.c %D%/paint_compile.c %D%/paint.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/scout.c %D%/scout.h %D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/ray_shaft.h %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/sky.c %D%/sky.h \

@@ -47,6 +47,8 @@ void photon_map_end(struct photon_map *m)
 {
     free(m->photon);
     free(m->tree.leaf);
+    for (int i = 0; i < PHOTON_USES; i++)
+        photon_grid_end(&m->range[i].grid);
     for (uint32_t i = 0; i < m->tree.levels; i++)
         free(m->tree.level[i]);
 }
@@ -203,10 +205,11 @@ void photon_map_build(struct photon_map *m, photon_search_fn *search)
 
 // ---- searching -----------------------------------------------------------------------
 
-struct photon_near *photon_near_new(uint32_t most)
+struct photon_near *photon_near_new(uint32_t most, enum photon_use use)
 {
     const size_t room = 2 * (size_t)most + 2 * WIDE; // photon_search.h
     struct photon_near *n = must_calloc(1, sizeof *n);
+    n->use = use;
     n->most = most;
     n->photon = must_calloc(room, sizeof *n->photon);
     n->distance2 = must_calloc(room, sizeof *n->distance2);
@@ -271,23 +274,46 @@ static void keep_within(struct photon_near *near, uint32_t count, double radius)
             near->photon[n++] = near->photon[i];
 }
 
-uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *g,
+void photon_map_ready(struct photon_map *m, enum photon_use use)
+{
+    struct photon_range *r = &m->range[use];
+    if (m->count)
+        photon_grid_build(&r->grid, m->photon->p, m->count, sizeof *m->photon, r->radius,
+                          r->radius + r->step);
+}
+
+uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *gather,
                         struct vec3 p, struct vec3 normal, struct photon_near *near,
                         double *reach)
 {
+    const struct photon_range *r = &m->range[near->use];
+    const struct photon_gather *g = &gather[near->use];
+    const int32_t place = photon_grid_place(&r->grid, p, normal);
+    const struct photon_hint hint = photon_grid_recall(&r->grid, place);
     uint32_t count = 0;
-    if (!near->sparse) {
-        count = photons_near(m, p, normal, m->radius, near, reach);
-        if (count >= g->min)
+    *reach = r->radius;
+    if (place == PHOTON_PLACE_EMPTY)
+        return 0;
+    near->likely2 = hint.likely2;
+    // Where the radius held too few last time the grown one is searched at once.
+    if (!hint.sparse) {
+        count = photons_near(m, p, normal, r->radius, near, reach);
+        if (count >= g->min) {
+            photon_grid_remember(&r->grid, place,
+                                 (struct photon_hint){.likely2 = near->likely2});
+            if (count == near->most)
+                *reach *= r->last;
             return count;
+        }
     }
     double wide;
-    const uint32_t more = photons_near(m, p, normal, m->radius + m->step, near, &wide);
-    if (near->sparse) {
-        count = count_within(near, more, m->radius);
-        *reach = count == near->most ? wide : m->radius;
+    near->likely2 = 0;
+    const uint32_t more = photons_near(m, p, normal, r->radius + r->step, near, &wide);
+    if (hint.sparse) {
+        count = count_within(near, more, r->radius);
+        *reach = count == near->most ? wide : r->radius;
     }
-    near->sparse = count < g->min;
+    photon_grid_remember(&r->grid, place, (struct photon_hint){.sparse = count < g->min});
     if (count < g->min) {
         const double density = count / (*reach * *reach);
         const bool even = more / (wide * wide) <= (1 + g->expand_increase) * density;
@@ -296,7 +322,7 @@ uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *
             return more;
         }
     }
-    keep_within(near, more, m->radius);
+    keep_within(near, more, r->radius);
     return count;
 }
 
@@ -325,8 +351,8 @@ void photon_map_radius(struct photon_map *m, uint32_t max, bool in_space)
     static const double sparse = 0.05, thin = 0.7, growth = 20;
     const struct vec3 any = {0, 0, 0};
     const uint32_t stride = stride_of(m->count);
-    struct photon_near *near = photon_near_new(max);
-    double sum = 0;
+    struct photon_near *near = photon_near_new(max, PHOTON_PICTURE);
+    double *radius = &m->range[PHOTON_PICTURE].radius, sum = 0;
     uint32_t samples = 0, few = 0;
     for (uint32_t i = 0; i < m->count; i += stride) {
         double r;
@@ -337,18 +363,18 @@ void photon_map_radius(struct photon_map *m, uint32_t max, bool in_space)
         }
     }
     const double mean = samples ? sum / samples : 1;
-    m->radius = in_space ? det_pow(max / (4.0 / 3 * pi * mean), 1.0 / 3)
-                         : sqrt(max / (pi * mean));
+    *radius = in_space ? det_pow(max / (4.0 / 3 * pi * mean), 1.0 / 3)
+                       : sqrt(max / (pi * mean));
     samples = 0;
     for (uint32_t i = 0; i < m->count; i += stride) {
         double r;
         const uint32_t n =
-            photons_near(m, place_of(&m->photon[i]), any, m->radius, near, &r);
+            photons_near(m, place_of(&m->photon[i]), any, *radius, near, &r);
         const double density = density_of(n, r, in_space);
         few += density > sparse * mean && density < thin * mean;
         samples++;
     }
     if (samples)
-        m->radius *= 1 + growth * few / samples;
+        *radius *= 1 + growth * few / samples;
     photon_near_free(near);
 }

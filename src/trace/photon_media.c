@@ -111,7 +111,7 @@ void photon_media_lit(struct media_march *m, struct media_sample *sample,
             m->walker[m->interval[sample[k].interval].walker].way;
         const struct vec3 p = vec3_mad(way->o, sample[k].t, way->d);
         const uint32_t n =
-            photons_gather(&photons->media, &photons->gather, p, none, near, &reach);
+            photons_gather(&photons->media, photons->gather, p, none, near, &reach);
         struct vec3 sum = {0, 0, 0};
         for (uint32_t i = 0; i < n; i++) {
             const struct photon *x = &photons->media.photon[near->photon[i]];

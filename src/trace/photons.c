@@ -306,14 +306,37 @@ static void map_finish(struct photon_map *m, const struct job *job, int which,
                        uint32_t max)
 {
     const double *radius = &job->scene->settings.photons.radius[2 * which];
+    struct photon_range *r = &m->range[PHOTON_PICTURE];
     photon_map_build(m, job->world->accel->kernels->photons);
     if (radius[0] > 0) {
-        m->radius = radius[0];
+        r->radius = radius[0];
     } else if (m->count) {
         photon_map_radius(m, max, which == 1);
-        m->radius *= radius[1] * (which == 1 ? 2 : 1);
+        r->radius *= radius[1] * (which == 1 ? 2 : 1);
     }
-    m->step = 2 * m->radius;
+    r->step = 2 * r->radius;
+    r->last = 1;
+    photon_map_ready(m, PHOTON_PICTURE);
+}
+
+// Irradiance samples take the mean over many places, where blurring light gains nothing and
+// what a place does not know the others do: as few photons as make a density, from as much
+// nearer, and never more from farther, which would favour places that are dark by chance.
+static uint32_t sample_most(uint32_t max)
+{
+    enum { FEWER = 4, LEAST = 8 };
+    return max / FEWER > LEAST ? max / FEWER : max < LEAST ? max : LEAST;
+}
+
+static void range_for_samples(struct photon_map *m, bool in_space, uint32_t max)
+{
+    const struct photon_range *picture = &m->range[PHOTON_PICTURE];
+    struct photon_range *r = &m->range[PHOTON_SAMPLE];
+    const uint32_t most = sample_most(max);
+    const double fewer = (double)most / max, last = most / (most - 1.0);
+    r->radius = picture->radius * (in_space ? det_pow(fewer, 1.0 / 3) : sqrt(fewer));
+    r->last = in_space ? det_pow(last, 1.0 / 3) : sqrt(last);
+    photon_map_ready(m, PHOTON_SAMPLE);
 }
 
 static void shoot_all(struct photons *p, const struct job *job,
@@ -337,17 +360,22 @@ static void shoot_all(struct photons *p, const struct job *job,
 static void finish(struct photons *p, const struct job *job)
 {
     const struct photon_settings *settings = &job->scene->settings.photons;
+    struct photon_gather *g = &p->gather[PHOTON_PICTURE];
     const uint32_t total =
         p->surface.count > p->media.count ? p->surface.count : p->media.count;
-    p->gather.max = (uint32_t)(settings->gather_max > 0 ? settings->gather_max : 0);
-    if (p->gather.max > total)
-        p->gather.max = total ? total : 1;
-    p->gather.min = (uint32_t)(settings->gather_min > 0 ? settings->gather_min : 0);
-    p->gather.expand_increase = settings->expand_increase;
-    p->gather.expand_min =
-        (uint32_t)(settings->expand_min > 0 ? settings->expand_min : 0);
-    map_finish(&p->surface, job, 0, p->gather.max);
-    map_finish(&p->media, job, 1, p->gather.max);
+    g->max = (uint32_t)(settings->gather_max > 0 ? settings->gather_max : 0);
+    if (g->max > total)
+        g->max = total ? total : 1;
+    g->min = (uint32_t)(settings->gather_min > 0 ? settings->gather_min : 0);
+    g->expand_increase = settings->expand_increase;
+    g->expand_min = (uint32_t)(settings->expand_min > 0 ? settings->expand_min : 0);
+    map_finish(&p->surface, job, 0, g->max);
+    map_finish(&p->media, job, 1, g->max);
+    if (!job->scene->settings.radiosity)
+        return;
+    p->gather[PHOTON_SAMPLE] = (struct photon_gather){.max = sample_most(g->max)};
+    range_for_samples(&p->surface, false, g->max);
+    range_for_samples(&p->media, true, g->max);
 }
 
 struct photons *photons_shoot(const struct job *job, const struct photon_store *store,

@@ -9,7 +9,7 @@
 // glass, shot before the picture and found again where surfaces and media are shaded.
 struct photons {
     struct photon_map surface, media;
-    struct photon_gather gather;
+    struct photon_gather gather[PHOTON_USES];
 };
 
 // Whether lamps and targets of the scene have anything to do with each other.

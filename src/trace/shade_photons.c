@@ -39,7 +39,7 @@ void shade_photons(struct shading *s)
     if (!any)
         return;
     double reach;
-    const uint32_t count = photons_gather(m, &photons->gather, s->at.p, s->layer[0].n,
+    const uint32_t count = photons_gather(m, photons->gather, s->at.p, s->layer[0].n,
                                           s->t->near_photons, &reach);
     const bool side_test = !(s->at.surface->flags & OBJECT_DOUBLE_ILLUMINATE);
     const struct rgb sum = (plain ? s->t->job->kernels->caustics : lit_singly)(

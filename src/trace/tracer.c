@@ -27,6 +27,13 @@ static struct ray_batch *endless_new(void)
     return b;
 }
 
+static void near_photons_init(struct tracer *t)
+{
+    const bool gathers = t->job->settings.purpose == RENDER_GATHER;
+    const enum photon_use use = gathers ? PHOTON_SAMPLE : PHOTON_PICTURE;
+    t->near_photons = photon_near_new(t->job->photons->gather[use].max, use);
+}
+
 struct tracer *tracer_new(const struct job *job)
 {
     struct tracer *t = aligned_alloc(_Alignof(struct tracer), sizeof *t);
@@ -53,7 +60,7 @@ struct tracer *tracer_new(const struct job *job)
         t->wall_hit = hit_batch_new(BATCH_SIZE);
     }
     if (job->photons)
-        t->near_photons = photon_near_new(job->photons->gather.max);
+        near_photons_init(t);
     if (camera_has_one_eye(job->camera))
         t->camera_inside = inside_at(t->camera_arena, job->world, job->camera->location);
     else if (job->quick_camera)

@@ -79,7 +79,8 @@ static void check_map(uint32_t count, uint32_t most, bool grid, struct vec3 abou
 {
     const struct packet_kernels *best = packet_kernels_choose();
     struct photon_map m;
-    struct photon_near *a = photon_near_new(most), *b = photon_near_new(most);
+    struct photon_near *a = photon_near_new(most, PHOTON_PICTURE),
+                       *b = photon_near_new(most, PHOTON_PICTURE);
     fill(&m, count, grid, about);
     photon_map_build(&m, packet_kernels_base.photons);
     for (int i = 0; i < 60; i++) {
@@ -119,18 +120,24 @@ static void nearest_photons(void **state_)
     }
 }
 
-// Gathering by its rule, from two searches; what it knows of the last place changes nothing.
+// Gathering by its rule, from two searches; what the grid knows of a place changes nothing.
 static void check_gather(const struct photon_map *m, const struct photon_gather *g)
 {
-    struct photon_near *a = photon_near_new(g->max), *b = photon_near_new(g->max);
-    uint32_t grown = 0, kept = 0;
+    struct photon_near *a = photon_near_new(g->max, PHOTON_PICTURE),
+                       *b = photon_near_new(g->max, PHOTON_PICTURE);
+    const struct photon_range *r = &m->range[PHOTON_PICTURE];
+    const double radius2 = r->radius * r->radius;
+    const struct photon_hint hints[] = {
+        {false, 0}, {true, 0}, {false, radius2}, {false, .1 * radius2}, {false, 1e-200}};
+    uint32_t grown = 0, kept = 0, empty = 0;
     for (int i = 0; i < 400; i++) {
         const struct vec3 n =
             i % 2 ? vec3_normalize(somewhere()) : vec3_scale(0, somewhere());
         const struct vec3 p = vec3_scale(i % 3 ? .1 : 1.2, somewhere());
         double reach, wide, got;
-        uint32_t count = photons_near(m, p, n, m->radius, a, &reach);
-        const uint32_t more = photons_near(m, p, n, m->radius + m->step, b, &wide);
+        a->likely2 = b->likely2 = 0;
+        uint32_t count = photons_near(m, p, n, r->radius, a, &reach);
+        const uint32_t more = photons_near(m, p, n, r->radius + r->step, b, &wide);
         if (count < g->min && more &&
             (more < g->expand_min || more / (wide * wide) <= (1 + g->expand_increase) *
                                                                  count /
@@ -142,15 +149,17 @@ static void check_gather(const struct photon_map *m, const struct photon_gather 
         } else {
             kept += count < g->min;
         }
-        for (int sparse = 0; sparse < 2; sparse++) {
-            b->sparse = sparse;
+        const int32_t place = photon_grid_place(&r->grid, p, n);
+        empty += place == PHOTON_PLACE_EMPTY;
+        for (size_t k = 0; k < sizeof hints / sizeof *hints; k++) {
+            photon_grid_remember(&r->grid, place, hints[k]);
             assert_int_equal(photons_gather(m, g, p, n, b, &got), count);
             assert_memory_equal(&got, &reach, sizeof got);
             if (count)
                 assert_memory_equal(a->photon, b->photon, count * sizeof *a->photon);
         }
     }
-    assert_true(grown > 10 && kept > 10);
+    assert_true(grown > 10 && kept > 10 && empty > 10 && empty < 390);
     photon_near_free(a);
     photon_near_free(b);
 }
@@ -162,20 +171,76 @@ static void gathered_photons(void **state_)
     state = 11;
     for (int grid = 0; grid < 2; grid++) {
         fill(&m, 3000, grid, vec3(0, 0, 0));
-        m.radius = .02;
-        m.step = .04;
+        m.range[PHOTON_PICTURE] =
+            (struct photon_range){.radius = .02, .step = .04, .last = 1};
         photon_map_build(&m, packet_kernels_choose()->photons);
+        photon_map_ready(&m, PHOTON_PICTURE);
         check_gather(&m, &(struct photon_gather){20, 100, .2, 20});
         check_gather(&m, &(struct photon_gather){90, 100, .5, 5});
         photon_map_end(&m);
     }
 }
 
+// What is kept of a distance is not less than it, and little more.
+static void hints_hold_distances(void **state_)
+{
+    (void)state_;
+    const float places[] = {0, 0, 0, 1, 1, 1};
+    struct photon_grid g = {.near = NULL};
+    photon_grid_build(&g, places, 2, 3 * sizeof *places, .5, 1);
+    const int32_t place = photon_grid_place(&g, vec3(0, 0, 0), vec3(0, 1, 0));
+    assert_true(place >= 0);
+    for (double d = .25; d > 1e-15; d *= .7) {
+        photon_grid_remember(&g, place, (struct photon_hint){.likely2 = d});
+        const struct photon_hint got = photon_grid_recall(&g, place);
+        assert_false(got.sparse);
+        assert_true(got.likely2 >= d && got.likely2 <= 1.5 * d);
+    }
+    photon_grid_remember(&g, place, (struct photon_hint){.sparse = true});
+    assert_true(photon_grid_recall(&g, place).sparse);
+    const int32_t other = photon_grid_place(&g, vec3(0, 0, 0), vec3(1, 0, 0));
+    assert_false(photon_grid_recall(&g, other).sparse);
+    assert_int_equal(photon_grid_place(&g, vec3(9, 0, 0), vec3(1, 0, 0)),
+                     PHOTON_PLACE_EMPTY);
+    photon_grid_end(&g);
+}
+
+// Few photons, as samples gather, make the density that there is.
+static void few_photons_tell_the_density(void **state_)
+{
+    (void)state_;
+    enum { COUNT = 40000, MOST = 12, PLACES = 4000 };
+    const struct photon_gather g[PHOTON_USES] = {[PHOTON_SAMPLE] = {.max = MOST}};
+    struct photon_near *near = photon_near_new(MOST, PHOTON_SAMPLE);
+    struct photon_map m;
+    double sum = 0;
+    state = 5;
+    fill(&m, COUNT, false, vec3(0, 0, 0));
+    for (int i = 0; i < COUNT; i++) {
+        m.photon[i].p[0] = (float)chance();
+        m.photon[i].p[1] = 0;
+        m.photon[i].p[2] = (float)chance();
+    }
+    m.range[PHOTON_SAMPLE] =
+        (struct photon_range){.radius = 1, .last = sqrt(MOST / (MOST - 1.0))};
+    photon_map_build(&m, packet_kernels_choose()->photons);
+    photon_map_ready(&m, PHOTON_SAMPLE);
+    for (int i = 0; i < PLACES; i++) {
+        const struct vec3 p = {.1 + .8 * chance(), 0, .1 + .8 * chance()};
+        double reach;
+        const uint32_t n = photons_gather(&m, g, p, vec3(0, 1, 0), near, &reach);
+        sum += n / (3.14159265358979323846 * reach * reach);
+    }
+    assert_near(sum / PLACES / COUNT, 1, .03);
+    photon_near_free(near);
+    photon_map_end(&m);
+}
+
 static void no_photons(void **state_)
 {
     (void)state_;
     struct photon_map m = {0};
-    struct photon_near *near = photon_near_new(5);
+    struct photon_near *near = photon_near_new(5, PHOTON_PICTURE);
     double reach;
     photon_map_build(&m, packet_kernels_base.photons);
     assert_int_equal(photons_near(&m, vec3(0, 0, 0), vec3(0, 0, 0), 1, near, &reach), 0);
@@ -216,8 +281,11 @@ static void a_full_map_of_photons_says_so(void **state_)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_photons), cmocka_unit_test(gathered_photons),
-        cmocka_unit_test(no_photons), cmocka_unit_test(a_full_map_of_photons_says_so)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nearest_photons),
+                                       cmocka_unit_test(gathered_photons),
+                                       cmocka_unit_test(hints_hold_distances),
+                                       cmocka_unit_test(few_photons_tell_the_density),
+                                       cmocka_unit_test(no_photons),
+                                       cmocka_unit_test(a_full_map_of_photons_says_so)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ static void check_scene(const char *text)
     const struct photon_gun gun = {
         .lamp = lamp, .from = lamp->light->location, .spread = .01, .share = 1};
     struct photon_shot shot[SHOTS];
-    struct photons one = {.gather = {0}}, all = {.gather = {0}};
+    struct photons one = {.gather = {{0}}}, all = {.gather = {{0}}};
     uint32_t met = 0;
     for (uint32_t i = 0; i < SHOTS; i++) {
         shot[i] = shot_at(&gun, i);
