@@ -290,7 +290,11 @@ static void compare_scene(const struct job *j, struct row *r)
         find_reason(r, log, r->seconds, status);
     } else if (r->reference_seconds < 0) {
         r->verdict = NO_REFERENCE;
+        const double limit = time_limit(j->cmd);
         find_reason(r, reference_log, r->reference_seconds, 0);
+        if (-r->reference_seconds >= limit)
+            snprintf(r->reason, sizeof r->reason,
+                     "the reference program takes longer than %g s", limit);
     } else {
         judge(j->cmd, r, reference, picture, map);
     }
