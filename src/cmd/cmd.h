@@ -75,7 +75,7 @@ struct cmd {
     volatile int stage; // enum stage; what a signal means depends on it
     volatile bool interrupted;
     volatile bool out_of_time; // interrupted by --time-limit
-    volatile bool finished; // the watch is to end with the next signal
+    volatile bool finished;    // the watch is to end with the next signal
     bool quiet, verbose;
     bool keeps; // finished tiles, to continue
     unsigned warnings;
@@ -89,6 +89,9 @@ struct cmd {
     struct command_place place; // what commands are told
     pthread_t watch;            // the thread that waits for signals
 };
+
+// Before memory is asked for.
+void heap_begin(void);
 
 // Prints "lambert: ..." and returns the code, so that it can stand after `return`.
 int cmd_fail(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

@@ -1,9 +1,6 @@
 // The lambert command.
 #include "cmd/cmd.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -230,18 +227,9 @@ static int run(struct cmd *c, int argc, char **argv)
     return code ? code : closed;
 }
 
-// One heap for all threads: they take memory a few times a tile, and a heap of its own for
-// each would be new pages, given back when it ends.
-static void share_heap(void)
-{
-#ifdef M_ARENA_MAX
-    mallopt(M_ARENA_MAX, 1);
-#endif
-}
-
 int main(int argc, char **argv)
 {
-    share_heap();
+    heap_begin();
     struct cmd c = {.ctx = lambert_context_new(), .program = argv[0]};
     if (!c.ctx)
         return cmd_fail(CMD_FAILED, "out of memory");
