@@ -30,6 +30,8 @@ static bool ray_of(const struct job *job, struct bundle *b, struct vec2 at, uint
 
 static void bundle_trace(struct tracer *t, struct bundle *b, double (*sum)[4])
 {
+    if (!b->count)
+        return; // no pixel has a ray
     tracer_rays(t, b->ray, b->count, b->color);
     for (uint32_t i = 0; i < b->count; i++)
         for (int k = 0; k < 4; k++)
