@@ -77,22 +77,14 @@ static inline struct ast *all(struct ast *list)
     return first;
 }
 
-static inline struct ast *apply(struct ast *function, struct span where,
-                                struct ast *arguments)
+// What stands before a list in brackets, with that list: a call, or an array's element.
+static inline struct ast *with_list(struct ast *what, enum ast_kind kind,
+                                    struct span where, struct ast *list)
 {
-    function->kind = AST_APPLY;
-    function->where = where;
-    function->list = arguments;
-    return function;
-}
-
-static inline struct ast *subscripts(struct ast *array, struct span where,
-                                     struct ast *list)
-{
-    array->kind = AST_INDEX;
-    array->where = where;
-    array->list = list;
-    return array;
+    what->kind = kind;
+    what->where = where;
+    what->list = list;
+    return what;
 }
 
 // A list's comma: false when there is nothing for it to follow.

@@ -361,7 +361,7 @@ call:
     }
   | FUNCTION_NAME '(' args ')'
     {
-        $$ = parse_finish(p, apply($1, @$, all($3)));
+        $$ = parse_finish(p, with_list($1, AST_APPLY, @$, all($3)));
     }
   ;
 
@@ -395,7 +395,7 @@ arg:
 subs:
     ARRAY_NAME sub_list
     {
-        $$ = parse_finish(p, subscripts($1, @$, all($2)));
+        $$ = parse_finish(p, with_list($1, AST_INDEX, @$, all($2)));
     }
   ;
 

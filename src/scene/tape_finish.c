@@ -14,7 +14,7 @@ struct finish {
     bool opaque, calls;
 };
 
-static uint32_t operands(const struct tape_node *n)
+uint32_t tape_operands(const struct tape_node *n)
 {
     switch (n->op) {
     case TAPE_CONSTANT:
@@ -51,7 +51,7 @@ static struct tape_node *reachable(struct tape_builder *b, struct arena *a,
                 used[i] |= used[i + (uint32_t)k];
         if (!used[i])
             continue;
-        for (uint32_t k = 0; k < operands(n); k++)
+        for (uint32_t k = 0; k < tape_operands(n); k++)
             used[n->arg[k]] = 1;
         for (uint32_t k = 0; k < n->count; k++)
             used[n->list[k]] = 1;
@@ -69,7 +69,7 @@ static struct tape_node *reachable(struct tape_builder *b, struct arena *a,
             continue;
         struct tape_node *n = &out[map[i]];
         *n = b->node[i];
-        for (uint32_t k = 0; k < operands(n); k++)
+        for (uint32_t k = 0; k < tape_operands(n); k++)
             n->arg[k] = map[n->arg[k]];
         if (n->count)
             n->list = arena_new_array(a, uint32_t, n->count);
@@ -83,7 +83,7 @@ static void find_last_uses(struct finish *f, const uint32_t *result, int width)
 {
     for (uint32_t i = 0; i < f->count; i++) {
         const struct tape_node *n = &f->node[i];
-        for (uint32_t k = 0; k < operands(n); k++)
+        for (uint32_t k = 0; k < tape_operands(n); k++)
             f->last[n->arg[k]] = i;
         for (uint32_t k = 0; k < n->count; k++)
             f->last[n->list[k]] = i;
@@ -111,7 +111,7 @@ static bool place(struct finish *f, uint32_t i)
         f->reg[i] = (uint16_t)(f->reg[n->arg[0]] + n->part);
         return true;
     }
-    for (uint32_t k = 0; k < operands(n); k++)
+    for (uint32_t k = 0; k < tape_operands(n); k++)
         release(f, n->arg[k], i);
     for (uint32_t k = 0; k < n->count; k++)
         release(f, n->list[k], i);
@@ -174,7 +174,7 @@ static void write_steps(const struct finish *f, struct tape_step *s, uint16_t *l
             (n->op == TAPE_EXTERN && n->part))
             continue;
         uint16_t r[4] = {0};
-        for (uint32_t k = 0; k < operands(n); k++)
+        for (uint32_t k = 0; k < tape_operands(n); k++)
             r[k] = f->reg[n->arg[k]];
         *s++ = (struct tape_step){.op = n->op,
                                   .to = f->reg[i],

@@ -42,21 +42,6 @@ static void list(struct printer *p, const uint32_t *arg, int n, const char *betw
     fputc(')', p->out);
 }
 
-static int operands(enum tape_op op)
-{
-    switch (op) {
-#define UNARY(name, value, derivative)                                                   \
-    case TAPE_##name:                                                                    \
-        return 1;
-#define BINARY(name, value, by_a, by_b)
-#include "scene/tape.def"
-#undef UNARY
-#undef BINARY
-    case TAPE_SELECT: return 4;
-    default: return 2;
-    }
-}
-
 static void number(struct printer *p, double v)
 {
     fputs(v < 0 ? "(" : "", p->out);
@@ -100,7 +85,7 @@ static void node(struct printer *p, uint32_t id)
             break;
         }
         fputs(words[n->op], p->out);
-        list(p, n->arg, operands((enum tape_op)n->op), ", ");
+        list(p, n->arg, (int)tape_operands(n), ", ");
     }
 }
 

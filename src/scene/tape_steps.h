@@ -41,6 +41,8 @@ struct tape_node {
     double k; // constant, number of an argument
     const void *callee, *data;
 };
+// How many of `arg` it reads.
+uint32_t tape_operands(const struct tape_node *n);
 
 // Registers: constants, arguments, the rest.
 struct tape {
