@@ -83,9 +83,8 @@ struct job {
     double reach;      // of rays with PATH_SHORT; 0: none has a limit
     bool general;      // for tests: no hit is shaded in lanes
     bool quick_camera; // its rays are made eight at a time
-    bool
-        collects; // light by way of others, whose samples depend on the order of the rays
-    const bool *quiet;                   // per surface (trace/scout.h); NULL: none is
+    bool collects;     // irradiance, whose samples depend on the order of the rays
+    const bool *quiet; // per surface (trace/scout.h); NULL: none is
     const struct simple_surface *simple; // per surface of the world
     const struct simple_class *simple_class;
     uint32_t simple_class_count;

@@ -282,6 +282,29 @@ void photon_map_ready(struct photon_map *m, enum photon_use use)
                           r->radius + r->step);
 }
 
+// How many photons a sample's ray gathers where the picture gathers `max`.
+static uint32_t sample_most(uint32_t max)
+{
+    enum { FEWER = 4, LEAST = 8 };
+    return max / FEWER > LEAST ? max / FEWER : max < LEAST ? max : LEAST;
+}
+
+// Irradiance samples take the mean over many places, where blurring light gains nothing and
+// what a place does not know the others do: as few photons as make a density, from as much
+// nearer, and never more from farther, which would favour places that are dark by chance.
+uint32_t photon_map_for_samples(struct photon_map *m, uint32_t max, bool in_space)
+{
+    const struct photon_range *picture = &m->range[PHOTON_PICTURE];
+    struct photon_range *r = &m->range[PHOTON_SAMPLE];
+    const uint32_t most = sample_most(max);
+    const double fewer = max ? (double)most / max : 1;
+    const double last = most > 1 ? most / (most - 1.0) : 1;
+    r->radius = picture->radius * (in_space ? det_pow(fewer, 1.0 / 3) : sqrt(fewer));
+    r->last = in_space ? det_pow(last, 1.0 / 3) : sqrt(last);
+    photon_map_ready(m, PHOTON_SAMPLE);
+    return most;
+}
+
 uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *gather,
                         struct vec3 p, struct vec3 normal, struct photon_near *near,
                         double *reach)

@@ -84,5 +84,8 @@ uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *
 void photon_map_radius(struct photon_map *m, uint32_t max, bool in_space);
 // Makes what gathering of a use needs, when its range but for the grid is known.
 void photon_map_ready(struct photon_map *m, enum photon_use use);
+// The same for rays of irradiance samples, once the range of the picture is known, which gathers
+// `max` photons; returns how many such a ray gathers.
+uint32_t photon_map_for_samples(struct photon_map *m, uint32_t max, bool in_space);
 
 #endif

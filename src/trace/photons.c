@@ -319,26 +319,6 @@ static void map_finish(struct photon_map *m, const struct job *job, int which,
     photon_map_ready(m, PHOTON_PICTURE);
 }
 
-// Irradiance samples take the mean over many places, where blurring light gains nothing and
-// what a place does not know the others do: as few photons as make a density, from as much
-// nearer, and never more from farther, which would favour places that are dark by chance.
-static uint32_t sample_most(uint32_t max)
-{
-    enum { FEWER = 4, LEAST = 8 };
-    return max / FEWER > LEAST ? max / FEWER : max < LEAST ? max : LEAST;
-}
-
-static void range_for_samples(struct photon_map *m, bool in_space, uint32_t max)
-{
-    const struct photon_range *picture = &m->range[PHOTON_PICTURE];
-    struct photon_range *r = &m->range[PHOTON_SAMPLE];
-    const uint32_t most = sample_most(max);
-    const double fewer = (double)most / max, last = most / (most - 1.0);
-    r->radius = picture->radius * (in_space ? det_pow(fewer, 1.0 / 3) : sqrt(fewer));
-    r->last = in_space ? det_pow(last, 1.0 / 3) : sqrt(last);
-    photon_map_ready(m, PHOTON_SAMPLE);
-}
-
 static void shoot_all(struct photons *p, const struct job *job,
                       const volatile bool *cancel)
 {
@@ -373,9 +353,8 @@ static void finish(struct photons *p, const struct job *job)
     map_finish(&p->media, job, 1, g->max);
     if (!job->scene->settings.radiosity)
         return;
-    p->gather[PHOTON_SAMPLE] = (struct photon_gather){.max = sample_most(g->max)};
-    range_for_samples(&p->surface, false, g->max);
-    range_for_samples(&p->media, true, g->max);
+    p->gather[PHOTON_SAMPLE].max = photon_map_for_samples(&p->surface, g->max, false);
+    photon_map_for_samples(&p->media, g->max, true);
 }
 
 struct photons *photons_shoot(const struct job *job, const struct photon_store *store,

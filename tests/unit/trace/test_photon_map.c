@@ -205,15 +205,13 @@ static void hints_hold_distances(void **state_)
     photon_grid_end(&g);
 }
 
-// Few photons, as samples gather, make the density that there is.
+// Few photons, as samples gather, make the density that there is, but for one alone.
 static void few_photons_tell_the_density(void **state_)
 {
     (void)state_;
-    enum { COUNT = 40000, MOST = 12, PLACES = 4000 };
-    const struct photon_gather g[PHOTON_USES] = {[PHOTON_SAMPLE] = {.max = MOST}};
-    struct photon_near *near = photon_near_new(MOST, PHOTON_SAMPLE);
+    enum { COUNT = 40000, PLACES = 4000 };
+    static const uint32_t maxima[] = {100, 12, 1};
     struct photon_map m;
-    double sum = 0;
     state = 5;
     fill(&m, COUNT, false, vec3(0, 0, 0));
     for (int i = 0; i < COUNT; i++) {
@@ -221,18 +219,37 @@ static void few_photons_tell_the_density(void **state_)
         m.photon[i].p[1] = 0;
         m.photon[i].p[2] = (float)chance();
     }
-    m.range[PHOTON_SAMPLE] =
-        (struct photon_range){.radius = 1, .last = sqrt(MOST / (MOST - 1.0))};
     photon_map_build(&m, packet_kernels_choose()->photons);
-    photon_map_ready(&m, PHOTON_SAMPLE);
-    for (int i = 0; i < PLACES; i++) {
-        const struct vec3 p = {.1 + .8 * chance(), 0, .1 + .8 * chance()};
-        double reach;
-        const uint32_t n = photons_gather(&m, g, p, vec3(0, 1, 0), near, &reach);
-        sum += n / (3.14159265358979323846 * reach * reach);
+    for (size_t k = 0; k < sizeof maxima / sizeof *maxima; k++) {
+        m.range[PHOTON_PICTURE] = (struct photon_range){.radius = 1, .last = 1};
+        photon_grid_end(&m.range[PHOTON_SAMPLE].grid);
+        m.range[PHOTON_SAMPLE] = (struct photon_range){.radius = 0};
+        const uint32_t most = photon_map_for_samples(&m, maxima[k], false);
+        const struct photon_gather g[PHOTON_USES] = {[PHOTON_SAMPLE] = {.max = most}};
+        struct photon_near *near = photon_near_new(most, PHOTON_SAMPLE);
+        double sum = 0;
+        for (int i = 0; i < PLACES; i++) {
+            const struct vec3 p = {.1 + .8 * chance(), 0, .1 + .8 * chance()};
+            double reach;
+            const uint32_t n = photons_gather(&m, g, p, vec3(0, 1, 0), near, &reach);
+            assert_int_equal(n, most);
+            assert_true(reach > 0 && reach < 1);
+            sum += n / (3.14159265358979323846 * reach * reach);
+        }
+        if (most > 1)
+            assert_near(sum / PLACES / COUNT, 1, .03);
+        photon_near_free(near);
     }
-    assert_near(sum / PLACES / COUNT, 1, .03);
-    photon_near_free(near);
+    photon_map_end(&m);
+}
+
+// Without photons to gather nothing is found, and no number is lost.
+static void no_samples_of_none(void **state_)
+{
+    (void)state_;
+    struct photon_map m = {.range[PHOTON_PICTURE] = {.radius = 2}};
+    assert_int_equal(photon_map_for_samples(&m, 0, true), 0);
+    assert_true(m.range[PHOTON_SAMPLE].radius == 2 && m.range[PHOTON_SAMPLE].last == 1);
     photon_map_end(&m);
 }
 
@@ -285,6 +302,7 @@ int main(void)
                                        cmocka_unit_test(gathered_photons),
                                        cmocka_unit_test(hints_hold_distances),
                                        cmocka_unit_test(few_photons_tell_the_density),
+                                       cmocka_unit_test(no_samples_of_none),
                                        cmocka_unit_test(no_photons),
                                        cmocka_unit_test(a_full_map_of_photons_says_so)};
     return cmocka_run_group_tests(tests, NULL, NULL);
