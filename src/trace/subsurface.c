@@ -65,7 +65,8 @@ static void material(struct sss *x, const struct layer *l)
 
 // ---- ways through the material -------------------------------------------------------
 
-// The wall of the object from inside, where a ray has met one; false: something else is met.
+// The wall of the object from inside, where a ray has met one; false: something else is met,
+// or nothing.
 static bool wall_at(const struct sss *x, const struct ray *ray, const struct hit *hit,
                     struct interaction *at)
 {
@@ -81,6 +82,7 @@ static bool wall_at(const struct sss *x, const struct ray *ray, const struct hit
     return true;
 }
 
+// distance: to what is met, whatever it is.
 static bool wall(const struct sss *x, struct vec3 o, struct vec3 d, double *distance,
                  struct interaction *at)
 {
@@ -130,16 +132,17 @@ static bool bent(struct vec3 d, struct vec3 n, double eta, struct vec3 *out)
 // The way of the ray from the eye on below the surface.
 struct refracted {
     struct vec3 in;
-    struct interaction far; // its end
-    double through;
-    bool is;
+    double through; // to what it meets
+    bool is, leaves;
+    struct interaction far; // where it leaves the object
 };
 
 static void refract(const struct sss *x, struct refracted *r)
 {
     const struct shading *s = x->s;
-    r->is = bent(s->path->d, x->n, 1 / x->eta, &r->in) &&
-            wall(x, trace_offset(&s->at, r->in), r->in, &r->through, &r->far);
+    r->is = bent(s->path->d, x->n, 1 / x->eta, &r->in);
+    r->leaves =
+        r->is && wall(x, trace_offset(&s->at, r->in), r->in, &r->through, &r->far);
 }
 
 // ---- light of a lamp on places ---------------------------------------------------------
@@ -204,24 +207,28 @@ struct entry_light {
     bool any;
 };
 
-// From where directions find the places.
+// From where directions find the places: halfway to the wall across at most, and in front of
+// what else lies below.
 static struct vec3 base_of(const struct sss *x)
 {
+    static const double in_front = 1 - 1e-6;
     const struct shading *s = x->s;
     const double grey = 0.297 * x->channel[0].sigma_t + 0.589 * x->channel[1].sigma_t +
                         0.114 * x->channel[2].sigma_t;
-    double depth = 1 / grey / x->mm, through;
+    double through;
     struct interaction far;
     const struct vec3 in = vec3_neg(x->n);
     if (wall(x, trace_offset(&s->at, in), in, &through, &far))
-        depth = fmin(depth, through / 2);
-    return vec3_mad(s->at.p, -depth, x->n);
+        through /= 2;
+    else
+        through *= in_front;
+    return vec3_mad(s->at.p, -fmin(1 / grey / x->mm, through), x->n);
 }
 
 // The places that directions from `first` on find from a point below the surface; who: the
-// numbers of the directions.
+// numbers of the directions; met: how many of them meet anything.
 static uint32_t entries(const struct sss *x, struct vec3 base, uint32_t first,
-                        uint32_t count, struct entry *out, uint32_t *who)
+                        uint32_t count, struct entry *out, uint32_t *who, uint32_t *met)
 {
     static const double flattest = 0.01;
     const struct shading *s = x->s;
@@ -238,7 +245,9 @@ static uint32_t entries(const struct sss *x, struct vec3 base, uint32_t first,
     for (uint32_t i = 0; i < count; i++) {
         double t;
         struct entry *e = &out[n];
-        if (!wall_answer(x, i, &t, &e->at))
+        const bool is_wall = wall_answer(x, i, &t, &e->at);
+        *met += t < INFINITY;
+        if (!is_wall)
             continue;
         const struct vec3 d = {b->d[0][i], b->d[1][i], b->d[2][i]};
         const struct vec3 apart = vec3_sub(e->at.p, s->at.p);
@@ -293,13 +302,12 @@ static void diffuse(const struct sss *x, struct asking *a, uint32_t count, doubl
     const size_t all = (size_t)count * list->count;
     struct entry_light *lit = arena_new_array(t->arena, struct entry_light, all + 1);
     struct entry *e = arena_new_array(t->arena, struct entry, ASKED);
-    uint32_t *who = arena_new_array(t->arena, uint32_t, ASKED), found = 0;
+    uint32_t *who = arena_new_array(t->arena, uint32_t, ASKED), met = 0;
     const struct vec3 base = base_of(x);
     memset(lit, 0, all * sizeof *lit);
     for (uint32_t first = 0; first < count; first += ASKED) {
-        const uint32_t n = entries(x, base, first,
-                                   count - first < ASKED ? count - first : ASKED, e, who);
-        found += n;
+        const uint32_t n = entries(
+            x, base, first, count - first < ASKED ? count - first : ASKED, e, who, &met);
         for (uint32_t i = 0; i < list->count && n; i++)
             if (!list->lamp[i]->inert)
                 diffuse_lamp(x, list->lamp[i], a, e, who, n, lit + (size_t)i * count);
@@ -307,8 +315,8 @@ static void diffuse(const struct sss *x, struct asking *a, uint32_t count, doubl
     double sum[3] = {0, 0, 0};
     for (uint32_t i = 0; i < list->count; i++)
         lights_add(lit + (size_t)i * count, count, sum);
-    for (int k = 0; k < 3 && found; k++)
-        out[k] += sum[k] / found;
+    for (int k = 0; k < 3 && met; k++)
+        out[k] += sum[k] / met;
 }
 
 // ---- light that was scattered once ---------------------------------------------------
@@ -421,12 +429,12 @@ static void unscattered(const struct sss *x, const struct layer *l,
 {
     const struct shading *s = x->s;
     struct vec3 d;
-    if (!r->is)
+    if (!r->leaves)
         return;
     const double way = r->through * x->mm;
-    const struct rgb clear = {(float)(x->out * det_exp(-x->channel[0].sigma_t * way)),
-                              (float)(x->out * det_exp(-x->channel[1].sigma_t * way)),
-                              (float)(x->out * det_exp(-x->channel[2].sigma_t * way))};
+    const struct rgb clear = {(float)det_exp(-x->channel[0].sigma_t * way),
+                              (float)det_exp(-x->channel[1].sigma_t * way),
+                              (float)det_exp(-x->channel[2].sigma_t * way)};
     if (!bent(r->in, vec3_neg(r->far.ng), x->eta, &d))
         return;
     struct path p = *s->path;

@@ -283,4 +283,6 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/387-caustics-lanes.pov \
 	%D%/388-coincident-curved.pov \
 	%D%/389-thin-poly.pov \
+	%D%/390-subsurface-open.pov \
+	%D%/391-subsurface-clear.pov \
 	%D%/379-shadow-textured.pov
