@@ -87,8 +87,7 @@ static void spectrum_init(struct job *job)
 static void sky_init(struct job *job)
 {
     const struct scene *s = job->scene;
-    job->has_air = job->atmosphere && job->settings.purpose != RENDER_SCOUT &&
-                   (s->fog_count || s->rainbow_count || job->has_media);
+    job->has_air = job->air && (s->fog_count || s->rainbow_count || job->has_media);
     job->even_sky = !s->sky;
     for (int opaque = 0; opaque < 2 && job->even_sky; opaque++)
         job->sky[opaque] = sky_color(job, vec3(0, 0, 1), opaque, &job->sky_clear[opaque]);
@@ -173,6 +172,8 @@ void job_init(struct job *job, struct arena *a, const struct world *w,
         .mirrors = q >= 8,
         .normals = q >= 8,
         .atmosphere = q >= 9,
+        .air = q >= 9 && settings->purpose != RENDER_SCOUT &&
+               (settings->purpose != RENDER_GATHER || s->radiosity_settings.media),
         .photons = settings->purpose == RENDER_SCOUT ? NULL : settings->photons,
         .collects = settings->purpose != RENDER_PICTURE && settings->indirect.data,
     };

@@ -50,6 +50,7 @@ struct job {
     struct rgb ambient_light, irid_wavelength;
     // switched by the quality level (spec/lighting.md 14)
     bool lights, shadows, area_lights, pigments, refraction, mirrors, normals, atmosphere;
+    bool air;                          // fogs, rainbows and media act
     float spectrum[SPECTRUM_NODES][3]; // summed from the violet end
     // What a miss sees where that does not depend on the direction: [1] where the
     // background never shows as alpha.

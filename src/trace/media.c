@@ -372,9 +372,7 @@ static void tapes_compile(struct gathering *g)
 void media_compile(struct job *job, struct arena *a)
 {
     struct gathering g = {.job = job, .arena = a};
-    const enum render_purpose purpose = job->settings.purpose;
-    if (!job->atmosphere || purpose == RENDER_SCOUT ||
-        (purpose == RENDER_GATHER && !job->scene->settings.radiosity_settings.media))
+    if (!job->air)
         return;
     each_media(job, count_one, &g);
     job->has_media = g.count > 0;

@@ -329,7 +329,7 @@ static void walk_batch(struct tracer *t, struct shadow_batch *b, uint32_t count,
 // Whether something that fills the scene may dim the light of lamps.
 static bool has_dimming_air(const struct job *job)
 {
-    return job->atmosphere && (job->scene->fog_count || job->has_air_media);
+    return job->air && (job->scene->fog_count || job->has_air_media);
 }
 
 bool air_counts(const struct job *job, uint32_t lamp)

@@ -285,4 +285,6 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/389-thin-poly.pov \
 	%D%/390-subsurface-open.pov \
 	%D%/391-subsurface-clear.pov \
+	%D%/392-radiosity-fog.pov \
+	%D%/393-radiosity-fog-on.pov \
 	%D%/379-shadow-textured.pov
