@@ -9,7 +9,7 @@
 
 struct ray_batch;
 
-enum { ELEMENT_NONE = UINT32_MAX };
+#define ELEMENT_NONE UINT32_MAX
 
 // One side of a piece of a surface, over which radiosity is constant. The corners go
 // counter-clockwise about the normal; on a curved surface they lie on the surface and

@@ -10,7 +10,9 @@
 #include "radiosity/sequence.h"
 #include "radiosity/solver.h"
 
-enum { JUDGE_SAMPLES = 8, LINK_SAMPLES = 16, GROUP_NONE = UINT32_MAX };
+enum { JUDGE_SAMPLES = 8, LINK_SAMPLES = 16 };
+
+#define GROUP_NONE UINT32_MAX
 
 struct group {
     uint32_t first, count; // in `order`

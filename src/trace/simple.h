@@ -8,7 +8,7 @@
 // Their hits are shaded eight at a time (trace/shade_kernel.h), with the arithmetic, and
 // hence the bits, of trace/shade.c.
 
-enum { SIMPLE_NONE = UINT32_MAX };
+#define SIMPLE_NONE UINT32_MAX
 
 // All surfaces whose light has the same rule.
 struct simple_class {
