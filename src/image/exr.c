@@ -1,8 +1,7 @@
 // OpenEXR files through the C core: one part, scan lines, ZIP, R G B (A), half or
 // float. Chunks are written in order by one thread: equal pictures, equal bytes.
-#include "image/codec.h"
+#include "image/exr_file.h"
 
-#include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,16 +21,11 @@ static int64_t on_write(exr_const_context_t f, void *user, const void *data, uin
     return -1;
 }
 
-static void on_error(exr_const_context_t f, exr_result_t code, const char *text)
-{
-    (void)f, (void)code, (void)text; // the code is returned too
-}
-
 static exr_context_initializer_t context_initializer(struct memory_file *m)
 {
     exr_context_initializer_t i = EXR_DEFAULT_CONTEXT_INITIALIZER;
     i.user_data = m;
-    i.error_handler_fn = on_error;
+    i.error_handler_fn = exr_file_error;
     i.write_fn = on_write;
     return i;
 }
@@ -55,22 +49,24 @@ static void bind_encoder(exr_coding_channel_info_t *c, int count, const struct i
     }
 }
 
-static exr_result_t write_header(exr_context_t f, int *part, const struct image *im,
+static exr_result_t write_header(const struct exr_file *f, int *part,
+                                 const struct image *im,
                                  const struct image_write_options *o)
 {
     // Alphabetical, as the format wants.
     static const char *const channels[] = {"A", "B", "G", "R"};
     exr_pixel_type_t type = o->bits > 16 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF;
-    exr_result_t r = exr_add_part(f, NULL, EXR_STORAGE_SCANLINE, part);
+    exr_result_t r = f->lib.exr_add_part(f->context, NULL, EXR_STORAGE_SCANLINE, part);
     if (!r)
-        r = exr_initialize_required_attr_simple(f, *part, im->width, im->height,
-                                                EXR_COMPRESSION_ZIP);
+        r = f->lib.exr_initialize_required_attr_simple(f->context, *part, im->width,
+                                                       im->height, EXR_COMPRESSION_ZIP);
     for (int i = o->alpha ? 0 : 1; i < 4 && !r; i++)
-        r = exr_add_channel(f, *part, channels[i], type, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
-                            1);
+        r = f->lib.exr_add_channel(f->context, *part, channels[i], type,
+                                   EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     for (size_t i = 0; i < o->metadata.count && !r; i++)
-        r = exr_attr_set_string(f, *part, o->metadata.key[i], o->metadata.text[i]);
-    return r ? r : exr_write_header(f);
+        r = f->lib.exr_attr_set_string(f->context, *part, o->metadata.key[i],
+                                       o->metadata.text[i]);
+    return r ? r : f->lib.exr_write_header(f->context);
 }
 
 struct compressor {
@@ -88,53 +84,57 @@ static exr_result_t compress(exr_encode_pipeline_t *e)
     return r;
 }
 
-static exr_result_t write_chunks(exr_context_t f, int part, const struct image *im)
+static exr_result_t write_chunks(const struct exr_file *f, int part,
+                                 const struct image *im)
 {
     exr_encode_pipeline_t e = EXR_ENCODE_PIPELINE_INITIALIZER;
     struct compressor compressor = {NULL};
     int lines = 1;
-    exr_result_t r = exr_get_scanlines_per_chunk(f, part, &lines);
+    exr_result_t r = f->lib.exr_get_scanlines_per_chunk(f->context, part, &lines);
     for (int y = 0; y < im->height && !r; y += lines) {
         exr_chunk_info_t chunk;
-        r = exr_write_scanline_chunk_info(f, part, y, &chunk);
+        r = f->lib.exr_write_scanline_chunk_info(f->context, part, y, &chunk);
         if (!r)
-            r = y ? exr_encoding_update(f, part, &chunk, &e)
-                  : exr_encoding_initialize(f, part, &chunk, &e);
+            r = y ? f->lib.exr_encoding_update(f->context, part, &chunk, &e)
+                  : f->lib.exr_encoding_initialize(f->context, part, &chunk, &e);
         if (r)
             break;
         bind_encoder(e.channels, e.channel_count, im, y);
         if (!y) {
-            r = exr_encoding_choose_default_routines(f, part, &e);
+            r = f->lib.exr_encoding_choose_default_routines(f->context, part, &e);
             compressor.run = e.compress_fn;
             if (e.compress_fn)
                 e.compress_fn = compress;
             e.encoding_user_data = &compressor;
         }
         if (!r)
-            r = exr_encoding_run(f, part, &e);
+            r = f->lib.exr_encoding_run(f->context, part, &e);
     }
-    exr_encoding_destroy(f, &e);
+    f->lib.exr_encoding_destroy(f->context, &e);
     return r;
 }
 
 bool exr_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e)
 {
+    struct exr_file f;
+    if (!load(&f.lib, e.text, e.size))
+        return false;
     struct image linear;
     if (!image_linear(&linear, im, o, o->alpha ? 4 : 3))
         return codec_fail(e, "out of memory");
     struct memory_file m = {.out = out};
     exr_context_initializer_t init = context_initializer(&m);
-    exr_context_t f;
     int part = 0;
-    exr_result_t r = exr_start_write(&f, "picture", EXR_WRITE_FILE_DIRECTLY, &init);
+    exr_result_t r =
+        f.lib.exr_start_write(&f.context, "picture", EXR_WRITE_FILE_DIRECTLY, &init);
     if (!r) {
-        r = write_header(f, &part, &linear, o);
+        r = write_header(&f, &part, &linear, o);
         if (!r)
-            r = write_chunks(f, part, &linear);
-        exr_result_t end = exr_finish(&f);
+            r = write_chunks(&f, part, &linear);
+        exr_result_t end = f.lib.exr_finish(&f.context);
         r = r ? r : end;
     }
     image_free(&linear);
-    return !r || codec_fail(e, "%s", exr_get_error_code_as_string(r));
+    return !r || codec_fail(e, "%s", f.lib.exr_get_error_code_as_string(r));
 }

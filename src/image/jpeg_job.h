@@ -1,13 +1,43 @@
 #ifndef IMAGE_JPEG_JOB_H
 #define IMAGE_JPEG_JOB_H
 
-// libjpeg's errors, for reading and writing: they jump back to who called it.
+// libjpeg, loaded for reading and writing; its errors jump back to who called it.
 #include <setjmp.h>
 #include <stdio.h>
 
 #include <jpeglib.h>
 
+#include "base/library.h"
 #include "image/codec.h"
+
+#define FUNCTIONS(F)                                                                     \
+    F(jpeg_CreateCompress)                                                               \
+    F(jpeg_CreateDecompress)                                                             \
+    F(jpeg_destroy_compress)                                                             \
+    F(jpeg_destroy_decompress)                                                           \
+    F(jpeg_finish_compress)                                                              \
+    F(jpeg_finish_decompress)                                                            \
+    F(jpeg_mem_dest)                                                                     \
+    F(jpeg_mem_src)                                                                      \
+    F(jpeg_read_header)                                                                  \
+    F(jpeg_read_scanlines)                                                               \
+    F(jpeg_set_defaults)                                                                 \
+    F(jpeg_set_quality)                                                                  \
+    F(jpeg_start_compress)                                                               \
+    F(jpeg_start_decompress)                                                             \
+    F(jpeg_std_error)                                                                    \
+    F(jpeg_write_marker)                                                                 \
+    F(jpeg_write_scanlines)
+
+struct libjpeg {
+    FUNCTIONS(LIBRARY_POINTER)
+};
+
+#ifdef JPEG_SONAME
+LIBRARY_LOADED(libjpeg, JPEG_SONAME)
+#else
+LIBRARY_LINKED(libjpeg)
+#endif
 
 struct jpeg_job {
     struct jpeg_error_mgr manager; // first: libjpeg hands this back

@@ -1,9 +1,8 @@
 // OpenEXR files through the C core: the first part, scan lines or the finest tiles, any
 // compression; R G B, grey, or luminance with colour differences, each with alpha or not.
-#include "image/codec.h"
+#include "image/exr_file.h"
 
 #include <math.h>
-#include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,11 +29,6 @@ static int64_t on_size(exr_const_context_t f, void *user)
 {
     (void)f;
     return (int64_t)((const struct memory_file *)user)->size;
-}
-
-static void on_error(exr_const_context_t f, exr_result_t code, const char *text)
-{
-    (void)f, (void)code, (void)text; // the code is returned too
 }
 
 // ---- planes ---------------------------------------------------------------------------
@@ -87,53 +81,54 @@ static void bind(exr_coding_channel_info_t *c, int count, const struct layout *l
     }
 }
 
-static exr_result_t decode(exr_context_t f, exr_decode_pipeline_t *d, bool first,
+static exr_result_t decode(const struct exr_file *f, exr_decode_pipeline_t *d, bool first,
                            const exr_chunk_info_t *chunk, const struct layout *l,
                            const struct planes *p, int x, int y)
 {
-    exr_result_t r = first ? exr_decoding_initialize(f, 0, chunk, d)
-                           : exr_decoding_update(f, 0, chunk, d);
+    exr_result_t r = first ? f->lib.exr_decoding_initialize(f->context, 0, chunk, d)
+                           : f->lib.exr_decoding_update(f->context, 0, chunk, d);
     if (r)
         return r;
     bind(d->channels, d->channel_count, l, p, x, y);
     if (first)
-        r = exr_decoding_choose_default_routines(f, 0, d);
-    return r ? r : exr_decoding_run(f, 0, d);
+        r = f->lib.exr_decoding_choose_default_routines(f->context, 0, d);
+    return r ? r : f->lib.exr_decoding_run(f->context, 0, d);
 }
 
-static exr_result_t read_lines(exr_context_t f, const struct layout *l,
+static exr_result_t read_lines(const struct exr_file *f, const struct layout *l,
                                const struct planes *p)
 {
     exr_decode_pipeline_t d = EXR_DECODE_PIPELINE_INITIALIZER;
     int lines = 1;
-    exr_result_t r = exr_get_scanlines_per_chunk(f, 0, &lines);
+    exr_result_t r = f->lib.exr_get_scanlines_per_chunk(f->context, 0, &lines);
     for (int y = 0; y < p->height && !r; y += lines) {
         exr_chunk_info_t chunk;
-        r = exr_read_scanline_chunk_info(f, 0, l->top + y, &chunk);
+        r = f->lib.exr_read_scanline_chunk_info(f->context, 0, l->top + y, &chunk);
         if (!r)
             r = decode(f, &d, y == 0, &chunk, l, p, 0, y);
     }
-    exr_decoding_destroy(f, &d);
+    f->lib.exr_decoding_destroy(f->context, &d);
     return r;
 }
 
-static exr_result_t read_tiles(exr_context_t f, const struct layout *l,
+static exr_result_t read_tiles(const struct exr_file *f, const struct layout *l,
                                const struct planes *p)
 {
     exr_decode_pipeline_t d = EXR_DECODE_PIPELINE_INITIALIZER;
     int width = 0, height = 0;
-    exr_result_t r = exr_get_tile_sizes(f, 0, 0, 0, &width, &height);
+    exr_result_t r = f->lib.exr_get_tile_sizes(f->context, 0, 0, 0, &width, &height);
     if (!r && (width < 1 || height < 1))
         r = EXR_ERR_INVALID_ATTR;
     for (int y = 0; !r && y < p->height; y += height) {
         for (int x = 0; !r && x < p->width; x += width) {
             exr_chunk_info_t chunk;
-            r = exr_read_tile_chunk_info(f, 0, x / width, y / height, 0, 0, &chunk);
+            r = f->lib.exr_read_tile_chunk_info(f->context, 0, x / width, y / height, 0,
+                                                0, &chunk);
             if (!r)
                 r = decode(f, &d, x == 0 && y == 0, &chunk, l, p, x, y);
         }
     }
-    exr_decoding_destroy(f, &d);
+    f->lib.exr_decoding_destroy(f->context, &d);
     return r;
 }
 
@@ -190,7 +185,7 @@ static bool spread_plane(float *plane, const struct planes *p, const struct layo
 }
 
 // How much each primary has of the luminance, from where they and white are.
-static void luminance_weights(exr_context_t f, float w[3])
+static void luminance_weights(const struct exr_file *f, float w[3])
 {
     exr_attr_chromaticities_t c = {.red_x = 0.64f,
                                    .red_y = 0.33f,
@@ -200,7 +195,7 @@ static void luminance_weights(exr_context_t f, float w[3])
                                    .blue_y = 0.06f,
                                    .white_x = 0.3127f,
                                    .white_y = 0.329f};
-    exr_attr_get_chromaticities(f, 0, "chromaticities", &c);
+    f->lib.exr_attr_get_chromaticities(f->context, 0, "chromaticities", &c);
     const double x[3] = {c.red_x, c.green_x, c.blue_x},
                  y[3] = {c.red_y, c.green_y, c.blue_y};
     const double white[3] = {c.white_x / c.white_y, 1,
@@ -321,7 +316,8 @@ static void correct_planes(const struct planes *p, float *const plane[3],
     }
 }
 
-static bool color_planes(exr_context_t f, const struct planes *p, const struct layout *l)
+static bool color_planes(const struct exr_file *f, const struct planes *p,
+                         const struct layout *l)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
     float *plane[3] = {p->at, p->at + GREEN * n, p->at + BLUE * n}, w[3];
@@ -348,10 +344,10 @@ static bool color_planes(exr_context_t f, const struct planes *p, const struct l
 
 // ---- files ----------------------------------------------------------------------------
 
-static exr_result_t read_layout(exr_context_t f, struct layout *l, bool *known)
+static exr_result_t read_layout(const struct exr_file *f, struct layout *l, bool *known)
 {
     const exr_attr_chlist_t *list;
-    exr_result_t r = exr_get_channels(f, 0, &list);
+    exr_result_t r = f->lib.exr_get_channels(f->context, 0, &list);
     bool color = false, luma = false, differences = false;
     for (int i = 0; !r && i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *c = &list->entries[i];
@@ -401,20 +397,20 @@ static bool believable(int64_t width, int64_t height, size_t size)
            (double)(width * height) <= most * (double)size;
 }
 
-static bool read_opened(exr_context_t f, struct image *im, size_t size,
+static bool read_opened(const struct exr_file *f, struct image *im, size_t size,
                         struct codec_error e)
 {
     struct layout l = {0};
     exr_attr_box2i_t box;
     exr_storage_t storage;
     bool known = false;
-    exr_result_t r = exr_get_storage(f, 0, &storage);
+    exr_result_t r = f->lib.exr_get_storage(f->context, 0, &storage);
     if (!r && storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
         return codec_fail(e, "deep EXR files cannot be read");
-    r = r ? r : exr_get_data_window(f, 0, &box);
+    r = r ? r : f->lib.exr_get_data_window(f->context, 0, &box);
     r = r ? r : read_layout(f, &l, &known);
     if (r)
-        return codec_fail(e, "%s", exr_get_default_error_message(r));
+        return codec_fail(e, "%s", f->lib.exr_get_default_error_message(r));
     if (!known)
         return codec_fail(e, "the file has neither R G B nor Y channels");
     const int64_t width = (int64_t)box.max.x - box.min.x + 1;
@@ -438,7 +434,7 @@ static bool read_opened(exr_context_t f, struct image *im, size_t size,
     if (!r)
         interleave(im, p.at, l.kind);
     free(p.at);
-    return !r || codec_fail(e, "%s", exr_get_default_error_message(r));
+    return !r || codec_fail(e, "%s", f->lib.exr_get_default_error_message(r));
 }
 
 static bool exr_decode(struct image *im, const uint8_t *data, size_t size,
@@ -448,15 +444,17 @@ static bool exr_decode(struct image *im, const uint8_t *data, size_t size,
     struct memory_file m = {data, size};
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.user_data = &m;
-    init.error_handler_fn = on_error;
+    init.error_handler_fn = exr_file_error;
     init.read_fn = on_read;
     init.size_fn = on_size;
-    exr_context_t f;
-    exr_result_t r = exr_start_read(&f, "picture", &init);
+    struct exr_file f;
+    if (!load(&f.lib, e.text, e.size))
+        return false;
+    exr_result_t r = f.lib.exr_start_read(&f.context, "picture", &init);
     if (r)
-        return codec_fail(e, "%s", exr_get_default_error_message(r));
-    bool ok = read_opened(f, im, size, e);
-    exr_finish(&f);
+        return codec_fail(e, "%s", f.lib.exr_get_default_error_message(r));
+    bool ok = read_opened(&f, im, size, e);
+    f.lib.exr_finish(&f.context);
     if (!ok)
         image_free(im);
     return ok;

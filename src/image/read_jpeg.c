@@ -24,11 +24,12 @@ static void from_inks(const uint8_t *ink, uint32_t width, bool light, uint8_t *r
         }
 }
 
-static bool read_all(struct jpeg_decompress_struct *c, struct texels *t,
-                     const uint8_t *data, size_t size, struct codec_error e)
+static bool read_all(const struct libjpeg *lib, struct jpeg_decompress_struct *c,
+                     struct texels *t, const uint8_t *data, size_t size,
+                     struct codec_error e)
 {
-    jpeg_mem_src(c, data, (unsigned long)size);
-    jpeg_read_header(c, TRUE);
+    lib->jpeg_mem_src(c, data, (unsigned long)size);
+    lib->jpeg_read_header(c, TRUE);
     const bool grey = c->jpeg_color_space == JCS_GRAYSCALE;
     const bool inks = c->num_components == 4;
     if (c->num_components != 1 && c->num_components != 3 && !inks)
@@ -40,17 +41,17 @@ static bool read_all(struct jpeg_decompress_struct *c, struct texels *t,
     if (!texels_allocate(t, c->image_width, c->image_height, grey ? 1 : 3, TEXEL_U8, size,
                          64 * 8 * 16, e))
         return false;
-    jpeg_start_decompress(c);
+    lib->jpeg_start_decompress(c);
     JSAMPARRAY line = NULL; // freed with c
     if (inks)
         line = c->mem->alloc_sarray((j_common_ptr)c, JPOOL_IMAGE, 4 * c->output_width, 1);
     while (c->output_scanline < c->output_height) {
         JSAMPROW row = texels_row8(t, (int)c->output_scanline);
-        jpeg_read_scanlines(c, inks ? line : &row, 1);
+        lib->jpeg_read_scanlines(c, inks ? line : &row, 1);
         if (inks)
             from_inks(line[0], c->output_width, c->saw_Adobe_marker, row);
     }
-    jpeg_finish_decompress(c);
+    lib->jpeg_finish_decompress(c);
     return true;
 }
 
@@ -58,15 +59,18 @@ bool jpeg_texels(struct texels *t, const uint8_t *data, size_t size, struct code
 {
     struct jpeg_decompress_struct c;
     struct jpeg_job job = {.error = e};
+    struct libjpeg lib;
+    if (!load(&lib, e.text, e.size))
+        return false;
     memset(&c, 0, sizeof c);
-    c.err = jpeg_std_error(&job.manager);
+    c.err = lib.jpeg_std_error(&job.manager);
     job.manager.error_exit = jpeg_job_fail;
     job.manager.emit_message = on_message;
     volatile bool ok = false;
     if (!setjmp(job.back)) {
-        jpeg_create_decompress(&c);
-        ok = read_all(&c, t, data, size, e);
+        lib.jpeg_CreateDecompress(&c, JPEG_LIB_VERSION, sizeof c);
+        ok = read_all(&lib, &c, t, data, size, e);
     }
-    jpeg_destroy_decompress(&c);
+    lib.jpeg_destroy_decompress(&c);
     return ok;
 }

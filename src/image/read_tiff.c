@@ -28,18 +28,11 @@ struct libtiff {
     FUNCTIONS(LIBRARY_POINTER)
 };
 
-static bool load(struct libtiff *lib, struct codec_error e)
-{
 #ifdef TIFF_SONAME
-    static const char *const names[] = {FUNCTIONS(LIBRARY_NAME)};
-    return library_load(TIFF_SONAME, names, sizeof names / sizeof names[0], lib, e.text,
-                        e.size);
+LIBRARY_LOADED(libtiff, TIFF_SONAME)
 #else
-    (void)e;
-    *lib = (struct libtiff){FUNCTIONS(LIBRARY_FUNCTION)};
-    return true;
+LIBRARY_LINKED(libtiff)
 #endif
-}
 
 struct job {
     const uint8_t *data;
@@ -206,7 +199,7 @@ static bool read_opened(const struct libtiff *lib, TIFF *f, struct texels *t, si
 bool tiff_texels(struct texels *t, const uint8_t *data, size_t size, struct codec_error e)
 {
     struct libtiff lib;
-    if (!load(&lib, e))
+    if (!load(&lib, e.text, e.size))
         return false;
     struct job job = {data, (tmsize_t)size, 0, e, false};
     lib.TIFFSetErrorHandler(NULL);

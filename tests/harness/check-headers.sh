@@ -1,5 +1,5 @@
 #!/bin/sh
-# Every header compiles alone. One TAP line per header.
+# Every header compiles alone. One TAP line per header. header_cflags: those of libraries.
 srcdir=${top_srcdir:-.} builddir=${top_builddir:-.}
 n=0 failed=0
 for header in $(cd "$srcdir" && find src -name '*.h' | sort); do
@@ -7,7 +7,7 @@ for header in $(cd "$srcdir" && find src -name '*.h' | sort); do
   if printf '#include "%s"\n' "$header" |
     ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -I"$srcdir" -I"$srcdir/src" \
       -I"$srcdir/include" -I"$srcdir/grammar" -I"$builddir/grammar" \
-      -I"$builddir/src" -I"$builddir" -Wall -Werror -fsyntax-only -x c - 2>"headers.$$"; then
+      -I"$builddir/src" -I"$builddir" $header_cflags -Wall -Werror -fsyntax-only -x c - 2>"headers.$$"; then
     echo "ok $n - $header"
   else
     echo "not ok $n - $header"

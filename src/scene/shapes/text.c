@@ -32,18 +32,11 @@ struct freetype {
     FUNCTIONS(LIBRARY_POINTER)
 };
 
-static bool load(struct freetype *lib, char *why, size_t why_size)
-{
 #ifdef FREETYPE_SONAME
-    static const char *const names[] = {FUNCTIONS(LIBRARY_NAME)};
-    return library_load(FREETYPE_SONAME, names, sizeof names / sizeof names[0], lib, why,
-                        why_size);
+LIBRARY_LOADED(freetype, FREETYPE_SONAME)
 #else
-    (void)why, (void)why_size;
-    *lib = (struct freetype){FUNCTIONS(LIBRARY_FUNCTION)};
-    return true;
+LIBRARY_LINKED(freetype)
 #endif
-}
 
 struct text {
     struct outline *glyph;
