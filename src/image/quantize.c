@@ -69,7 +69,7 @@ struct quantizer {
     uint16_t *guess; // the code just below each bucket, the first and all before it
     uint32_t first;  // the bucket of border[1]
     // NULL where a bucket has two borders. Of the bucket before the first and of each from
-    // there: with the lower bits of a float added, its code above STEP_SHIFT bits.
+    // there: with the bits of a float added, its code above STEP_SHIFT bits (modulo 2^32).
     uint32_t *step;
 };
 
@@ -139,12 +139,12 @@ static bool fill_steps(struct quantizer *q, uint32_t buckets)
     q->step = malloc((buckets + 1) * sizeof *q->step);
     if (!q->step)
         return false;
-    q->step[0] = 0;
+    q->step[0] = 0u - ((q->first - 1) << BUCKET_SHIFT);
     for (uint32_t b = 0; b < buckets; b++) {
         const uint32_t begin = (q->first + b) << BUCKET_SHIFT, code = q->guess[b];
         const uint32_t border = q->border[code + 1] - begin; // the last is far above
         const uint32_t up = (uint32_t)1 << STEP_SHIFT;
-        q->step[b + 1] = (code << STEP_SHIFT) + (border < up ? up - border : 0);
+        q->step[b + 1] = (code << STEP_SHIFT) + (border < up ? up - border : 0) - begin;
     }
     return true;
 }
@@ -262,17 +262,18 @@ static inline uint16_t *stepped_codes(const struct quantizer *q, const float *p,
     const uint32_t before = (q->first << BUCKET_SHIFT) - 1;
     const float least = from_bits(before);
     const uint32_t *step = q->step;
-    const uint32_t first = before >> BUCKET_SHIFT, low = (1 << BUCKET_SHIFT) - 1;
-    uint32_t bucket[PLAIN_FLOATS], rest[PLAIN_FLOATS];
+    const uint32_t first = before >> BUCKET_SHIFT;
+    uint32_t bits[PLAIN_FLOATS];
     for (int i = 0; i < count; i++) {
         float v = p[i] > least ? p[i] : least; // NaN too has the code 0
         v = v < 1 ? v : 1;
-        bucket[i] = (to_bits(v) >> BUCKET_SHIFT) - first;
-        rest[i] = to_bits(v) & low;
+        bits[i] = to_bits(v);
     }
     for (int i = 0; i < count; i += channels)
-        for (int k = 0; k < 3; k++)
-            *out++ = (uint16_t)((step[bucket[i + k]] + rest[i + k]) >> STEP_SHIFT);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = bits[i + k];
+            *out++ = (uint16_t)((step[(v >> BUCKET_SHIFT) - first] + v) >> STEP_SHIFT);
+        }
     return out;
 }
 

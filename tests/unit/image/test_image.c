@@ -232,6 +232,22 @@ static void integer_round_trips(void **state)
         }
 }
 
+static void check_runs(const struct image *im, enum image_type type, int bits,
+                       const char *path)
+{
+    struct image back;
+    struct image_write_options o = options(type, bits);
+    o.transfer = none;
+    o.compression = type == IMAGE_TGA;
+    write_file(im, path, o);
+    read_file(&back, path, none);
+    for (int i = 0; i < im->width * im->height * 3; i++)
+        assert_near((double)back.pixel[i], (double)im->pixel[i],
+                    0.5 / ((1 << bits) - 1) + 1e-6);
+    image_free(&back);
+    unlink(path);
+}
+
 // Rows of every mixture of runs and differences, in widths around the longest run.
 static void packed_runs(void **state)
 {
@@ -247,14 +263,9 @@ static void packed_runs(void **state)
                 im.pixel[3 * i + k] =
                     repeat ? im.pixel[3 * i + k - 3] : (float)(s >> (8 + k) & 7) / 8;
         }
-        struct image_write_options o = options(IMAGE_TGA, 8);
-        o.transfer = none;
-        o.compression = 1;
-        write_file(&im, "t_runs.tga", o);
-        read_file(&back, "t_runs.tga", none);
-        for (int i = 0; i < width * 15; i++)
-            assert_near((double)back.pixel[i], (double)im.pixel[i], 0.5 / 255 + 1e-6);
-        image_free(&back);
+        check_runs(&im, IMAGE_TGA, 8, "t_runs.tga");
+        check_runs(&im, IMAGE_PNG, 8, "t_runs.png");
+        check_runs(&im, IMAGE_PNG, 16, "t_runs.png");
         write_file(&im, "t_runs.hdr", options(IMAGE_HDR, 8));
         read_file(&back, "t_runs.hdr", none);
         for (int i = 0; i < width * 5; i++) {
@@ -266,7 +277,6 @@ static void packed_runs(void **state)
         image_free(&back);
         image_free(&im);
     }
-    unlink("t_runs.tga");
     unlink("t_runs.hdr");
 }
 
