@@ -203,10 +203,13 @@ LANES_INLINE void place_of(struct vec8 p, double scale, bool near, struct place8
     number_cells(cell, near, out);
 }
 
+// fmax would be a call.
+LANES_INLINE double larger(double a, double b) { return a > b ? a : b; }
+
 // Whether all points stay near, even times `scale`.
 LANES_INLINE bool are_near(struct vec8 p, double scale)
 {
-    const struct real8 least = r8_set(PLACE_NEAR / fmax(1, fabs(scale)));
+    const struct real8 least = r8_set(PLACE_NEAR / larger(1, fabs(scale)));
     return m8_bits(m8_and(m8_and(r8_lt(r8_abs(p.x), least), r8_lt(r8_abs(p.y), least)),
                           r8_lt(r8_abs(p.z), least))) == 255;
 }
