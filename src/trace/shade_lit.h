@@ -93,8 +93,9 @@ LANES_INLINE struct rgb8 lit8(const struct lit_layer *l, bool side_test, bool du
         struct real8 cosine = r8_abs(facing);
         if (f->brilliance != 1)
             cosine = r8_pow_single(cosine, (double)f->brilliance);
-        const struct float8 strength = f8_select(back, f8_set(fmaxf(0, f->diffuse_back)),
-                                                 f8_set(fmaxf(0, f->diffuse)));
+        const struct float8 strength =
+            f8_select(back, f8_set(f->diffuse_back > 0 ? f->diffuse_back : 0),
+                      f8_set(f->diffuse > 0 ? f->diffuse : 0));
         struct float8 i = f8_mul(f8_of(cosine), f8_mul(strength, f8_load(l->att)));
         if (f->crand > 0) {
             const struct float8 less =
