@@ -11,6 +11,12 @@
 
 enum { SQUARE = 32 }; // side of the squares that know nothing of each other in a pass
 
+struct square {
+    struct store fresh; // what a pass has found
+    uint64_t rays;      // of its last pass
+    bool settled;       // it gets no more passes but the last
+};
+
 struct scouts;
 
 struct pass {
@@ -18,14 +24,13 @@ struct pass {
     struct scouts *scouts;
     const struct render_settings *settings;
     uint32_t number;
-    double size;         // distance of its points, in pixels
-    bool final;          // by the picture's rules, at the middle of every pixel
-    double from, to;     // what part of the whole it is
-    struct store *fresh; // by square
-    uint64_t *rays;      // by square
-    bool *settled;       // by square: it gets no more passes but the last
-    uint32_t *order;     // of the squares
-    uint32_t done;       // of that order
+    double size;     // distance of its points, in pixels
+    bool final;      // by the picture's rules, at the middle of every pixel
+    double from, to; // what part of the whole it is
+    struct square *square;
+    uint32_t *order; // of the squares
+    uint32_t *turn;  // the same, those of a round that take longest first
+    uint32_t done;   // of that order
 };
 
 static uint32_t squares_across(const struct render_settings *s)
@@ -151,18 +156,19 @@ static void work(void *user, void *state, uint32_t from, uint32_t to)
     struct scout *s = state;
     const uint32_t across = squares_across(p->settings);
     for (uint32_t k = from; k < to; k++) {
-        const uint32_t i = p->order[p->done + k];
+        const uint32_t i = p->turn[p->done + k];
+        struct square *square = &p->square[i];
         const int x0 = p->settings->col_begin + SQUARE * (int)(i % across),
                   y0 = p->settings->row_begin + SQUARE * (int)(i / across);
-        store_init(&p->fresh[i], p->cache->store.kernels->name);
-        s->gatherer->fresh = &p->fresh[i];
+        store_init(&square->fresh, p->cache->store.kernels->name);
+        s->gatherer->fresh = &square->fresh;
         gatherer_start(s->gatherer, stride * (i + 17 * (p->number - 1)));
         const uint64_t before = gatherer_rays(s->gatherer);
-        if (!p->settled[i] || p->final)
+        if (!square->settled || p->final)
             square_scout(p, i, s, x0, y0, least(x0 + SQUARE, p->settings->col_end),
                          least(y0 + SQUARE, p->settings->row_end));
-        p->settled[i] |= gather_is_settled(s->gatherer);
-        p->rays[i] = gatherer_rays(s->gatherer) - before;
+        square->settled |= gather_is_settled(s->gatherer);
+        square->rays = gatherer_rays(s->gatherer) - before;
     }
 }
 
@@ -196,6 +202,33 @@ static void squares_spread(uint32_t *order, uint32_t count)
     }
 }
 
+struct turn {
+    uint64_t rays;
+    uint32_t square;
+};
+
+static int by_rays(const void *a, const void *b)
+{
+    const struct turn *x = a, *y = b;
+    return x->rays != y->rays ? (x->rays > y->rays ? -1 : 1)
+                              : (x->square > y->square) - (x->square < y->square);
+}
+
+// No thread begins a long square when the others have nothing left to do.
+static void longest_first(const struct pass *p, uint32_t begin, uint32_t end)
+{
+    const uint32_t count = end - begin;
+    struct turn *turn = must_calloc(count, sizeof *turn);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t square = p->order[begin + i];
+        turn[i] = (struct turn){p->square[square].rays, square};
+    }
+    qsort(turn, count, sizeof *turn, by_rays);
+    for (uint32_t i = 0; i < count; i++)
+        p->turn[begin + i] = turn[i].square;
+    free(turn);
+}
+
 // Squares of a round do not see what the others find. The first pass begins with few:
 // what they find at depth serves nearly all of the picture.
 static void rounds_run(struct pass *p, struct parallel *parallel, uint32_t squares,
@@ -207,10 +240,13 @@ static void rounds_run(struct pass *p, struct parallel *parallel, uint32_t squar
             end = squares;
         watch_part(parallel->watch, p->from + (p->to - p->from) * p->done / squares,
                    p->from + (p->to - p->from) * end / squares);
+        longest_first(p, p->done, end);
         parallel_run(parallel, end - p->done);
         for (uint32_t i = p->done; i < end; i++) {
-            square_join(p, &p->fresh[p->order[i]]);
-            report->rays += p->rays[p->order[i]];
+            struct square *square = &p->square[p->order[i]];
+            square_join(p, &square->fresh);
+            square->fresh = (struct store){.count = 0};
+            report->rays += square->rays;
         }
     }
 }
@@ -218,11 +254,8 @@ static void rounds_run(struct pass *p, struct parallel *parallel, uint32_t squar
 static bool run(struct pass *p, struct watch *watch, struct irradiance_report *report)
 {
     const uint32_t squares = squares_across(p->settings) * squares_down(p->settings);
-    p->fresh = calloc(squares, sizeof *p->fresh);
-    p->rays = calloc(squares, sizeof *p->rays);
-    p->order = calloc(squares, sizeof *p->order);
-    if (!p->fresh || !p->rays || !p->order)
-        abort();
+    p->order = must_calloc(squares, sizeof *p->order);
+    p->turn = must_calloc(squares, sizeof *p->turn);
     squares_spread(p->order, squares);
     struct parallel parallel = {.threads = p->settings->threads,
                                 .piece = 1,
@@ -233,9 +266,8 @@ static bool run(struct pass *p, struct watch *watch, struct irradiance_report *r
                                 .end = end,
                                 .work = work};
     rounds_run(p, &parallel, squares, report);
-    free(p->fresh);
-    free(p->rays);
     free(p->order);
+    free(p->turn);
     report->passes++;
     return !watch_cancelled(watch);
 }
@@ -254,7 +286,7 @@ static uint32_t pass_count(const struct irradiance_cache *c,
 }
 
 static bool fill(struct irradiance_cache *c, struct scouts *scouts,
-                 const struct render_settings *settings, bool *settled,
+                 const struct render_settings *settings, struct square *square,
                  struct watch *watch, struct irradiance_report *report)
 {
     double size, last;
@@ -263,7 +295,7 @@ static bool fill(struct irradiance_cache *c, struct scouts *scouts,
         struct pass p = {.cache = c,
                          .scouts = scouts,
                          .settings = settings,
-                         .settled = settled,
+                         .square = square,
                          .number = i,
                          .size = fmax(last, size)};
         watch_part(watch, (i - 1) / (count + 1.0), i / (count + 1.0));
@@ -273,7 +305,7 @@ static bool fill(struct irradiance_cache *c, struct scouts *scouts,
     struct pass p = {.cache = c,
                      .scouts = scouts,
                      .settings = settings,
-                     .settled = settled,
+                     .square = square,
                      .number = count + 1,
                      .size = 1,
                      .final = true,
@@ -285,10 +317,11 @@ static bool fill(struct irradiance_cache *c, struct scouts *scouts,
 bool irradiance_fill(struct irradiance_cache *c, const struct render_settings *settings,
                      struct watch *watch, struct irradiance_report *report)
 {
-    bool *settled = must_calloc(squares_across(settings) * squares_down(settings), 1);
+    struct square *square =
+        must_calloc(squares_across(settings) * squares_down(settings), sizeof *square);
     struct scouts scouts = {.lock = PTHREAD_MUTEX_INITIALIZER, .idle = NULL};
-    const bool whole = fill(c, &scouts, settings, settled, watch, report);
+    const bool whole = fill(c, &scouts, settings, square, watch, report);
     scouts_free(&scouts);
-    free(settled);
+    free(square);
     return whole;
 }
