@@ -24,7 +24,7 @@ void store_free(struct store *s)
     free(s->spot);
     free(s->filed);
     free(s->cell);
-    free(s->tag);
+    free(s->filter);
 }
 
 // ---- weights ----------------------------------------------------------------------------
@@ -74,15 +74,9 @@ double cache_weight(const struct cache_sample *s, const struct cache_point *at)
 
 // ---- cells ------------------------------------------------------------------------------
 
-static uint32_t cell_hash(const struct cache_cell *c)
+static uint32_t place_hash(const struct cache_place *p)
 {
-    return cache_cell_hash(c->place, c->size, c->depth);
-}
-
-static bool same_cell(const struct cache_cell *a, const struct cache_cell *b)
-{
-    return a->place[0] == b->place[0] && a->place[1] == b->place[1] &&
-           a->place[2] == b->place[2] && a->size == b->size && a->depth == b->depth;
+    return cache_cell_hash(p->at, p->size, p->depth);
 }
 
 // Where a cell with that hash is looked for first.
@@ -91,36 +85,37 @@ static uint32_t cell_home(const struct store *s, uint32_t hash)
     return hash >> 7 & (s->cell_capacity - 1);
 }
 
-static uint8_t cell_tag(uint32_t hash) { return (uint8_t)(128 | (hash & 127)); }
-
-// The slot that holds the cell, or the free one where it belongs. Most cells that points ask
-// for do not exist, which the tags alone tell: few bytes, that stay near.
-static uint32_t cell_slot(const struct store *s, const struct cache_cell *c,
-                          uint32_t hash)
+// The slot of the cell, or the free one where it belongs.
+static struct cache_cell *cell_find(const struct store *s, uint32_t hash, int size,
+                                    uint32_t depth)
 {
-    const uint8_t tag = cell_tag(hash);
-    for (uint32_t i = cell_home(s, hash);; i = (i + 1) & (s->cell_capacity - 1))
-        if (!s->tag[i] || (s->tag[i] == tag && same_cell(&s->cell[i], c)))
-            return i;
+    for (uint32_t i = cell_home(s, hash);; i++) {
+        struct cache_cell *c = &s->cell[i & (s->cell_capacity - 1)];
+        if (!c->count || (c->hash == hash && c->size == size && c->depth == depth))
+            return c;
+    }
 }
 
-static const struct cache_cell no_cell = {.count = 0};
-
-// The cell, or an empty one.
-static const struct cache_cell *cell_find(const struct store *s,
-                                          const struct cache_cell *c, uint32_t hash)
-{
-    const uint32_t i = cell_slot(s, c, hash);
-    return s->tag[i] ? &s->cell[i] : &no_cell;
-}
-
+// On lines of memory of their own.
 static void *grown(void *at, uint32_t *capacity, size_t size)
 {
-    *capacity = *capacity ? 2 * *capacity : 64;
-    at = realloc(at, *capacity * size);
-    if (!at)
+    enum { FEWEST = 64, LINE = 64 };
+    const uint32_t more = *capacity ? 2 * *capacity : FEWEST;
+    void *to = aligned_alloc(LINE, more * size);
+    if (!to)
         abort();
-    return at;
+    if (*capacity)
+        memcpy(to, at, *capacity * size);
+    free(at);
+    *capacity = more;
+    return to;
+}
+
+static void cell_place(struct store *s, const struct cache_cell *c)
+{
+    const uint32_t bit = filter_bit(s, c->hash);
+    *cell_find(s, c->hash, c->size, c->depth) = *c;
+    s->filter[bit / 8] |= (uint8_t)(1u << bit % 8);
 }
 
 static void cells_grow(struct store *s)
@@ -129,59 +124,71 @@ static void cells_grow(struct store *s)
     const struct store old = *s;
     s->cell_capacity = old.cell_capacity ? 2 * old.cell_capacity : FEWEST;
     s->cell = must_calloc(s->cell_capacity, sizeof *s->cell);
-    s->tag = must_calloc(s->cell_capacity, sizeof *s->tag);
-    for (uint32_t i = 0; i < old.cell_capacity; i++) {
-        if (!old.tag[i])
-            continue;
-        const uint32_t hash = cell_hash(&old.cell[i]),
-                       to = cell_slot(s, &old.cell[i], hash);
-        s->cell[to] = old.cell[i];
-        s->tag[to] = cell_tag(hash);
-    }
+    s->filter = must_calloc(s->cell_capacity, FILTER_BITS / 8);
+    for (uint32_t i = 0; i < old.cell_capacity; i++)
+        if (old.cell[i].count)
+            cell_place(s, &old.cell[i]);
     free(old.cell);
-    free(old.tag);
+    free(old.filter);
 }
 
-// A cell's part of `filed` has room for a power of two; when that is used up, the cell
-// moves to one twice as large behind all others.
+// A cell's part of `filed`, with its ends, has room for a power of two.
+static bool is_used_up(uint32_t count)
+{
+    const uint32_t used = CACHE_SIDES + count;
+    return count == 0 || (used & (used - 1)) == 0;
+}
+
+// To a room twice as large behind all others.
 static void cell_move(struct store *s, struct cache_cell *c)
 {
-    enum { FEWEST = 2 };
-    const uint32_t room = c->count ? 2 * c->count : FEWEST;
+    enum { FEWEST = 8 };
+    const uint32_t used = c->count ? CACHE_SIDES + c->count : 0,
+                   room = used ? 2 * used : FEWEST;
     while (s->filed_capacity - s->filed_count < room)
         s->filed = grown(s->filed, &s->filed_capacity, sizeof *s->filed);
-    if (c->count)
-        memcpy(s->filed + s->filed_count, s->filed + c->first,
-               c->count * sizeof *s->filed);
-    c->first = s->filed_count;
+    uint32_t *to = s->filed + s->filed_count;
+    if (used)
+        memcpy(to, cell_ends(s, c), used * sizeof *to);
+    else
+        memset(to, 0, CACHE_SIDES * sizeof *to);
+    c->first = s->filed_count + CACHE_SIDES;
     s->filed_count += room;
 }
 
-static bool is_used_up(uint32_t count)
+// Each side behind that of the sample gives its first place to the one before, and takes one
+// at its own end.
+static void cell_add(const struct store *s, struct cache_cell *c, int side,
+                     uint32_t sample)
 {
-    return count != 1 && (count & (count - 1)) == 0;
+    uint32_t *end = cell_ends(s, c), *filed = s->filed + c->first;
+    for (int i = CACHE_SIDES - 1; i > side; i--) {
+        filed[end[i]] = filed[end[i - 1]];
+        end[i]++;
+    }
+    filed[end[side]++] = sample;
+    c->count++;
 }
 
-static void cell_put(struct store *s, struct cache_cell at, uint32_t sample)
+static void cell_put(struct store *s, const struct cache_place *at, int side,
+                     uint32_t sample)
 {
-    const uint32_t hash = cell_hash(&at);
+    const uint32_t hash = place_hash(at);
     if (!s->cell_capacity)
         cells_grow(s);
-    uint32_t i = cell_slot(s, &at, hash);
-    if (!s->tag[i]) {
+    struct cache_cell *c = cell_find(s, hash, at->size, at->depth);
+    if (!c->count) {
         // Never without a new cell: a memo would not see that cells have moved.
-        if (2 * (s->cell_count + 1) > s->cell_capacity) {
+        if (2 * (s->cell_count + 1) > s->cell_capacity)
             cells_grow(s);
-            i = cell_slot(s, &at, hash);
-        }
-        s->cell[i] = at;
-        s->tag[i] = cell_tag(hash);
+        const struct cache_cell fresh = {hash, at->size, at->depth, 0, 0};
+        cell_place(s, &fresh);
+        c = cell_find(s, hash, at->size, at->depth);
         s->cell_count++;
     }
-    struct cache_cell *c = &s->cell[i];
     if (is_used_up(c->count))
         cell_move(s, c);
-    s->filed[c->first + c->count++] = sample;
+    cell_add(s, c, side, sample);
 }
 
 // Far from the origin, places of small cells leave the range of integers: such cells all
@@ -234,6 +241,7 @@ void store_add(struct store *s, const struct cache_sample *sample)
     if (size < SIZE_LEAST)
         size = SIZE_LEAST;
     const uint32_t depth = sample->depth;
+    const int side = cache_side(sample->n);
     if (size < s->size_low[depth])
         s->size_low[depth] = (int16_t)size;
     if (size > s->size_high[depth])
@@ -245,36 +253,31 @@ void store_add(struct store *s, const struct cache_sample *sample)
         for (int32_t y = place_of(a.y, scale); y <= place_of(b.y, scale); y++)
             for (int32_t x = place_of(a.x, scale); x <= place_of(b.x, scale); x++)
                 cell_put(s,
-                         (struct cache_cell){.place = {x, y, z},
-                                             .size = (int16_t)size,
-                                             .depth = (uint16_t)depth},
-                         s->count);
+                         &(struct cache_place){{x, y, z}, (int16_t)size, (uint16_t)depth},
+                         side, s->count);
     s->count++;
 }
 
 enum { SIZES = sizeof((struct store_memo *)0)->cell / sizeof(struct cache_cell *) };
 
-// The cell, if it is the last one asked for of its size; NULL: another one was.
-static const struct cache_cell *cell_remembered(const struct cache_cell *key,
-                                                const struct store_memo *memo)
+static bool same_place(const struct cache_place *a, const struct cache_place *b)
 {
-    const unsigned i = (unsigned)key->size % SIZES;
-    const struct cache_place *p = &memo->place[i];
-    return memo->cell[i] && p->size == key->size && p->depth == key->depth &&
-                   memcmp(p->at, key->place, sizeof p->at) == 0
-               ? memo->cell[i]
-               : NULL;
+    return memcmp(a->at, b->at, sizeof a->at) == 0 && a->size == b->size &&
+           a->depth == b->depth;
 }
 
-static void cell_remember(struct store_memo *memo, const struct cache_cell *key,
-                          const struct cache_cell *c)
+static const struct cache_cell *
+cell_asked(const struct store *s, const struct cache_place *p, struct store_memo *memo)
 {
-    const unsigned i = (unsigned)key->size % SIZES;
-    struct cache_place *p = &memo->place[i];
-    memcpy(p->at, key->place, sizeof p->at);
-    p->size = key->size;
-    p->depth = key->depth;
-    memo->cell[i] = c;
+    const unsigned i = (unsigned)p->size % SIZES;
+    if (memo && memo->cell[i] && same_place(&memo->place[i], p))
+        return memo->cell[i];
+    const struct cache_cell *c = cell_find(s, place_hash(p), p->size, p->depth);
+    if (memo) {
+        memo->place[i] = *p;
+        memo->cell[i] = c;
+    }
+    return c;
 }
 
 static void memo_update(const struct store *s, struct store_memo *memo)
@@ -291,42 +294,40 @@ static bool is_within(const int32_t place[3])
            abs(place[2]) < LAST_PLACE;
 }
 
-static struct cache_cell cell_at(struct vec3 p, int size, uint32_t depth)
+static struct cache_place place_at(struct vec3 p, int size, uint32_t depth)
 {
     const double scale = ldexp(1, -size);
-    return (struct cache_cell){
-        .place = {place_of(p.x, scale), place_of(p.y, scale), place_of(p.z, scale)},
-        .size = (int16_t)size,
-        .depth = (uint16_t)depth};
+    return (struct cache_place){
+        {place_of(p.x, scale), place_of(p.y, scale), place_of(p.z, scale)},
+        (int16_t)size,
+        (uint16_t)depth};
 }
 
-// Finds the cells of a point that are `count` sizes from `size` on. The memory of all is asked
-// for before any is looked at.
-static void cells_find(const struct store *s, const struct cache_point *at, int size,
-                       uint32_t count, const struct cache_cell **cell)
+// Of the cells of a point that are `count` sizes from `size` on: those that there are. What
+// lies in memory is asked for before it is looked at.
+static uint32_t cells_find(const struct store *s, const struct cache_point *at, int size,
+                           uint32_t count, const struct cache_cell *cell[STORE_SIZES])
 {
-    const struct cache_cell first = cell_at(at->p, size, at->depth);
-    const bool within = is_within(first.place);
-    uint32_t hash[STORE_SIZES];
-    s->kernels->hashes(first.place, size, at->depth, hash);
-    for (uint32_t i = 0; within && i < count; i++)
-        __builtin_prefetch(&s->tag[cell_home(s, hash[i])]);
-    for (uint32_t i = 0; i < count; i++) {
-        struct cache_cell own = first;
-        if (!within) {
-            own = cell_at(at->p, size + (int)i, at->depth);
-            hash[i] = cell_hash(&own);
-        } else if (!s->tag[cell_home(s, hash[i])]) {
-            cell[i] = &no_cell;
-            continue;
-        }
-        for (int k = 0; within && k < 3; k++)
-            own.place[k] >>= i; // which rounds down
-        own.size = (int16_t)(size + (int)i);
-        cell[i] = cell_find(s, &own, hash[i]);
-        if (cell[i]->count)
-            __builtin_prefetch(&s->filed[cell[i]->first + cell[i]->count - 1]);
+    const struct cache_place first = place_at(at->p, size, at->depth);
+    uint32_t hash[STORE_SIZES], found = 0;
+    unsigned pass = (1u << count) - 1;
+    if (is_within(first.at))
+        pass = s->kernels->hashes(s, first.at, size, at->depth, count, hash);
+    for (uint32_t i = 0; !is_within(first.at) && i < count; i++) {
+        const struct cache_place p = place_at(at->p, size + (int)i, at->depth);
+        hash[i] = place_hash(&p);
     }
+    for (unsigned left = pass; left; left &= left - 1)
+        __builtin_prefetch(&s->cell[cell_home(s, hash[__builtin_ctz(left)])]);
+    for (unsigned left = pass; left; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        const struct cache_cell *c = cell_find(s, hash[i], size + i, at->depth);
+        if (!c->count)
+            continue;
+        __builtin_prefetch(cell_ends(s, c));
+        cell[found++] = c;
+    }
+    return found;
 }
 
 void store_mean(const struct store *s, const struct cache_point *at,
@@ -336,12 +337,10 @@ void store_mean(const struct store *s, const struct cache_point *at,
     for (int size = s->size_low[at->depth]; size <= high; size += STORE_SIZES) {
         const struct cache_cell *cell[STORE_SIZES];
         const uint32_t left = (uint32_t)(high - size) + 1,
-                       count = left < STORE_SIZES ? left : STORE_SIZES;
-        cells_find(s, at, size, count, cell);
-        for (uint32_t i = 0; i < count; i++)
-            if (cell[i]->count &&
-                !s->kernels->mean(s, s->filed + cell[i]->first, cell[i]->count, at, mean))
-                return;
+                       count = left < STORE_SIZES ? left : STORE_SIZES,
+                       found = cells_find(s, at, size, count, cell);
+        if (found && !s->kernels->mean(s, cell, found, at, mean))
+            return;
     }
 }
 
@@ -357,7 +356,7 @@ static bool mean_alone(const struct store *s, const struct cache_cell *c,
                                       at->enough};
     struct cache_mean m = {mean->weight[i],
                            {mean->light[0][i], mean->light[1][i], mean->light[2][i]}};
-    const bool more = s->kernels->mean(s, s->filed + c->first, c->count, &point, &m);
+    const bool more = s->kernels->mean(s, &c, 1, &point, &m);
     mean->weight[i] = m.weight;
     for (int k = 0; k < 3; k++)
         mean->light[k][i] = m.light[k];
@@ -388,18 +387,6 @@ static void places_of(const struct cache_points *at, unsigned lanes, double scal
     }
 }
 
-static const struct cache_cell *
-cell_asked(const struct store *s, const struct cache_cell *key, struct store_memo *memo)
-{
-    const struct cache_cell *c = memo ? cell_remembered(key, memo) : NULL;
-    if (!c) {
-        c = cell_find(s, key, cell_hash(key));
-        if (memo)
-            cell_remember(memo, key, c);
-    }
-    return c;
-}
-
 // What the lanes hear in the cell; returns those that have not enough.
 static unsigned means_in(const struct store *s, const struct cache_cell *c,
                          const struct cache_points *at, unsigned lanes,
@@ -410,7 +397,7 @@ static unsigned means_in(const struct store *s, const struct cache_cell *c,
     if (!c->count)
         return lanes;
     if (__builtin_popcount(lanes) > FEW)
-        return s->kernels->means(s, s->filed + c->first, c->count, at, lanes, mean);
+        return s->kernels->means(s, c, at, lanes, mean);
     for (; lanes; lanes &= lanes - 1)
         if (!mean_alone(s, c, at, __builtin_ctz(lanes), mean))
             more &= ~(lanes & -lanes);
@@ -435,11 +422,10 @@ void store_means(const struct store *s, const struct cache_points *at,
             same = guide ? left : lanes_in(place, left, i);
             if (same == lanes && is_within(place[i]))
                 guide = 1u << i;
-            const struct cache_cell key = {
-                .place = {place[i][0], place[i][1], place[i][2]},
-                .size = (int16_t)size,
-                .depth = (uint16_t)at->depth};
-            lanes &= ~same | means_in(s, cell_asked(s, &key, memo), at, same, mean);
+            const struct cache_place p = {{place[i][0], place[i][1], place[i][2]},
+                                          (int16_t)size,
+                                          (uint16_t)at->depth};
+            lanes &= ~same | means_in(s, cell_asked(s, &p, memo), at, same, mean);
         }
     }
 }

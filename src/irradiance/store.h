@@ -10,10 +10,11 @@
 // Irradiance samples and an index of where each may be used (spec/lighting.md 12.5, after
 // Ward, Rubinstein and Clear 1988). All lengths are the world's.
 
+// On whole lines of memory: most of what a query costs is to fetch them.
 struct cache_sample {
     union {
         struct {
-            struct vec3 p;
+            _Alignas(64) struct vec3 p;
             double radius;  // harmonic mean of the distances, clamped
             struct vec3 n;  // unit
             double nearest; // distance of the nearest surface seen
@@ -33,9 +34,21 @@ struct cache_spot {
     float n[3], unused;
 };
 
+// Normals by the side of a cube they go through: two an axis, the positive one first.
+enum { CACHE_SIDES = 6 };
+
+// A cube of space, of a size that is a power of two, and the depth that it is for.
+struct cache_place {
+    int32_t at[3]; // in its own size
+    int16_t size;
+    uint16_t depth;
+};
+
+// What is filed for a place. Places of one size and depth may share it where their hashes
+// are the same: it then lists samples that say nothing to the points of one of them.
 struct cache_cell {
-    int32_t place[3]; // of the cell, in its own size
-    int16_t size;     // power of two
+    uint32_t hash;
+    int16_t size;
     uint16_t depth;
     uint32_t first, count; // of `filed`; 0: the cell is free
 };
@@ -48,10 +61,11 @@ struct store {
     struct cache_sample *sample;
     struct cache_spot *spot; // of each sample
     uint32_t count, capacity, spot_capacity;
-    uint32_t *filed; // samples, cell by cell in the order in which they came
+    // Samples, cell by cell, and in these side by side; before them, where each side's end.
+    uint32_t *filed;
     uint32_t filed_count, filed_capacity;
     struct cache_cell *cell; // hashed, open addressing; capacity a power of two
-    uint8_t *tag;            // some bits of each cell's hash; 0: it is free
+    uint8_t *filter;         // bits: whether some cell has a hash that ends so
     uint32_t cell_count, cell_capacity;
     const struct store_kernels *kernels;
     int16_t size_low[STORE_DEPTHS], size_high[STORE_DEPTHS]; // low > high: empty
@@ -80,11 +94,7 @@ void store_mean(const struct store *s, const struct cache_point *at,
 // The cells that a thread has asked last, one of a size: neighbours ask the same ones. All
 // zero at first, and when the store is another one.
 struct store_memo {
-    struct cache_place {
-        int32_t at[3];
-        int16_t size;
-        uint16_t depth;
-    } place[16];
+    struct cache_place place[16];
     const struct cache_cell *cell[16]; // NULL: none yet
     uint32_t cell_count;               // when they were asked
 };

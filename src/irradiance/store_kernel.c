@@ -8,13 +8,17 @@
 #include "math/lanes.h"
 #include "math/lanes_vec.h"
 
-static void hashes_of(const int32_t place[3], int size, uint32_t depth,
-                      uint32_t hash[STORE_SIZES])
+static unsigned hashes_of(const struct store *s, const int32_t place[3], int size,
+                          uint32_t depth, uint32_t count, uint32_t hash[STORE_SIZES])
 {
+    unsigned pass = 0;
     for (int i = 0; i < STORE_SIZES; i++) {
         const int32_t larger[3] = {place[0] >> i, place[1] >> i, place[2] >> i};
         hash[i] = cache_cell_hash(larger, size + i, depth);
     }
+    for (uint32_t i = 0; i < count; i++)
+        pass |= (unsigned)filter_passes(s, hash[i]) << i;
+    return pass;
 }
 
 // What is asked for, in every lane.
@@ -172,35 +176,95 @@ LANES_INLINE unsigned glance_at(const struct glance *g, const float *const spot[
     return near & f8_le(f8_sub(f8_set(1), g->turned), cosine);
 }
 
-static bool mean_of(const struct store *s, const uint32_t *filed, uint32_t count,
-                    const struct cache_point *at, struct cache_mean *mean)
+// What is known of a query on its way through the samples.
+struct scan {
+    const struct store *s;
+    const struct cache_point *at;
+    struct cache_mean *mean;
+    struct asked asked;
+    struct glance glance;
+    uint32_t some[16], waiting; // those that may count, not added yet
+};
+
+// Looks at samples in their order, and adds those that may count as soon as they are eight.
+LANES_INLINE bool look(struct scan *scan, const uint32_t *listed, uint32_t count)
 {
-    const double bound = at->error_bound;
-    const struct asked a = {V8_SET(at->p), V8_SET(at->n), r8_set(bound),
-                            r8_set(bound * bound), at->smooth};
-    const struct glance g = glance_of(at);
-    uint32_t some[16], waiting = 0;
-    for (uint32_t end = count, n; end; end -= n) {
+    const struct store *s = scan->s;
+    for (uint32_t begin = 0; begin < count; begin += 8) {
         const float *spot[8];
-        n = end < 8 ? end : 8;
-        const uint32_t *k = filed + end - n;
+        const uint32_t *k = listed + begin, n = count - begin < 8 ? count - begin : 8;
         for (uint32_t i = 0; i < 8; i++)
             spot[i] = s->spot[k[i < n ? i : 0]].p;
-        unsigned good = glance_at(&g, spot) & ((1u << n) - 1);
-        while (good) { // the last first
-            const int i = 31 - __builtin_clz(good);
-            good ^= 1u << i;
-            some[waiting++] = k[i];
+        unsigned good = glance_at(&scan->glance, spot) & ((1u << n) - 1);
+        for (; good; good &= good - 1) {
+            const uint32_t sample = k[__builtin_ctz(good)];
+            const char *lines = (const char *)&s->sample[sample];
+            __builtin_prefetch(lines);
+            __builtin_prefetch(lines + 64);
+            scan->some[scan->waiting++] = sample;
         }
-        if (waiting < 8)
+        if (scan->waiting < 8)
             continue;
-        if (!add(s->sample, some, 8, &a, at->enough, mean))
+        if (!add(s->sample, scan->some, 8, &scan->asked, scan->at->enough, scan->mean))
             return false;
-        waiting -= 8;
-        for (uint32_t i = 0; i < waiting; i++)
-            some[i] = some[8 + i];
+        scan->waiting -= 8;
+        for (uint32_t i = 0; i < scan->waiting; i++)
+            scan->some[i] = scan->some[8 + i];
     }
-    return !waiting || add(s->sample, some, waiting, &a, at->enough, mean);
+    return true;
+}
+
+// Samples of a cell next to each other whose normals may count, from the last on.
+struct sides_run {
+    int side; // the one before which it begins
+    uint32_t begin, end;
+};
+
+static inline bool next_run(const uint32_t ends[CACHE_SIDES], unsigned sides,
+                            struct sides_run *r)
+{
+    while (r->side > 0) {
+        r->side--;
+        r->begin = r->side ? ends[r->side - 1] : 0;
+        r->end = ends[r->side];
+        if (r->begin < r->end && sides >> r->side & 1)
+            return true;
+    }
+    return false;
+}
+
+static bool mean_of(const struct store *s, const struct cache_cell *const *cell,
+                    uint32_t count, const struct cache_point *at, struct cache_mean *mean)
+{
+    enum { LISTED = 64 };
+    const double bound = at->error_bound;
+    const unsigned sides = cache_sides(at->n, bound);
+    struct scan scan;
+    scan.s = s;
+    scan.at = at;
+    scan.mean = mean;
+    scan.asked = (struct asked){V8_SET(at->p), V8_SET(at->n), r8_set(bound),
+                                r8_set(bound * bound), at->smooth};
+    scan.glance = glance_of(at);
+    scan.waiting = 0;
+    uint32_t listed[LISTED], n = 0;
+    for (uint32_t c = 0; c < count; c++) {
+        struct sides_run run = {.side = CACHE_SIDES};
+        while (next_run(cell_ends(s, cell[c]), sides, &run)) {
+            for (uint32_t i = run.end; i-- > run.begin;) {
+                listed[n++] = s->filed[cell[c]->first + i];
+                __builtin_prefetch(&s->spot[listed[n - 1]]);
+                if (n < LISTED)
+                    continue;
+                if (!look(&scan, listed, n))
+                    return false;
+                n = 0;
+            }
+        }
+    }
+    return look(&scan, listed, n) &&
+           (!scan.waiting ||
+            add(s->sample, scan.some, scan.waiting, &scan.asked, at->enough, mean));
 }
 
 LANES_INLINE void set_row(const double *row, struct real8 r[4])
@@ -209,37 +273,53 @@ LANES_INLINE void set_row(const double *row, struct real8 r[4])
         r[i] = r8_set(row[i]);
 }
 
-static unsigned means_of(const struct store *s, const uint32_t *filed, uint32_t count,
+static unsigned sides_of(const struct cache_points *at, unsigned lanes)
+{
+    unsigned sides = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        sides |=
+            cache_sides(vec3(at->n[0][i], at->n[1][i], at->n[2][i]), at->error_bound[i]);
+    }
+    return sides;
+}
+
+static unsigned means_of(const struct store *s, const struct cache_cell *cell,
                          const struct cache_points *at, unsigned lanes,
                          struct cache_means *mean)
 {
     const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
     const struct asked a = {v8_load(at->p), v8_load(at->n), bound, r8_mul(bound, bound),
                             at->smooth};
+    const unsigned sides = sides_of(at, lanes);
     const bool ends = at->enough < INFINITY;
     struct real8 weight = r8_load(mean->weight);
     struct vec8 light = v8_load((const double(*)[8])mean->light);
-    for (uint32_t i = count; lanes && i-- > 0;) {
-        const struct cache_sample *x = &s->sample[filed[i]];
-        struct real8 r[4], q[4], rest[4];
-        set_row(x->row, r);
-        const unsigned near = m8_bits(near_enough(&a, r)) & lanes;
-        if (!near)
-            continue;
-        set_row(x->row + 4, q);
-        if (!(m8_bits(even_enough(&a, q)) & near))
-            continue;
-        set_row(x->row + 8, rest);
-        const struct real8 w = weights(&a, r, q, rest);
-        const struct mask8 on = m8_and(m8_of(lanes), r8_lt(nought, w));
-        const struct real8 c[3] = {r8_set((double)x->light.r), r8_set((double)x->light.g),
-                                   r8_set((double)x->light.b)};
-        weight = r8_select(on, r8_add(weight, w), weight);
-        light.x = r8_select(on, r8_add(light.x, r8_mul(w, c[0])), light.x);
-        light.y = r8_select(on, r8_add(light.y, r8_mul(w, c[1])), light.y);
-        light.z = r8_select(on, r8_add(light.z, r8_mul(w, c[2])), light.z);
-        if (ends)
-            lanes &= m8_bits(r8_lt(weight, r8_set(at->enough)));
+    struct sides_run run = {.side = CACHE_SIDES};
+    while (lanes && next_run(cell_ends(s, cell), sides, &run)) {
+        for (uint32_t i = run.end; lanes && i-- > run.begin;) {
+            const struct cache_sample *x = &s->sample[s->filed[cell->first + i]];
+            struct real8 r[4], q[4], rest[4];
+            set_row(x->row, r);
+            const unsigned near = m8_bits(near_enough(&a, r)) & lanes;
+            if (!near)
+                continue;
+            set_row(x->row + 4, q);
+            if (!(m8_bits(even_enough(&a, q)) & near))
+                continue;
+            set_row(x->row + 8, rest);
+            const struct real8 w = weights(&a, r, q, rest);
+            const struct mask8 on = m8_and(m8_of(lanes), r8_lt(nought, w));
+            const struct real8 c[3] = {r8_set((double)x->light.r),
+                                       r8_set((double)x->light.g),
+                                       r8_set((double)x->light.b)};
+            weight = r8_select(on, r8_add(weight, w), weight);
+            light.x = r8_select(on, r8_add(light.x, r8_mul(w, c[0])), light.x);
+            light.y = r8_select(on, r8_add(light.y, r8_mul(w, c[1])), light.y);
+            light.z = r8_select(on, r8_add(light.z, r8_mul(w, c[2])), light.z);
+            if (ends)
+                lanes &= m8_bits(r8_lt(weight, r8_set(at->enough)));
+        }
     }
     r8_store(mean->weight, weight);
     r8_store(mean->light[0], light.x);

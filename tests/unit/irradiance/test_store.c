@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "irradiance/store.h"
+#include "irradiance/store_kernel.h"
 #include "trace/packet.h"
 
 enum { SAMPLES = 1000, POINTS = 2000 };
@@ -292,11 +292,81 @@ static void test_far_from_origin(void **state)
     }
 }
 
+// No sample whose normal may count is left out with its side, whatever the two normals.
+static void test_sides(void **state)
+{
+    enum { PAIRS = 200000 };
+    uint32_t counted = 0, left_out = 0;
+    (void)state;
+    random_state = 4;
+    for (int i = 0; i < PAIRS; i++) {
+        const double bound = exp(between(-2, 1));
+        const struct vec3 n = vec3_normalize(some_point(1)),
+                          m = vec3_scale(between(0.9991, 1.0009),
+                                         vec3_normalize(vec3_add(
+                                             n, some_point(bound * between(0, 2.5)))));
+        const struct cache_point at = {.n = n, .error_bound = bound};
+        const bool listed = cache_sides(n, bound) >> cache_side(m) & 1;
+        const bool counts = cache_may_count(at.p, m, 1, &at);
+        assert_true(listed || !counts);
+        counted += counts;
+        left_out += !listed;
+    }
+    assert_true(counted > PAIRS / 4 && left_out > PAIRS / 100);
+}
+
+struct hashed {
+    uint32_t hash;
+    struct vec3 middle;
+};
+
+static int by_hash(const void *a, const void *b)
+{
+    const struct hashed *p = a, *q = b;
+    return (p->hash > q->hash) - (p->hash < q->hash);
+}
+
+// Two places whose hashes are the same share a cell; no sample says anything in the other.
+static void test_same_hash(void **state)
+{
+    enum { SIDE = 512, PLACES = SIDE * SIDE };
+    struct hashed *all = malloc(PLACES * sizeof *all);
+    uint32_t pairs = 0;
+    (void)state;
+    assert_non_null(all);
+    for (int32_t i = 0; i < PLACES; i++) {
+        const int32_t place[3] = {i % SIDE * 7919, i / SIDE * 104729,
+                                  i % SIDE ^ i / SIDE};
+        all[i] = (struct hashed){cache_cell_hash(place, 0, 0),
+                                 vec3(place[0] + 0.5, place[1] + 0.5, place[2] + 0.5)};
+    }
+    qsort(all, PLACES, sizeof *all, by_hash);
+    for (uint32_t i = 0; i + 1 < PLACES; i++) {
+        if (all[i].hash != all[i + 1].hash)
+            continue;
+        struct store s;
+        store_init(&s, isas[0]);
+        for (uint32_t k = 0; k < 2; k++) {
+            struct cache_sample x = plain_sample(all[i + k].middle, 0.25);
+            x.reach = 0.5; // in 8 cells of size 1
+            store_add(&s, &x);
+        }
+        assert_true(s.cell_count < 16);
+        for (uint32_t k = 0; k < 2; k++)
+            assert_near(weight_at(&s, all[i + k].middle), 1, 1e-12);
+        pairs++;
+        store_free(&s);
+    }
+    assert_true(pairs > 0);
+    free(all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_weight_of_one), cmocka_unit_test(test_sum_of_many),
-        cmocka_unit_test(test_eight_points), cmocka_unit_test(test_memo_when_full),
-        cmocka_unit_test(test_far_from_origin)};
+        cmocka_unit_test(test_weight_of_one),   cmocka_unit_test(test_sum_of_many),
+        cmocka_unit_test(test_eight_points),    cmocka_unit_test(test_memo_when_full),
+        cmocka_unit_test(test_far_from_origin), cmocka_unit_test(test_sides),
+        cmocka_unit_test(test_same_hash)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
