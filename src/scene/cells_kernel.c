@@ -326,7 +326,8 @@ unsigned OF_ISA(noise_nearest_)(const double p[3][8], unsigned lanes, int metric
                                 int count, double sum[3][8], double place[3][8])
 {
     const int first = __builtin_ctz(lanes);
-    struct cells8 s = {.at = v8_load(p)};
+    struct cells8 s; // not set to zero as a whole: it is large
+    s.at = v8_load(p);
     s.cell = cells_of(s.at);
     const struct real8 far = r8_set(DBL_MAX);
     struct found8 f = {{far, far, far}, s.cell, r8_set(-1)};
