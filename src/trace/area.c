@@ -71,14 +71,68 @@ static uint32_t point_ask(struct area_queue *q, uint32_t place, int u, int v)
     return *known - 1;
 }
 
-static void cell_add(struct area_queue *q, uint32_t place, int u0, int v0, int u1, int v1)
+// The whole grid.
+static void cell_whole(struct area_queue *q, uint32_t place)
 {
+    const int u = q->lamp->light->size1 - 1, v = q->lamp->light->size2 - 1;
     q->cell[q->cell_count++] = (struct area_cell){
-        .u = {u0, u1},
-        .v = {v0, v1},
-        .corner = {point_ask(q, place, u0, v0), point_ask(q, place, u1, v0),
-                   point_ask(q, place, u0, v1), point_ask(q, place, u1, v1)},
+        .u = {0, u},
+        .v = {0, v},
+        .corner = {point_ask(q, place, 0, 0), point_ask(q, place, u, 0),
+                   point_ask(q, place, 0, v), point_ask(q, place, u, v)},
         .place = place};
+}
+
+// The values of the points (u, v[0]) and (u, v[1]).
+static void pair_ask(struct area_queue *q, uint32_t place, int u, const int v[2],
+                     uint32_t value[2])
+{
+    value[0] = point_ask(q, place, u, v[0]);
+    value[1] = v[0] == v[1] ? value[0] : point_ask(q, place, u, v[1]);
+}
+
+// Four parts, which meet in the middle: only what lies between the corners is asked for.
+static void cell_cut(struct area_queue *q, uint32_t i)
+{
+    struct area_cell *whole = &q->cell[i], *part = &q->cell[q->cell_count];
+    const uint32_t place = whole->place, *corner = whole->corner;
+    const int *u = whole->u, *v = whole->v;
+    const int um[2] = {(u[0] + u[1]) / 2, (u[0] + u[1] + 1) / 2};
+    const int vm[2] = {(v[0] + v[1]) / 2, (v[0] + v[1] + 1) / 2};
+    uint32_t side[2][2], end[2][2],
+        inner[2][2]; // at u[.] and vm, um[.] and v, um[.] and vm
+    for (int k = 0; k < 2; k++) {
+        pair_ask(q, place, u[k], vm, side[k]);
+        if (k && um[0] == um[1]) {
+            memcpy(end[1], end[0], sizeof end[1]);
+            memcpy(inner[1], inner[0], sizeof inner[1]);
+        } else {
+            pair_ask(q, place, um[k], v, end[k]);
+            pair_ask(q, place, um[k], vm, inner[k]);
+        }
+    }
+    whole->part = q->cell_count;
+    q->cell_count += 4;
+    part[0] =
+        (struct area_cell){.u = {u[0], um[0]},
+                           .v = {v[0], vm[0]},
+                           .corner = {corner[0], end[0][0], side[0][0], inner[0][0]},
+                           .place = place};
+    part[1] =
+        (struct area_cell){.u = {um[1], u[1]},
+                           .v = {v[0], vm[0]},
+                           .corner = {end[1][0], corner[1], inner[1][0], side[1][0]},
+                           .place = place};
+    part[2] =
+        (struct area_cell){.u = {u[0], um[0]},
+                           .v = {vm[1], v[1]},
+                           .corner = {side[0][1], inner[0][1], corner[2], end[0][1]},
+                           .place = place};
+    part[3] =
+        (struct area_cell){.u = {um[1], u[1]},
+                           .v = {vm[1], v[1]},
+                           .corner = {inner[1][1], side[1][1], end[1][1], corner[3]},
+                           .place = place};
 }
 
 // Room for `count` more cells and their corners.
@@ -153,6 +207,11 @@ static float difference(struct rgb a, struct rgb b, struct rgb color)
            fabsf(color.b * (a.b - b.b));
 }
 
+static bool same(struct rgb a, struct rgb b)
+{
+    return a.r == b.r && a.g == b.g && a.b == b.b;
+}
+
 // Whether a cell whose corners are known is cut.
 static bool wants_parts(const struct area_queue *q, const struct area_cell *c, int level)
 {
@@ -164,6 +223,9 @@ static bool wants_parts(const struct area_queue *q, const struct area_cell *c, i
         return true;
     const struct rgb v[4] = {q->value[c->corner[0]], q->value[c->corner[1]],
                              q->value[c->corner[2]], q->value[c->corner[3]]};
+    if (same(v[0], v[1]) && same(v[0], v[2]) &&
+        same(v[0], v[3])) // mostly: all or nothing
+        return false;
     return difference(v[0], v[1], l->color) > notable ||
            difference(v[2], v[3], l->color) > notable ||
            difference(v[0], v[2], l->color) > notable ||
@@ -177,13 +239,7 @@ static void cells_cut(struct area_queue *q, uint32_t first, uint32_t end, int le
         if (!wants_parts(q, &q->cell[i], level))
             continue;
         cells_reserve(q, 4);
-        q->cell[i].part = q->cell_count;
-        const struct area_cell c = q->cell[i];
-        const int u = c.u[0] + c.u[1], v = c.v[0] + c.v[1];
-        cell_add(q, c.place, c.u[0], c.v[0], u / 2, v / 2);
-        cell_add(q, c.place, (u + 1) / 2, c.v[0], c.u[1], v / 2);
-        cell_add(q, c.place, c.u[0], (v + 1) / 2, u / 2, c.v[1]);
-        cell_add(q, c.place, (u + 1) / 2, (v + 1) / 2, c.u[1], c.v[1]);
+        cell_cut(q, i);
     }
 }
 
@@ -237,7 +293,7 @@ static void places_light(struct tracer *t, const struct area_request *const *r,
     cells_reserve(q, count);
     for (uint32_t i = 0; i < count; i++) {
         place_put(q, i, r[i]);
-        cell_add(q, i, 0, 0, light->size1 - 1, light->size2 - 1);
+        cell_whole(q, i);
     }
     for (uint32_t first = 0, end, level = 0; first < q->cell_count;
          first = end, level++) {
