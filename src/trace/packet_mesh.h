@@ -7,7 +7,7 @@
 #include "trace/packet_tree.h"
 
 enum {
-    MESH_FEW = 2,  // lanes that go on one by one
+    MESH_FEW = 2,  // lanes that go on from a node one by one
     MESH_SMALL = 2 // faces that are tried without a way through the tree
 };
 
@@ -17,7 +17,6 @@ struct mesh8 {
     struct shear8 shear;
     struct real8 o_max;
     struct tree_lanes at;
-    double o[3][8], d[3][8]; // of the rays in the mesh's space
     double t[8], dt[8], u[8], v[8];
     uint32_t face[8]; // UINT32_MAX: nothing nearer than t yet
     unsigned found;
@@ -55,16 +54,11 @@ static void mesh8_face(struct mesh8 *v, unsigned lanes, uint32_t face)
     mesh8_found(v, nearer, face);
 }
 
-// One ray's way on from a child of the tree.
+// One ray's way on from a node of the tree. Its faces are tested as those of a packet: that
+// costs no more than one triangle_meet, which the ray would have to be made ready for.
 static void mesh8_lane(struct mesh8 *v, int lane, int32_t child)
 {
-    const struct eight *e = v->e;
     const struct bvh8 *tree = &v->m->tree;
-    const struct ray ray = {vec3(v->o[0][lane], v->o[1][lane], v->o[2][lane]),
-                            vec3(v->d[0][lane], v->d[1][lane], v->d[2][lane]),
-                            e->p->rays->t_min[e->p->first + (uint32_t)lane],
-                            e->p->rays->t_max[e->p->first + (uint32_t)lane]};
-    const struct triangle_ray sheared = triangle_ray_of(&ray);
     struct bvh8_ray r = tree_lane(&v->at, lane);
     const struct tree_ray8 way = tree_ray8_of(&r);
     struct bvh8_entry stack[BVH8_STACK];
@@ -79,22 +73,9 @@ static void mesh8_lane(struct mesh8 *v, int lane, int32_t child)
             continue;
         }
         const uint32_t first = bvh8_leaf_first(at.child), n = bvh8_leaf_count(at.child);
-        for (uint32_t i = first; i < first + n; i++) {
-            const uint32_t face = tree->item[i];
-            struct vec3 p[3];
-            struct triangle_hit h;
-            mesh_corners(v->m, face, p);
-            if (!triangle_meet(&sheared, p, &h) || !(h.t > ray.t_min) ||
-                !(h.t < ray.t_max) ||
-                !(h.t < v->t[lane] || (h.t == v->t[lane] && face < v->face[lane])))
-                continue;
-            v->t[lane] = h.t;
-            v->dt[lane] = h.dt;
-            v->u[lane] = h.u;
-            v->v[lane] = h.v;
-            mesh8_found(v, 1u << lane, face);
-            r.t_far = v->at.t_far[lane];
-        }
+        for (uint32_t i = first; i < first + n; i++)
+            mesh8_face(v, 1u << lane, tree->item[i]);
+        r.t_far = v->at.t_far[lane];
     }
 }
 
@@ -119,7 +100,7 @@ static void mesh8_traverse(struct mesh8 *v, unsigned lanes)
         unsigned bits = f8_le(f8_load(top->near), f8_mul(way.far, f8_set(BVH8_SLACK)));
         if (!bits)
             continue;
-        if (__builtin_popcount(bits) <= MESH_FEW) {
+        if (child >= 0 && __builtin_popcount(bits) <= MESH_FEW) {
             for (; bits; bits &= bits - 1)
                 mesh8_lane(v, __builtin_ctz(bits), child);
             continue;
@@ -162,12 +143,6 @@ static unsigned mesh8(struct eight *e, unsigned bits, uint32_t object)
     for (int i = 0; i < 8; i++) {
         v.t[i] = p->t[i];
         v.face[i] = UINT32_MAX;
-    }
-    const struct real8 *const part[] = {&ray->o.x, &ray->o.y, &ray->o.z,
-                                        &ray->d.x, &ray->d.y, &ray->d.z};
-    for (int a = 0; a < 3; a++) {
-        r8_store(v.o[a], *part[a]);
-        r8_store(v.d[a], *part[3 + a]);
     }
     mesh8_traverse(&v, bits);
     const unsigned won = v.found ? take(e, v.found, r8_load(v.t), object, leaf) : 0;
