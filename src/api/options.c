@@ -28,7 +28,7 @@ const struct lambert_option *lambert_option_at(size_t i)
 static int find(const char *name)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
-        if (strcmp(options[i].name, name) == 0)
+        if (options[i].name[0] == name[0] && strcmp(options[i].name, name) == 0)
             return i;
     return -1;
 }

@@ -322,15 +322,32 @@ static void misses_add(struct tracer *t, struct misses *m, uint32_t k)
 static void missed(struct tracer *t, uint32_t k)
 {
     const struct job *job = t->job;
-    struct wavefront *w = &t->wave;
-    t->slot = w->slot[k];
     const bool opaque = t->rays->hidden_by[k] & OBJECT_NO_REFLECTION;
-    struct rgb c = job->sky[opaque];
     float clear = job->sky_clear[opaque];
-    if (!job->even_sky)
-        c = sky_color(job, vec3(t->rays->d[0][k], t->rays->d[1][k], t->rays->d[2][k]),
-                      opaque, &clear);
-    miss_add(t, t->slot, c, clear);
+    const struct rgb c = sky_color(
+        job, vec3(t->rays->d[0][k], t->rays->d[1][k], t->rays->d[2][k]), opaque, &clear);
+    miss_add(t, t->wave.slot[k], c, clear);
+}
+
+// The rays from k on, up to the first that is no miss, see the same sky; returns that.
+static uint32_t missed_evenly(struct tracer *t, uint32_t k)
+{
+    const struct job *job = t->job;
+    struct wavefront *w = &t->wave;
+    const uint32_t count = w->count;
+    const double *hit = t->hit->t;
+    const unsigned *hidden_by = t->rays->hidden_by;
+    const bool fades = w->path || job->has_air;
+    for (; k < count && !(hit[k] < INFINITY); k++) {
+        const uint32_t slot = w->slot[k];
+        const bool opaque = hidden_by[k] & OBJECT_NO_REFLECTION;
+        const struct rgb c = job->sky[opaque];
+        w->own[0][slot] += w->through[0][slot] * c.r;
+        w->own[1][slot] += w->through[1][slot] * c.g;
+        w->own[2][slot] += w->through[2][slot] * c.b;
+        w->t[slot] += (fades ? w->through_t[slot] : 1) * job->sky_clear[opaque];
+    }
+    return k;
 }
 
 static void sums_add(struct tracer *t)
@@ -414,7 +431,9 @@ static void wave_trace(struct tracer *t)
     for (uint32_t k = 0, end; k < w->count && !tracer_gives_up(t); k = end) {
         end = k + 1;
         if (!(t->hit->t[k] < INFINITY)) {
-            if (t->job->sky_tape)
+            if (t->job->even_sky)
+                end = missed_evenly(t, k);
+            else if (t->job->sky_tape)
                 misses_add(t, &sky, k);
             else
                 missed(t, k);
