@@ -167,8 +167,10 @@ void emitters_find(struct radiosity *r)
                                  .at = p->cell[p->element_cell[i] / 2],
                                  .side = (int)(p->element_cell[i] & 1),
                                  .radius = polygon_radius(&p->element[i])};
-    while (merge_along(r, false) | merge_along(r, true))
-        ;
+    for (bool merged = true; merged;) {
+        merged = merge_along(r, false);
+        merged = merge_along(r, true) || merged;
+    }
     if (r->emitter_count > EMITTERS_MOST)
         r->emitter_count = 0;
     for (uint32_t i = 0; i < r->emitter_count; i++) {
