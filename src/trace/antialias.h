@@ -54,6 +54,7 @@ struct antialias {
     judge_function *judge;
     differ_function *differ;
     sample_function *sample;
+    sample_function *borrow; // the same for pixels of other blocks, which count it
     void *user;
     const struct antialias_seams *seams; // NULL: none are shared
     uint32_t block;                      // its number there

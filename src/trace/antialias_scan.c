@@ -41,27 +41,35 @@ static void scan_room(struct scan *s, size_t count)
     s->value = must_realloc(s->value, count, sizeof *s->value);
 }
 
-// Whether the block that is `back` blocks before this one is known.
-static bool is_known(const struct scan *s, uint32_t back)
+// The block on one side, whose centres along the seam are asked for.
+struct scan_side {
+    bool there, known;
+};
+
+// The one that is `back` blocks before this one.
+static struct scan_side side_of(const struct scan *s, bool there, uint32_t back)
 {
     const struct antialias_seams *seams = s->a->seams;
-    return atomic_load_explicit(&seams->known[s->a->block - back], memory_order_acquire);
+    return (struct scan_side){
+        there, there && atomic_load_explicit(&seams->known[s->a->block - back],
+                                             memory_order_acquire)};
 }
 
 // Takes the centres on the left and above that other blocks know.
-static void seams_take(const struct scan *s, bool *left, bool *top)
+static void seams_take(const struct scan *s, struct scan_side *left,
+                       struct scan_side *top)
 {
     const struct antialias_seams *seams = s->a->seams;
     const uint32_t block = s->a->block;
-    *left = *top = false;
+    *left = *top = (struct scan_side){false, false};
     if (!seams)
         return;
-    *left = block % seams->across > 0 && is_known(s, 1);
-    *top = block >= seams->across && is_known(s, seams->across);
-    for (int y = 0; *left && y < s->height; y++)
+    *left = side_of(s, block % seams->across > 0, 1);
+    *top = side_of(s, block >= seams->across, seams->across);
+    for (int y = 0; left->known && y < s->height; y++)
         memcpy(s->centre[scan_index(s, -1, y)],
                seams->column[(block - 1) * seams->size + (uint32_t)y], sizeof *s->centre);
-    if (*top)
+    if (top->known)
         memcpy(s->centre[scan_index(s, 0, -1)],
                seams->row[(block - seams->across) * seams->size],
                (size_t)s->width * sizeof *s->centre);
@@ -80,27 +88,41 @@ static void seams_give(const struct scan *s)
            (size_t)s->width * sizeof *s->centre);
 }
 
-static void scan_centres(struct scan *s)
+// Traces centres of cells in the rectangle [x0, x1) x [y0, y1) of the block and its border.
+static void centres_trace(struct scan *s, sample_function *sample, int x0, int y0, int x1,
+                          int y1)
 {
-    const int cells = s->stride * (s->height + 1);
-    bool left, top;
-    scan_room(s, (size_t)cells);
-    seams_take(s, &left, &top);
     int *cell = s->wanted; // nothing is yet
     uint32_t n = 0;
     // Two rows at once: packets are near squares.
-    for (int y = top; y <= s->height; y += 2) {
-        for (int x = left; x < s->stride; x++) {
-            for (int k = y; k <= y + 1 && k <= s->height; k++) {
+    for (int y = y0; y < y1; y += 2) {
+        for (int x = x0; x < x1; x++) {
+            for (int k = y; k <= y + 1 && k < y1; k++) {
                 cell[n] = k * s->stride + x;
                 s->position[n] = (struct vec2){s->x0 + x - 0.5, s->y0 + k - 0.5};
                 n += cell[n] > 0; // the corner is no neighbour
             }
         }
     }
-    sample_batch(s->a, s->position, n, s->value);
+    sample(s->a->user, s->position, n, s->value);
     for (uint32_t i = 0; i < n; i++)
         memcpy(s->centre[cell[i]], s->value[i], sizeof s->value[i]);
+}
+
+// What belongs to other blocks is traced apart and not counted, so that the counts do not
+// depend on which block comes first.
+static void scan_centres(struct scan *s)
+{
+    const struct antialias *a = s->a;
+    const int cells = s->stride * (s->height + 1);
+    struct scan_side left, top;
+    scan_room(s, (size_t)cells);
+    seams_take(s, &left, &top);
+    centres_trace(s, a->sample, left.there, top.there, s->stride, s->height + 1);
+    if (left.there && !left.known)
+        centres_trace(s, a->borrow, 0, 1, 1, s->height + 1);
+    if (top.there && !top.known)
+        centres_trace(s, a->borrow, 1, 0, s->stride, 1);
     seams_give(s);
     judge(s->a, (const float(*)[4])s->centre, (uint32_t)cells, &s->centre_judged);
 }

@@ -84,6 +84,17 @@ static void sample(void *user, const struct vec2 *position, uint32_t count,
     tracer_samples(user, position, count, out);
 }
 
+static void borrow(void *user, const struct vec2 *position, uint32_t count,
+                   float (*out)[4])
+{
+    struct tracer *t = user;
+    const struct trace_stats stats = t->scratch->stats;
+    const uint64_t samples = t->samples;
+    tracer_samples(t, position, count, out);
+    t->scratch->stats = stats;
+    t->samples = samples;
+}
+
 // Pixels of a tile that are traced together, and their samples.
 struct plain_batch {
     struct vec2 position[BATCH_SIZE];
@@ -169,6 +180,7 @@ static void smoothed(struct tracer *t, const struct tile_tables *tables,
                                 .judge = job->kernels->judge,
                                 .differ = job->kernels->differ,
                                 .sample = sample,
+                                .borrow = borrow,
                                 .user = t,
                                 .seams = &tables->seams,
                                 .block = tile->index};

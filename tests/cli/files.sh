@@ -66,6 +66,16 @@ check "file types" types
 stats() { exits 0 "$lambert" $small sphere.pov --stats=json && has out '^{"v":1,.*"pixels":768,.*}$'; }
 check "counts as JSON" stats
 piped_stats() { exits 0 "$lambert" -q $small sphere.pov --stats=json -o - && cmp out a.png && has err '^{"v":1,'; }
+# The order in which tiles are done, which threads leave to chance, is not counted.
+counts() { "$lambert" -q +W200 +H150 +A sphere.pov --stats=json -o all.png "$@" | grep -o '"samples":[0-9]*,"rays":[0-9]*,"shadow_rays":[0-9]*'; }
+same_counts()
+{
+  counts +WT1 >one.counts && test -s one.counts || return
+  for _ in 1 2 3 4 5; do
+    counts +WT4 | cmp -s - one.counts || return
+  done
+}
+check "counts do not depend on threads" same_counts
 check "counts beside a picture on standard output" piped_stats
 unnamed() { rm -f sphere.png && exits 0 "$lambert" -q $small sphere.pov -o "" && test -s sphere.png && test ! -e .png; }
 check "an empty name is none" unnamed
