@@ -356,9 +356,12 @@ static struct height_walk walk_of(const struct height_field *f, const struct ray
     w.o[0] = sx * o.x;
     w.o[1] = o.y;
     w.o[2] = sz * o.z;
-    w.d[0] = RUNS_ALONG(u.x, 1) ? 0 : sx * u.x;
+    // A field that was made thin is crossed by lines that are steep here.
+    const double across = fmax(fabs(u.x), fabs(u.z)),
+                 most = RUNS_ALONG(across, 1) ? 1 : across;
+    w.d[0] = RUNS_ALONG(u.x, most) ? 0 : sx * u.x;
     w.d[1] = u.y;
-    w.d[2] = RUNS_ALONG(u.z, 1) ? 0 : sz * u.z;
+    w.d[2] = RUNS_ALONG(u.z, most) ? 0 : sz * u.z;
     w.cells = sx + sz;
     w.error = GAMMA(8) * (size + fabs(w.shift) + vec3_max_abs(ray->o));
     return w;

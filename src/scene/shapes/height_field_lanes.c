@@ -290,11 +290,11 @@ LANES_INLINE void clip(struct over8 *w, struct real8 o, struct real8 inverse,
     w->end = r8_min(r8_select(back, p, q), w->end);
 }
 
-// As RUNS_ALONG of unit directions; never -0.
-LANES_INLINE struct real8 still(struct real8 d)
+// d, or 0 as by RUNS_ALONG of directions of that size; never -0.
+LANES_INLINE struct real8 moving(struct real8 d, struct real8 size)
 {
     const struct real8 zero = r8_set(0);
-    return r8_select(r8_lt(r8_set(GAMMA(12)), r8_abs(d)), d, zero);
+    return r8_select(r8_lt(r8_mul(r8_set(GAMMA(12)), size), r8_abs(d)), d, zero);
 }
 
 // As walk_of.
@@ -315,8 +315,11 @@ static void set_up(struct over8 *w)
     const double sx = f->h.width - 1, sz = f->h.height - 1;
     w->o = (struct vec8){r8_mul(r8_set(sx), o.x), r8_mul(unit, o.y),
                          r8_mul(r8_set(sz), o.z)};
-    w->d = (struct vec8){r8_mul(r8_set(sx), still(u.x)), r8_add(r8_mul(unit, u.y), zero),
-                         r8_mul(r8_set(sz), still(u.z))};
+    const struct real8 across = r8_max(r8_abs(u.x), r8_abs(u.z));
+    const struct real8 most = r8_select(r8_lt(r8_set(GAMMA(12)), across), across, one);
+    w->d = (struct vec8){r8_mul(r8_set(sx), moving(u.x, most)),
+                         r8_add(r8_mul(unit, u.y), zero),
+                         r8_mul(r8_set(sz), moving(u.z, most))};
     w->ix = r8_div(one, w->d.x);
     w->iz = r8_div(one, w->d.z);
     w->error = r8_mul(r8_set(GAMMA(8)),
