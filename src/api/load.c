@@ -32,9 +32,8 @@ static enum diag_style style_of(const char *word)
 static void set_place(struct lambert_message *m, const struct source_map *sources,
                       struct span where)
 {
-    const struct source_file *f = sources->file[where.file];
     const struct source_line line = source_line(sources->file[where.file], where.begin);
-    m->file = f->name;
+    m->file = line.name;
     m->line = line.number;
     m->column = where.begin - line.begin + 1;
     m->end_column = m->column + (where.end - where.begin);
@@ -81,8 +80,7 @@ static void scene_text(void *user, enum word directive, const char *text)
 // Places in the text are 32-bit numbers.
 enum { SCENE_BYTES_MAX = 1 << 30 };
 
-// The file as source number 0. An include header (NULL: none) is put before the first line, so
-// that line numbers stay.
+// The file as source number 0. An include header (NULL: none) is a line before the first.
 static enum lambert_status open_source(struct lambert_context *ctx, const char *path,
                                        const char *header, uint32_t *file)
 {
@@ -92,7 +90,7 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
         (struct diag_sink){.emit = emit,
                            .user = ctx,
                            .errors_max = (unsigned)option_number(ctx, "max-errors")};
-    const char *prefix = header ? arena_printf(a, "#include \"%s\" ", header) : "";
+    const char *prefix = header ? arena_printf(a, "#include \"%s\"\n", header) : "";
     bool standard = strcmp(path, "-") == 0;
     FILE *f = standard ? stdin : fopen(path, "rb");
     if (!f)
@@ -112,6 +110,7 @@ static enum lambert_status open_source(struct lambert_context *ctx, const char *
     const char *name = standard ? "<stdin>" : arena_strndup(a, path, strlen(path));
     *file = source_add(&ctx->sources, name, text, len, (struct span){0});
     ctx->sources.file[*file]->ended = true;
+    ctx->sources.file[*file]->header = header ? "--include-header" : NULL;
     return LAMBERT_OK;
 }
 

@@ -72,14 +72,14 @@ void diag_report(struct diag_sink *sink, enum diag_code code, struct span where,
 }
 
 struct place {
-    const struct source_file *file;
+    const char *name;
     unsigned line, column; // 1-based
 };
 
 static struct place place_of(const struct source_map *m, struct span s)
 {
     const struct source_line line = source_line(m->file[s.file], s.begin);
-    return (struct place){m->file[s.file], line.number, s.begin - line.begin + 1};
+    return (struct place){line.name, line.number, s.begin - line.begin + 1};
 }
 
 enum { EXCERPT_BEFORE = 160, EXCERPT_MAX = 240 };
@@ -121,15 +121,15 @@ static void print_stack(FILE *out, const struct source_map *m, struct span s)
     for (uint32_t e = s.expansion; e && shown < 8; shown++) {
         const struct expansion *x = &m->expansions[e];
         struct place p = place_of(m, x->called_at);
-        fprintf(out, "  in macro %s() called from %s:%u:%u\n", x->macro, p.file->name,
-                p.line, p.column);
+        fprintf(out, "  in macro %s() called from %s:%u:%u\n", x->macro, p.name, p.line,
+                p.column);
         s = x->called_at;
         e = s.expansion;
     }
     for (const struct source_file *f = m->file[s.file]; f->included_at.end;
          f = m->file[f->included_at.file]) {
         struct place p = place_of(m, f->included_at);
-        fprintf(out, "  included from %s:%u\n", p.file->name, p.line);
+        fprintf(out, "  included from %s:%u\n", p.name, p.line);
     }
 }
 
@@ -155,7 +155,7 @@ static void print_json(FILE *out, const struct source_map *m, const struct diag 
     if (d->where.end) {
         struct place p = place_of(m, d->where);
         fputs(",\"file\":", out);
-        print_json_string(out, p.file->name);
+        print_json_string(out, p.name);
         fprintf(out, ",\"line\":%u,\"col\":%u,\"endCol\":%u", p.line, p.column,
                 p.column + (d->where.end - d->where.begin));
     }
@@ -173,7 +173,7 @@ static void print_pov(FILE *out, const struct source_map *m, const struct diag *
     static const char *const kind[] = {"Note", "Parse Warning", "Parse Error"};
     if (d->where.end) {
         struct place p = place_of(m, d->where);
-        fprintf(out, "File '%s' line %u: ", p.file->name, p.line);
+        fprintf(out, "File '%s' line %u: ", p.name, p.line);
     }
     fprintf(out, "%s: %s\n", kind[d->severity], d->message);
 }
@@ -192,7 +192,7 @@ void diag_print(FILE *out, const struct source_map *m, const struct diag *d,
     }
     if (d->where.end) {
         struct place p = place_of(m, d->where);
-        fprintf(out, "%s:%u:%u: ", p.file->name, p.line, p.column);
+        fprintf(out, "%s:%u:%u: ", p.name, p.line, p.column);
     } else {
         fputs("lambert: ", out);
     }

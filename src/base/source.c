@@ -65,7 +65,9 @@ struct source_line source_line(struct source_file *f, uint32_t offset)
             hi = mid;
     }
     const bool last = lo + 1 == f->line_count;
-    return (struct source_line){lo + 1, f->line_start[lo],
+    const bool before = f->header && lo == 0;
+    return (struct source_line){before ? f->header : f->name, lo + !f->header,
+                                f->line_start[lo],
                                 last ? f->len : f->line_start[lo + 1] - 1};
 }
 

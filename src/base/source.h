@@ -15,7 +15,8 @@ struct span {
 };
 
 struct source_file {
-    const char *name; // as used to open it
+    const char *name;   // as used to open it
+    const char *header; // what put a line before the file's first; NULL: nothing did
     const char *text;
     uint32_t len;
     bool
@@ -49,7 +50,8 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
                     struct span included_at);
 
 struct source_line {
-    uint32_t number;     // 1 is the first
+    const char *name;    // of the file, or of what put the line before it
+    uint32_t number;     // 1 is the file's first
     uint32_t begin, end; // without its newline
 };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INI_DEPTH_MAX = 10 };
+enum { INI_DEPTH_MAX = 10, INI_ERRORS_MOST = 20 };
 
 struct ini {
     struct cmd *cmd;
@@ -139,10 +139,12 @@ int ini_read(struct cmd *c, const char *path, const char *section, int depth)
     free(with_extension);
     char *line = NULL;
     size_t capacity = 0;
-    int code = CMD_OK;
-    while (!code && getline(&line, &capacity, f) >= 0) {
+    int code = CMD_OK, errors = 0;
+    while (errors < INI_ERRORS_MOST && getline(&line, &capacity, f) >= 0) {
         in.line++;
-        code = take_line(&in, line);
+        const int of_line = take_line(&in, line);
+        code = code ? code : of_line;
+        errors += of_line != CMD_OK;
     }
     free(line);
     fclose(f);

@@ -107,6 +107,18 @@ static void say_done(struct cmd *c, const char *path, bool whole)
         say_picture(c, c->stream[STREAM_RENDER], name, &s);
 }
 
+// Once more with the same limit would come as far: as far as before.
+static void warn_of_standstill(struct cmd *c)
+{
+    struct lambert_stats s;
+    lambert_get_stats(c->ctx, &s);
+    if (c->out_of_time && s.samples && !s.pixels)
+        cmd_warn(c,
+                 "no tile was finished within --time-limit=%g; it takes more time or a "
+                 "smaller --tile-size, which begins anew",
+                 lambert_option_number(c->ctx, "time-limit"));
+}
+
 static void say_stats(struct cmd *c, const char *path)
 {
     const char *form = lambert_option_text(c->ctx, "stats");
@@ -163,6 +175,7 @@ static int render_to(struct cmd *c, const char *scene, const char *path)
     status = lambert_render(c->ctx, &image);
     progress_end(c);
     c->stage = STAGE_WRITE;
+    warn_of_standstill(c);
     if (!image && status != LAMBERT_CANCELLED)
         return report(c, status);
     bool empty = !image || (status == LAMBERT_CANCELLED && !tiles_done(c));

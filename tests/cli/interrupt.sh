@@ -181,6 +181,16 @@ timed_picture()
 }
 check "out of time in the picture" timed_picture
 check "which can be gone on with" test -s timed.png -a -s timed.png.lambert-state
+# One tile takes longer than the limit. Later where the machine is slow, as above.
+standstill()
+{
+  for seconds in 1 4 16; do
+    out_of_time lens.pov $seconds 'before the first tile' +W64 +H64 --tile-size 64 +C -o still.png || return
+    ! has err 'no tile was finished within --time-limit=[0-9]*; it takes more time or a smaller --tile-size' || return 0
+  done
+  return 1
+}
+check "why nothing comes of it is told" standstill
 check "in time" exits 0 "$lambert" sphere.pov --time-limit=1000 +W16 +H12 -o timed.png
 # narrow COLUMNS: no line of the progress is longer than a window of so many.
 narrow()
