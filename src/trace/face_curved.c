@@ -12,6 +12,7 @@
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/plane.h"
+#include "scene/shapes/poly.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
 #include "scene/shapes/torus.h"
@@ -74,6 +75,20 @@ static void torus_face(const void *shape, struct curved_face *f)
     f->more[0] = s->minor / (s->major + s->minor);
 }
 
+// A poly of the second order is a quadric about the origin.
+static bool poly_face(const struct leaf *l, struct curved_face *f)
+{
+    const struct poly *s = l->shape;
+    if ((l->ops != &poly_ops && l->ops != &polynomial_ops) || s->order != 2)
+        return false;
+    const double *c = s->coefficient; // of xx, xy, xz, x, yy, yz, y, zz, z, 1
+    const double form[] = {c[0], c[4], c[7], .5 * c[1], .5 * c[2], .5 * c[5]};
+    memcpy(f->form, form, sizeof form);
+    f->gradient = vec3(c[3], c[6], c[8]);
+    f->value = c[9];
+    return true;
+}
+
 static const struct {
     const struct shape_ops *ops;
     void (*face)(const void *shape, struct curved_face *f); // NULL: it has none
@@ -95,6 +110,8 @@ static bool shape_face(const struct leaf *l, struct curved_face *f)
                 kinds[k].face(l->shape, f);
             return kinds[k].face != NULL;
         }
+    if (poly_face(l, f))
+        return true;
     const struct aabb box = l->ops->bounds(l->shape);
     f->kind = l->shape;
     form_around(f, f->origin, 0);

@@ -55,6 +55,8 @@ again='rotate 41*x rotate <-41, 0, 0>'
 both "balls" "sphere { y, 1 $turn" "sphere { 3*y, 3 scale 1/3 $again $turn"
 both "ellipsoids" "sphere { y, 1 scale <1.3, 1, 1> $turn" "sphere { 3*y, 3 scale <1.3, 1, 1>/3 $again $turn"
 both "a ball as a quadric" "sphere { y, 1 $turn" "quadric { 1, 0, -2*y, 0 scale 1/3 scale 3 $again $turn"
+both "a ball as a poly" "sphere { y, 1 $turn" "poly { 2, <1, 0, 0, 0, 1, 0, -2, 1, 0, 0> scale 1/3 scale 3 $again $turn"
+both "a polynomial as a quadric" "quadric { <1, 2, 1>, <.3, 0, .2>, <0, -2, 0>, -.5 $turn" "polynomial { 2, xyz(2, 0, 0): 2, xyz(0, 2, 0): 4, xyz(0, 0, 2): 2, xyz(1, 1, 0): .6, xyz(0, 1, 1): .4, xyz(0, 1, 0): -4, xyz(0, 0, 0): -1 scale 1/3 scale 3 $again $turn"
 both "a ball cut from a block" "sphere { y, 1 $turn" "difference { sphere { 3*y, 3 } box { -.1, .1 } scale 1/3 $again $turn"
 both "cones" "cone { 0, 1, 2*y, .2 $turn" "cone { 0, 3, 6*y, .6 scale 1/3 $again $turn"
 both "open cylinders" "cylinder { 0, y, 1 open $turn" "cylinder { 0, 3*y, 3 open scale 1/3 $again $turn"
