@@ -88,7 +88,7 @@ struct shape_ops {
 
     // The same of eight rays at once, for those of `lanes`: the lanes that meet the shape
     // with t_min < t <= t_max. `any`: the t of any crossing in that range will do. A lane's
-    // result depends on its own ray alone. `has_lanes` (NULL: never) says for which shapes
+    // result depends on its own ray alone. `has_lanes` (NULL: all) says for which shapes
     // it may be called; these are always asked this way when they stand alone.
     unsigned (*closest8)(const struct shape_kernels *k, const void *shape,
                          const struct shape_rays *rays, unsigned lanes, bool any,
@@ -116,6 +116,12 @@ struct shape_ops {
     // closing brace: object_print adds modifiers and closes.
     void (*print)(const void *shape, FILE *out);
 };
+
+// Whether closest8 may be called for the shape.
+static inline bool shape_has_lanes(const struct shape_ops *ops, const void *shape)
+{
+    return ops->closest8 && (!ops->has_lanes || ops->has_lanes(shape));
+}
 
 #define SHAPE(name) extern const struct shape_ops name##_ops;
 #include "scene/shapes.def"

@@ -148,7 +148,7 @@ static enum packet_shape shape_of_leaf(const struct leaf *l)
         return PACKET_TRIANGLE;
     if (l->ops == &mesh_ops || l->ops == &mesh2_ops)
         return PACKET_MESH;
-    if (l->ops->has_lanes && l->ops->has_lanes(l->shape))
+    if (shape_has_lanes(l->ops, l->shape))
         return PACKET_LANES;
     return PACKET_NONE;
 }

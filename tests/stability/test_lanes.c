@@ -194,7 +194,7 @@ static void eight_rays_meet_what_one_line_does(void **state)
         for (int any = 0; any < 2; any++) {
             struct loaded l;
             load(&l, "%s", shapes[i]);
-            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            assert_true(shape_has_lanes(l.world->leaf[0].ops, l.world->leaf[0].shape));
             lanes_compare(&l, shapes[i], any != 0, PACKETS, false, false);
             unload(&l);
         }
@@ -292,7 +292,7 @@ static void eight_rays_walk_as_one_line_does(void **state)
         for (int any = 0; any < 2; any++) {
             struct loaded l;
             load(&l, "%s", walked[i]);
-            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            assert_true(shape_has_lanes(l.world->leaf[0].ops, l.world->leaf[0].shape));
             lanes_compare(&l, walked[i], any != 0, MORE_PACKETS, true, false);
             unload(&l);
         }
@@ -305,7 +305,7 @@ static void eight_rays_meet_what_is_turned(void **state)
         for (int any = 0; any < 2; any++) {
             struct loaded l;
             load(&l, "%s", turned[i]);
-            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            assert_true(shape_has_lanes(l.world->leaf[0].ops, l.world->leaf[0].shape));
             lanes_compare(&l, turned[i], any != 0, MORE_PACKETS, false, false);
             unload(&l);
         }
@@ -323,7 +323,7 @@ static void eight_rays_have_the_bits_of_one_line(void **state)
             }
             load(&l, "#declare FONT = \"%s\"; %s", font_file() ? font_file() : "",
                  same_bits[i]);
-            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            assert_true(shape_has_lanes(l.world->leaf[0].ops, l.world->leaf[0].shape));
             lanes_compare(&l, same_bits[i], any != 0, MORE_PACKETS, false, true);
             unload(&l);
         }
@@ -336,7 +336,7 @@ static void eight_rays_have_the_bits_of_one_lines_hits(void **state)
         for (int any = 0; any < 2; any++) {
             struct loaded l;
             load(&l, "%s", same_hits[i]);
-            assert_true(l.world->leaf[0].ops->has_lanes(l.world->leaf[0].shape));
+            assert_true(shape_has_lanes(l.world->leaf[0].ops, l.world->leaf[0].shape));
             lanes_compare(&l, same_hits[i], any != 0, PACKETS, false, !any);
             unload(&l);
         }

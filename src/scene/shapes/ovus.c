@@ -215,12 +215,6 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     return k->ovus(shape, rays, lanes, out);
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -259,7 +253,6 @@ const struct shape_ops ovus_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,
-    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

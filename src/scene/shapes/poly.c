@@ -223,12 +223,6 @@ static unsigned lines8(const struct shape_kernels *k, const void *shape,
     return k->poly_lines(shape, rays, lanes, out);
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 // A value and its gradient, on their way through the nested schemes.
 struct jet {
     double v;
@@ -419,7 +413,6 @@ static void print(const void *shape, FILE *out)
         .inside = inside,                                                                \
         .intersect = intersect,                                                          \
         .closest8 = closest8,                                                            \
-        .has_lanes = has_lanes,                                                          \
         .lines8 = lines8,                                                                \
         .surface = surface,                                                              \
         .print = print,                                                                  \

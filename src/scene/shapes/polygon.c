@@ -150,12 +150,6 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     return k->polygon(shape, rays, lanes, out);
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -184,7 +178,6 @@ const struct shape_ops polygon_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,
-    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

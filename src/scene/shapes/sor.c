@@ -99,12 +99,6 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     return revolve_closest8(k, &sor_ops, shape, rays, lanes, any, out);
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -137,7 +131,6 @@ const struct shape_ops sor_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,
-    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

@@ -470,12 +470,6 @@ static unsigned closest8(const struct shape_kernels *k, const void *shape,
     return met | shape_lanes_alone(&sphere_sweep_ops, shape, rays, odd, out);
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 static void surface(const void *shape, const struct boundary *b, struct vec3 p,
                     struct surface_point *out)
 {
@@ -518,7 +512,6 @@ const struct shape_ops sphere_sweep_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,
-    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

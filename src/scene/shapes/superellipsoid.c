@@ -10,7 +10,7 @@
 #include "math/quick.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-#include "scene/shapes/superellipsoid.h"
+#include "scene/shapes/superellipsoid_walk.h"
 
 static double power(double x, const struct exponent *e)
 {
@@ -48,11 +48,8 @@ static double norm2(double a, double b, const struct exponent *p, double *da, do
     return c * big;
 }
 
-struct sample {
-    double f, slope; // F and its derivative along the line
-};
-
-static struct vec3 gradient(const struct superellipsoid *s, struct vec3 p, double *f)
+struct vec3 superellipsoid_gradient(const struct superellipsoid *s, struct vec3 p,
+                                    double *f)
 {
     double dx, dy, da, dz;
     const double a = norm2(fabs(p.x), fabs(p.y), &s->p, &dx, &dy);
@@ -60,23 +57,16 @@ static struct vec3 gradient(const struct superellipsoid *s, struct vec3 p, doubl
     return vec3(copysign(da * dx, p.x), copysign(da * dy, p.y), copysign(dz, p.z));
 }
 
-struct line {
-    const struct superellipsoid *s;
-    struct vec3 o, u; // unit direction, o nearest to the centre
-    double shift, length;
-    double noise; // bound on the error of F: its numbers are near one, and see quick_pow
-};
-
-static struct sample at(const struct line *l, double t)
+struct superellipsoid_sample superellipsoid_at(const struct superellipsoid_line *l,
+                                               double t)
 {
-    struct sample r;
-    const struct vec3 g = gradient(l->s, vec3_mad(l->o, t, l->u), &r.f);
+    struct superellipsoid_sample r;
+    const struct vec3 g = superellipsoid_gradient(l->s, vec3_mad(l->o, t, l->u), &r.f);
     r.slope = vec3_dot(g, l->u);
     return r;
 }
 
-// The stretch of the line within the cube that holds the surface.
-static bool in_cube(const struct line *l, double *a, double *b)
+bool superellipsoid_in_cube(const struct superellipsoid_line *l, double *a, double *b)
 {
     const double edge = 1 + 0x1p-20;
     *a = -2 * edge;
@@ -95,8 +85,8 @@ static bool in_cube(const struct line *l, double *a, double *b)
     return *a < *b;
 }
 
-static struct boundary crossing_at(const struct line *l, double t, double slope,
-                                   enum crossing c)
+static struct boundary crossing_at(const struct superellipsoid_line *l, double t,
+                                   double slope, enum crossing c)
 {
     double dt = 2 * l->noise / fmax(fabs(slope), 0x1p-26);
     dt += GAMMA(4) * (fabs(l->shift) + fabs(t));
@@ -106,19 +96,19 @@ static struct boundary crossing_at(const struct line *l, double t, double slope,
                              .drawn = 1};
 }
 
-static void add(const struct line *l, double t, double slope, enum crossing c,
-                struct boundary_list *out)
+static void add(const struct superellipsoid_line *l, double t, double slope,
+                enum crossing c, struct boundary_list *out)
 {
     *boundary_list_add(out, 0, 0, c, 0) = crossing_at(l, t, slope, c);
 }
 
 // The root between outside (F > 0) and inside, Newton from t on, kept in the bracket; *slope is
 // F's near it.
-static double root_between(const struct line *l, double outside, double inside, double t,
-                           double *slope)
+static double root_between(const struct superellipsoid_line *l, double outside,
+                           double inside, double t, double *slope)
 {
     for (int i = 0; i < 100; i++) {
-        const struct sample v = at(l, t);
+        const struct superellipsoid_sample v = superellipsoid_at(l, t);
         *slope = v.slope;
         if (v.f > 0)
             outside = t;
@@ -140,12 +130,12 @@ static double root_between(const struct line *l, double outside, double inside, 
 // The root of a convex F next to the outside point t, looking towards `to`, by Newton's
 // method, which comes from outside and does not pass it; false: there is none. *slope is
 // F's there.
-static bool approach(const struct line *l, double t, double to, double *root,
-                     double *slope)
+static bool approach(const struct superellipsoid_line *l, double t, double to,
+                     double *root, double *slope)
 {
     const double way = to > t ? 1 : -1, noise = l->noise;
     for (int i = 0; i < 100; i++) {
-        const struct sample v = at(l, t);
+        const struct superellipsoid_sample v = superellipsoid_at(l, t);
         *slope = v.slope;
         *root = t;
         if (v.f <= noise)
@@ -160,7 +150,8 @@ static bool approach(const struct line *l, double t, double to, double *root,
     return true; // a graze, where steps only halve
 }
 
-static void convex(const struct line *l, double a, double b, struct boundary_list *out)
+static void convex(const struct superellipsoid_line *l, double a, double b,
+                   struct boundary_list *out)
 {
     double first, last, slope_a, slope_b;
     if (!approach(l, a, b, &first, &slope_a))
@@ -187,172 +178,10 @@ void superellipsoid_add_ends(const struct superellipsoid_ends *e, int lane,
                               .drawn = 1};
 }
 
-static bool is_concave(const struct superellipsoid *s)
+struct superellipsoid_line superellipsoid_line(const struct superellipsoid *s,
+                                               const struct ray *ray)
 {
-    return s->p.p <= 1 && s->q.p <= 1;
-}
-
-// Where the line meets the planes x = 0, y = 0, z = 0, and, if F is not concave between them,
-// x = y, x = -y and so on, sorted, ends included.
-enum { STOPS = 11, PIECES = 4, CROSSINGS = 2 * STOPS * PIECES };
-
-static int kinks(const struct line *l, double a, double b, double stop[STOPS])
-{
-    static const struct vec3 plane[9] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
-                                         {1, 1, 0},  {1, -1, 0}, {1, 0, 1},
-                                         {1, 0, -1}, {0, 1, 1},  {0, 1, -1}};
-    const int planes = is_concave(l->s) ? 3 : 9;
-    int n = 0;
-    stop[n++] = a;
-    for (int i = 0; i < planes; i++) {
-        const double d = vec3_dot(plane[i], l->u), t = -vec3_dot(plane[i], l->o) / d;
-        if (d != 0 && t > a && t < b)
-            stop[n++] = t;
-    }
-    stop[n++] = b;
-    for (int i = 1; i < n; i++)
-        for (int j = i; j > 0 && stop[j - 1] > stop[j]; j--) {
-            const double swap = stop[j];
-            stop[j] = stop[j - 1];
-            stop[j - 1] = swap;
-        }
-    return n;
-}
-
-// A place where F was looked at.
-struct place {
-    double t, f;
-};
-
-// Between which F crosses zero.
-struct bracket {
-    struct place a, b;
-    bool enters;
-};
-
-// The secant's root is nearer than the ends.
-static double first_guess(const struct bracket *x)
-{
-    const double t = x->a.t + (x->b.t - x->a.t) * (x->a.f / (x->a.f - x->b.f));
-    // The line may leave the cube where F is below zero.
-    return t > x->a.t && t < x->b.t ? t : 0.5 * (x->a.t + x->b.t);
-}
-
-// Where a line is sampled, and what F is there; eight places at a time, if there are kernels.
-enum { PLACES = (STOPS - 1) * PIECES + 1, ROOM = (PLACES + 7) / 8 * 8 };
-
-struct samples {
-    struct line line;
-    const struct shape_kernels *kernels; // NULL: one place at a time
-    int count;
-    double t[ROOM], f[ROOM], slope[ROOM];
-};
-
-static void samples_place(struct samples *s, double a, double b)
-{
-    double stop[STOPS];
-    const int n = kinks(&s->line, a, b, stop),
-              pieces = is_concave(s->line.s) ? 1 : PIECES;
-    s->count = 0;
-    s->t[s->count++] = a;
-    for (int i = 1; i < n; i++)
-        for (int k = 1; k <= pieces; k++)
-            s->t[s->count++] = stop[i - 1] + (stop[i] - stop[i - 1]) * k / pieces;
-    for (int i = s->count; i % 8; i++)
-        s->t[i] = b;
-}
-
-static struct sample sample_of(struct samples *s, int i)
-{
-    if (!s->kernels)
-        return at(&s->line, s->t[i]);
-    if (i % 8 == 0)
-        s->kernels->superellipsoid_samples(s->line.s, s->line.o, s->line.u, s->t + i,
-                                           s->f + i, s->slope + i);
-    return (struct sample){s->f[i], s->slope[i]};
-}
-
-// F and its slope at eight places of the line.
-static void eight_samples(const struct line *l, const struct shape_kernels *k,
-                          const double t[8], double f[8], double slope[8])
-{
-    if (k) {
-        k->superellipsoid_samples(l->s, l->o, l->u, t, f, slope);
-        return;
-    }
-    for (int i = 0; i < 8; i++) {
-        const struct sample v = at(l, t[i]);
-        f[i] = v.f;
-        slope[i] = v.slope;
-    }
-}
-
-// A point between a and b on the other side of F than both, where the slopes at the ends
-// say there may be one: F turns between them, in one eighth of the stretch.
-static bool find_turn(const struct line *l, const struct shape_kernels *k, double a,
-                      double b, bool in, struct place *turn)
-{
-    for (int step = 0; step < 8; step++) {
-        double t[8], f[8], slope[8];
-        for (int i = 0; i < 8; i++)
-            t[i] = a + (b - a) * (i + 1) / 8; // the last is not looked at
-        eight_samples(l, k, t, f, slope);
-        int i = 0;
-        while (i < 7 && (f[i] < 0) == in && (slope[i] > 0) == in)
-            i++;
-        if (i < 7 && (f[i] < 0) != in) {
-            *turn = (struct place){t[i], f[i]};
-            return true;
-        }
-        a = i ? t[i - 1] : a;
-        b = i < 7 ? t[i] : b;
-    }
-    return false;
-}
-
-// A lower bound on F between two places of the line: F grows with |x|, |y| and |z|.
-static double least_between(const struct line *l, double t0, double t1)
-{
-    const struct vec3 p = vec3_mad(l->o, t0, l->u), q = vec3_mad(l->o, t1, l->u);
-    double least[3], f;
-    for (int i = 0; i < 3; i++) {
-        const double x = vec3_axis(p, i), y = vec3_axis(q, i);
-        least[i] = x * y > 0 ? fmin(fabs(x), fabs(y)) : 0;
-    }
-    gradient(l->s, vec3(least[0], least[1], least[2]), &f);
-    return f;
-}
-
-enum { PARTS = 8 };
-
-// Narrows a stretch that begins and ends outside to one that does so too, by the eighths at its
-// ends that the surface does not meet; those between that the ray does not want may go with
-// what is behind them. False: nothing is left.
-static bool narrow(const struct line *l, const struct shape_kernels *k, double lo,
-                   double hi, double *a, double *b)
-{
-    double t[PARTS + 1], least[PARTS];
-    int first = 0, last = PARTS - 1;
-    for (int i = 0; i <= PARTS; i++)
-        t[i] = *a + (*b - *a) * i / PARTS;
-    if (k)
-        k->superellipsoid_least(l->s, l->o, l->u, t, least);
-    for (int i = 0; i < PARTS && !k; i++)
-        least[i] = least_between(l, t[i], t[i + 1]);
-    for (int i = 0; i < PARTS; i++)
-        if (least[i] > l->noise && (i == first || t[i + 1] <= lo))
-            first = i + 1;
-    for (int i = PARTS - 1; i >= 0; i--)
-        if (least[i] > l->noise && (i == last || t[i] >= hi))
-            last = i - 1;
-    *a = t[first];
-    *b = t[last + 1];
-    return first <= last;
-}
-
-static struct line line_of(const void *shape, const struct ray *ray)
-{
-    struct line l = {.s = shape, .length = vec3_length(ray->d)};
+    struct superellipsoid_line l = {.s = s, .length = vec3_length(ray->d)};
     l.u = vec3_scale(1 / l.length, ray->d);
     // w^p is known to 3 |log w^p| + 4 roundings, and w^p |log w^p| < 1.
     l.noise = GAMMA(64);
@@ -361,111 +190,52 @@ static struct line line_of(const void *shape, const struct ray *ray)
     return l;
 }
 
-// On the way along a line from bracket to bracket.
-struct walk {
-    struct samples s;
-    int i; // of the last sample
-    bool in, again;
-    struct sample before;
-    struct place last;
-    struct bracket second; // if `again`
-};
-
-// The part of a line where the ray may meet the surface; false: there is none.
-static bool walk_begin(struct walk *w, const struct shape_kernels *k, const void *shape,
-                       const struct ray *ray)
-{
-    double a, b;
-    w->s.line = line_of(shape, ray);
-    w->s.kernels = k;
-    const struct line *l = &w->s.line;
-    if (!in_cube(l, &a, &b) || !narrow(l, k, ray->t_min * l->length - l->shift,
-                                       ray->t_max * l->length - l->shift, &a, &b))
-        return false;
-    samples_place(&w->s, a, b);
-    w->i = 0;
-    w->in = w->again = false;
-    w->before = sample_of(&w->s, 0);
-    w->last = (struct place){a, w->before.f};
-    return true;
-}
-
-static bool walk_next(struct walk *w, struct bracket *out)
-{
-    bool found = w->again;
-    if (found)
-        *out = w->second;
-    w->again = false;
-    while (!found && ++w->i < w->s.count) {
-        struct place turn;
-        const struct sample here = sample_of(&w->s, w->i);
-        const struct place end = {w->s.t[w->i], here.f};
-        const bool now = here.f < 0 && w->i + 1 < w->s.count, in = w->in;
-        if (now != in) {
-            *out = (struct bracket){w->last, end, now};
-            found = true;
-        } else if ((w->before.slope > 0) == in && (here.slope > 0) != in &&
-                   find_turn(&w->s.line, w->s.kernels, w->last.t, end.t, in, &turn)) {
-            *out = (struct bracket){w->last, turn, !in};
-            w->second = (struct bracket){turn, end, in};
-            found = w->again = true;
-        }
-        w->in = now;
-        w->last = end;
-        w->before = here;
-    }
-    return found;
-}
-
 static void intersect(const void *shape, const struct ray *ray, struct boundary_list *out)
 {
     const struct ray whole = {ray->o, ray->d, -HUGE_VAL, HUGE_VAL};
-    struct walk w;
-    struct bracket x;
+    struct superellipsoid_walk w;
+    struct superellipsoid_bracket x;
     if (superellipsoid_is_convex(shape)) {
-        const struct line l = line_of(shape, ray);
+        const struct superellipsoid_line l = superellipsoid_line(shape, ray);
         double a, b;
-        if (in_cube(&l, &a, &b))
+        if (superellipsoid_in_cube(&l, &a, &b))
             convex(&l, a, b, out);
         return;
     }
-    if (!walk_begin(&w, NULL, shape, &whole))
+    if (!superellipsoid_walk_begin(&w, NULL, shape, &whole))
         return;
-    while (walk_next(&w, &x)) {
+    while (superellipsoid_walk_next(&w, &x)) {
         const double from = x.enters ? x.a.t : x.b.t, to = x.enters ? x.b.t : x.a.t;
         double slope;
-        const double t = root_between(&w.s.line, from, to, first_guess(&x), &slope);
+        const double t =
+            root_between(&w.s.line, from, to, superellipsoid_first_guess(&x), &slope);
         add(&w.s.line, t, slope, x.enters ? CROSS_ENTER : CROSS_EXIT, out);
     }
 }
 
-static bool has_lanes(const void *shape)
-{
-    (void)shape;
-    return true;
-}
-
 // The next bracket of a lane that is not behind the ray; false: there is none.
-static bool next_ahead(struct walk *w, const struct ray *ray, struct bracket *x)
+static bool next_ahead(struct superellipsoid_walk *w, const struct ray *ray,
+                       struct superellipsoid_bracket *x)
 {
-    const struct line *l = &w->s.line;
+    const struct superellipsoid_line *l = &w->s.line;
     const double lo = ray->t_min * l->length - l->shift;
-    while (walk_next(w, x))
+    while (superellipsoid_walk_next(w, x))
         if (x->b.t > lo - 0x1p-40 * (fabs(lo) + fabs(l->shift)))
             return true;
     return false;
 }
 
 // Whether all of a bracket is within the ray's range.
-static bool is_within(const struct line *l, const struct bracket *x,
-                      const struct ray *ray)
+static bool is_within(const struct superellipsoid_line *l,
+                      const struct superellipsoid_bracket *x, const struct ray *ray)
 {
     return (x->a.t + l->shift) / l->length > ray->t_min &&
            (x->b.t + l->shift) / l->length < ray->t_max;
 }
 
-static void roots_add(struct superellipsoid_roots *r, int lane, const struct line *l,
-                      const struct bracket *x)
+static void roots_add(struct superellipsoid_roots *r, int lane,
+                      const struct superellipsoid_line *l,
+                      const struct superellipsoid_bracket *x)
 {
     for (int k = 0; k < 3; k++) {
         r->o[k][lane] = vec3_axis(l->o, k);
@@ -473,7 +243,7 @@ static void roots_add(struct superellipsoid_roots *r, int lane, const struct lin
     }
     r->outside[lane] = x->enters ? x->a.t : x->b.t;
     r->inside[lane] = x->enters ? x->b.t : x->a.t;
-    r->t[lane] = first_guess(x);
+    r->t[lane] = superellipsoid_first_guess(x);
 }
 
 // Eight walks, bracket by bracket, of which the roots are found together.
@@ -481,26 +251,27 @@ static unsigned closest_sampled(const struct shape_kernels *k, const void *shape
                                 const struct shape_rays *rays, unsigned lanes, bool any,
                                 struct shape_hits *out)
 {
-    struct walk w[8];
+    struct superellipsoid_walk w[8];
     struct ray ray[8];
-    struct bracket x[8];
+    struct superellipsoid_bracket x[8];
     struct superellipsoid_roots roots = {0};
     unsigned met = 0, on = 0;
     for (; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
         ray[i] = shape_rays_lane(rays, i);
-        on |= walk_begin(&w[i], k, shape, &ray[i]) ? 1u << i : 0;
+        on |= superellipsoid_walk_begin(&w[i], k, shape, &ray[i]) ? 1u << i : 0;
     }
     while (on && !shape_hits_give_up(out)) {
         unsigned sought = 0;
         for (unsigned m = on; m; m &= m - 1) {
             const int i = __builtin_ctz(m);
-            const struct line *l = &w[i].s.line;
+            const struct superellipsoid_line *l = &w[i].s.line;
             if (!next_ahead(&w[i], &ray[i], &x[i]))
                 continue;
             const enum crossing c = x[i].enters ? CROSS_ENTER : CROSS_EXIT;
             if (any && is_within(l, &x[i], &ray[i])) {
-                const struct boundary b = crossing_at(l, first_guess(&x[i]), 1, c);
+                const struct boundary b =
+                    crossing_at(l, superellipsoid_first_guess(&x[i]), 1, c);
                 shape_hits_put(out, i, &b);
                 met |= 1u << i;
                 continue;
@@ -570,7 +341,7 @@ static struct aabb bounds(const void *shape)
 static bool inside(const void *shape, struct vec3 p)
 {
     double f;
-    gradient(shape, p, &f);
+    superellipsoid_gradient(shape, p, &f);
     return f <= 0;
 }
 
@@ -580,7 +351,7 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     (void)b;
     double f;
     out->p = p;
-    out->ng = out->ns = vec3_normalize(gradient(shape, p, &f));
+    out->ng = out->ns = vec3_normalize(superellipsoid_gradient(shape, p, &f));
     out->uv = (struct vec2){p.x, p.y};
 }
 
@@ -603,7 +374,6 @@ const struct shape_ops superellipsoid_ops = {
     .inside = inside,
     .intersect = intersect,
     .closest8 = closest8,
-    .has_lanes = has_lanes,
     .surface = surface,
     .print = print,
 };

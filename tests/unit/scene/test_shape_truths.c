@@ -50,7 +50,7 @@ static struct ray ray_to(struct vec3 from, struct vec3 to)
 static bool first_of(const struct shape_ops *ops, const void *shape, const struct ray *r,
                      struct boundary *first)
 {
-    if (ops->has_lanes && ops->has_lanes(shape)) {
+    if (shape_has_lanes(ops, shape)) {
         struct shape_rays rays;
         struct shape_hits hits = {.evaluations = 0};
         for (int i = 0; i < 8; i++) {
