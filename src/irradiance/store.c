@@ -96,19 +96,10 @@ static struct cache_cell *cell_find(const struct store *s, uint32_t hash, int si
     }
 }
 
-// On lines of memory of their own.
 static void *grown(void *at, uint32_t *capacity, size_t size)
 {
-    enum { FEWEST = 64, LINE = 64 };
-    const uint32_t more = *capacity ? 2 * *capacity : FEWEST;
-    void *to = aligned_alloc(LINE, more * size);
-    if (!to)
-        abort();
-    if (*capacity)
-        memcpy(to, at, *capacity * size);
-    free(at);
-    *capacity = more;
-    return to;
+    *capacity = *capacity ? 2 * *capacity : 64;
+    return must_realloc(at, *capacity, size);
 }
 
 static void cell_place(struct store *s, const struct cache_cell *c)

@@ -10,11 +10,10 @@
 // Irradiance samples and an index of where each may be used (spec/lighting.md 12.5, after
 // Ward, Rubinstein and Clear 1988). All lengths are the world's.
 
-// On whole lines of memory: most of what a query costs is to fetch them.
 struct cache_sample {
     union {
         struct {
-            _Alignas(64) struct vec3 p;
+            struct vec3 p;
             double radius;  // harmonic mean of the distances, clamped
             struct vec3 n;  // unit
             double nearest; // distance of the nearest surface seen

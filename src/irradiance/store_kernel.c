@@ -224,10 +224,13 @@ static inline bool next_run(const uint32_t ends[CACHE_SIDES], unsigned sides,
                             struct sides_run *r)
 {
     while (r->side > 0) {
-        r->side--;
-        r->begin = r->side ? ends[r->side - 1] : 0;
+        if (!(sides >> --r->side & 1))
+            continue;
         r->end = ends[r->side];
-        if (r->begin < r->end && sides >> r->side & 1)
+        while (r->side > 0 && sides >> (r->side - 1) & 1)
+            r->side--;
+        r->begin = r->side ? ends[r->side - 1] : 0;
+        if (r->begin < r->end)
             return true;
     }
     return false;
@@ -273,13 +276,22 @@ LANES_INLINE void set_row(const double *row, struct real8 r[4])
         r[i] = r8_set(row[i]);
 }
 
-static unsigned sides_of(const struct cache_points *at, unsigned lanes)
+// cache_sides of some lanes together; all sides where a cell lists too few to spare any.
+LANES_INLINE unsigned sides_of(const struct cache_cell *cell, const struct asked *a,
+                               unsigned lanes)
 {
+    enum { FEW = 16, ALL = (1 << CACHE_SIDES) - 1 };
+    if (cell->count < FEW)
+        return ALL;
+    const struct real8 room = r8_sqrt(r8_add(a->bound2, r8_set(cache_not_unit)));
+    const struct real8 n[3] = {a->n.x, a->n.y, a->n.z};
     unsigned sides = 0;
-    for (; lanes; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
-        sides |=
-            cache_sides(vec3(at->n[0][i], at->n[1][i], at->n[2][i]), at->error_bound[i]);
+    for (int k = 0; k < 3; k++) {
+        const struct real8 others =
+            r8_max(r8_abs(n[(k + 1) % 3]), r8_abs(n[(k + 2) % 3]));
+        const struct real8 least = r8_sub(others, room);
+        sides |= (m8_bits(r8_le(least, n[k])) & lanes ? 1u : 0) << 2 * k;
+        sides |= (m8_bits(r8_le(least, r8_neg(n[k]))) & lanes ? 2u : 0) << 2 * k;
     }
     return sides;
 }
@@ -291,14 +303,16 @@ static unsigned means_of(const struct store *s, const struct cache_cell *cell,
     const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
     const struct asked a = {v8_load(at->p), v8_load(at->n), bound, r8_mul(bound, bound),
                             at->smooth};
-    const unsigned sides = sides_of(at, lanes);
+    const unsigned sides = sides_of(cell, &a, lanes);
     const bool ends = at->enough < INFINITY;
+    const uint32_t *filed = s->filed + cell->first;
+    const struct cache_sample *sample = s->sample;
     struct real8 weight = r8_load(mean->weight);
     struct vec8 light = v8_load((const double(*)[8])mean->light);
     struct sides_run run = {.side = CACHE_SIDES};
     while (lanes && next_run(cell_ends(s, cell), sides, &run)) {
         for (uint32_t i = run.end; lanes && i-- > run.begin;) {
-            const struct cache_sample *x = &s->sample[s->filed[cell->first + i]];
+            const struct cache_sample *x = &sample[filed[i]];
             struct real8 r[4], q[4], rest[4];
             set_row(x->row, r);
             const unsigned near = m8_bits(near_enough(&a, r)) & lanes;

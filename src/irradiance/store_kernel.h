@@ -9,6 +9,8 @@
 static const double cache_same_place = 1e-6, cache_behind = -0.05,
                     cache_least_weight = 0.001;
 
+static const double cache_not_unit = 0.005; // for normals of lengths of up to 1.001
+
 // The side of the cube that a normal goes through.
 static inline int cache_side(struct vec3 n)
 {
@@ -23,9 +25,8 @@ static inline int cache_side(struct vec3 n)
 // part the sides.
 static inline unsigned cache_sides(struct vec3 n, double bound)
 {
-    static const double not_unit = 0.005; // for lengths of up to 1.001
     const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    const double room = sqrt(bound * bound + not_unit);
+    const double room = sqrt(bound * bound + cache_not_unit);
     const double yz = fmax(y, z) - room, xz = fmax(x, z) - room, xy = fmax(x, y) - room;
     return (unsigned)(n.x >= yz) | (unsigned)(-n.x >= yz) << 1 |
            (unsigned)(n.y >= xz) << 2 | (unsigned)(-n.y >= xz) << 3 |
