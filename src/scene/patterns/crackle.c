@@ -262,9 +262,12 @@ static void search_all(const struct pattern *p, const struct noise_kernels *k,
 static void distances(const struct pattern *p, const struct noise_kernels *k,
                       const double sum[8], double out[8])
 {
-    if (p->metric == 2 || p->metric == 1) {
-        for (int i = 0; i < 8; i++)
-            out[i] = crackle_distance(sum[i], p->metric, p->offset);
+    const double offset = p->offset;
+    if (p->metric == 2 || p->metric == 1) { // loops that compilers put in lanes
+        for (int i = 0; i < 8 && p->metric == 2; i++)
+            out[i] = sqrt(sum[i] + offset * offset);
+        for (int i = 0; i < 8 && p->metric == 1; i++)
+            out[i] = sum[i] + offset;
         return;
     }
     const struct crackle_power power = crackle_power(p->metric);
@@ -297,7 +300,7 @@ static void form_values(const struct pattern *p, const struct noise_kernels *k,
 static void values(const struct pattern *p, const struct noise_kernels *k,
                    const double at[3][8], double out[8])
 {
-    struct nearest8 all = {0};
+    struct nearest8 all; // of which what is used is set in all lanes
     search_all(p, k, at, &all);
     if (!p->solid) {
         form_values(p, k, &all, out);
