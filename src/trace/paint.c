@@ -157,12 +157,14 @@ static void layer_colors(struct brush *b, const struct paint_texture *x,
         return;
     }
     const struct pattern_packet packet = packet_of(b);
-    memset(s->color, 0, sizeof s->color);
     s->found = kernels_of(b)->colors(tape, &packet, (const double(*)[8])spot->place,
                                      s->lanes, s->color);
-    if (tape->channels == 3) // as image_map_color where it does not reach
-        for (unsigned bare = s->lanes & ~s->found; bare; bare &= bare - 1)
-            s->color[4][__builtin_ctz(bare)] = 1;
+    if (tape->channels == 5)
+        return;
+    memset(s->color + 3, 0, 2 * sizeof *s->color);
+    // As image_map_color where it does not reach.
+    for (unsigned bare = s->lanes & ~s->found; bare; bare &= bare - 1)
+        s->color[4][__builtin_ctz(bare)] = 1;
 }
 
 // One layer in the lanes of `live`; returns those that let light through.
