@@ -112,14 +112,21 @@ static void fogs_apply(struct tracer *t, struct path *path, double s)
     path->through_t *= rgb_grey(pass);
 }
 
+static bool bow_may_be_seen(const struct bow *bow, struct vec3 d)
+{
+    const double along = vec3_dot(bow->axis, d);
+    return along >= 0 && along >= bow->least && along <= bow->most &&
+           bow->rainbow->colors;
+}
+
 // The colour of the bow at the angle of d and how much of it the sky lets through.
 static bool rainbow_at(const struct bow *bow, const struct path *path, double s,
                        struct rgbft *color, double *keep)
 {
     const struct rainbow *r = bow->rainbow;
-    const double along = vec3_dot(bow->axis, path->d);
-    if (!(along >= fmax(0, bow->least) && along <= bow->most) || !r->colors)
+    if (!bow_may_be_seen(bow, path->d))
         return false;
+    const double along = vec3_dot(bow->axis, path->d);
     const double x = vec3_dot(path->d, bow->right), y = vec3_dot(path->d, bow->up);
     const double l = sqrt(x * x + y * y);
     const double around = l > 0 ? fabs(det_acos(fmax(-1, fmin(1, y / l)))) : 0;
@@ -185,6 +192,17 @@ static void air_apply(struct tracer *t, struct path *path, double s, uint32_t gr
         rainbows_apply(t, path, s);
 }
 
+// Whether ray k of the batch may see a rainbow: most see none.
+static bool bows_may_be_seen(const struct tracer *t, uint32_t k)
+{
+    const struct job *job = t->job;
+    const struct vec3 d = {t->rays->d[0][k], t->rays->d[1][k], t->rays->d[2][k]};
+    bool any = false;
+    for (uint32_t i = 0; i < job->scene->rainbow_count && !any; i++)
+        any = bow_may_be_seen(&job->bow[i], d);
+    return any;
+}
+
 void air_wave(struct tracer *t)
 {
     const struct job *job = t->job;
@@ -197,6 +215,8 @@ void air_wave(struct tracer *t)
     if (job->has_air_media && !job->general)
         media_air_wave(t);
     for (uint32_t k = 0; k < w->count && (general || job->scene->rainbow_count); k++) {
+        if (!general && !bows_may_be_seen(t, k))
+            continue;
         struct path p = wave_path(t, t->slot = w->slot[k]);
         const bool hit = t->hit->t[k] < INFINITY;
         if (!inside_hollow(p.inside))
