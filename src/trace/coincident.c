@@ -16,19 +16,15 @@ static bool is_flat(const struct world *w, const struct world_object *o)
 
 // Opaque objects with flat faces whose boxes meet a box.
 enum { MOST = 64 };
-struct others {
-    uint32_t object[MOST], count;
-};
 
-static struct others others_near(const struct world *w, struct aabb box)
+static uint32_t others_near(const struct world *w, struct aabb box, uint32_t object[MOST])
 {
-    struct others x = {.count = 0};
-    uint32_t near[MOST];
-    const uint32_t count = trace_boxes_meet(w->dark, box, near, MOST);
+    uint32_t kept = 0;
+    const uint32_t count = trace_boxes_meet(w->dark, box, object, MOST);
     for (uint32_t i = 0; i < count; i++)
-        if (w->object[near[i]].opaque && w->object[near[i]].flat)
-            x.object[x.count++] = near[i];
-    return x;
+        if (w->object[object[i]].opaque && w->object[object[i]].flat)
+            object[kept++] = object[i];
+    return kept;
 }
 
 static void mark_clear(struct world *w)
@@ -38,7 +34,8 @@ static void mark_clear(struct world *w)
     for (uint32_t i = 0; i < w->object_count; i++) {
         struct world_object *o = &w->object[i];
         const struct aabb box = aabb_is_finite(o->bounds) ? o->bounds : w->bounds;
-        o->clear_flat = !o->opaque && o->flat && others_near(w, box).count > 0;
+        uint32_t other[MOST];
+        o->clear_flat = !o->opaque && o->flat && others_near(w, box, other) > 0;
         o->may_coincide = o->clear_flat;
         w->has_coincident |= o->may_coincide;
     }
@@ -82,12 +79,13 @@ static void behind_clear(const struct world *w, struct trace_scratch *s,
 {
     const double t = hit->t[i], dt = hit->dt[i];
     const uint32_t own = w->leaf[hit->leaf[i]].object;
-    const struct others x =
-        others_near(w, box_around(ray_at(&q.ray, t), wide * dt * vec3_max_abs(q.ray.d)));
+    uint32_t other[MOST];
+    const uint32_t others = others_near(
+        w, box_around(ray_at(&q.ray, t), wide * dt * vec3_max_abs(q.ray.d)), other);
     look_between(&q, t, wide * dt);
-    for (uint32_t k = 0; k < x.count; k++) {
+    for (uint32_t k = 0; k < others; k++) {
         struct search f = search_of(w, s, &q, SWEEP_CLOSEST);
-        if (x.object[k] != own && search_try_object(&f, x.object[k]) &&
+        if (other[k] != own && search_try_object(&f, other[k]) &&
             fabs(f.b.t - t) <= f.b.dt + dt)
             hit_batch_put(hit, i, &f.b);
     }

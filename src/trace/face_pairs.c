@@ -42,6 +42,16 @@ static struct aabb box_of(const struct world *w, const struct face *f)
     return f->flat ? flat_face_box(&f->plane, f->error) : w->leaf[f->leaf].bounds;
 }
 
+// Where the rest of its object leaves the face to be met: a plane that is clipped or one of
+// several leaves has an end there.
+static struct aabb seen_within(const struct world *w, const struct face *f)
+{
+    const struct aabb object = w->object[w->leaf[f->leaf].object].bounds;
+    const struct vec3 e = vec3(f->error, f->error, f->error);
+    return aabb_meet(box_of(w, f), aabb_pad((struct aabb){vec3_sub(object.min, e),
+                                                          vec3_add(object.max, e)}));
+}
+
 static void stretch_add(struct face *f, struct vec3 p)
 {
     const double x = vec3_dot(face_odd, p);
@@ -114,11 +124,9 @@ static int by_from(const void *a, const void *b)
 
 static bool coincide(const struct world *w, const struct face *f, const struct face *g)
 {
-    if (f->flat != g->flat)
+    if (f->flat != g->flat || !aabb_overlap(seen_within(w, f), seen_within(w, g)))
         return false;
-    return f->flat
-               ? flat_faces_coincide(f, g)
-               : curved_faces_coincide(f, g) && aabb_overlap(box_of(w, f), box_of(w, g));
+    return f->flat ? flat_faces_coincide(f, g) : curved_faces_coincide(f, g);
 }
 
 // Of one run over all pairs. First leaves are marked, then pairs of marked leaves listed.
@@ -142,11 +150,11 @@ static void list_pair(struct hunt *h, const struct face *f, const struct face *g
         if (!h->pair)
             abort();
     }
-    h->pair[h->count++] =
-        (struct face_pair){.leaf = later->leaf,
-                           .seen = h->w->leaf[earlier->leaf].object,
-                           .error = f->error + g->error,
-                           .where = aabb_meet(box_of(h->w, f), box_of(h->w, g))};
+    h->pair[h->count++] = (struct face_pair){
+        .leaf = later->leaf,
+        .seen = h->w->leaf[earlier->leaf].object,
+        .error = f->error + g->error,
+        .where = aabb_meet(seen_within(h->w, f), seen_within(h->w, g))};
 }
 
 static void take_pair(struct hunt *h, const struct face *f, const struct face *g)
