@@ -293,39 +293,10 @@ static int check_places(const struct writer *w, const struct image *first)
     return bad;
 }
 
-// Scenes that have more than EDGE_PIXELS others at another size or place, 13 to 19 of 4,096:
-// what they hold that may make it so. One that agrees fails the test, until it is taken
-// off; new samples (samples.h) make other scenes, so another list.
-static const struct {
-    unsigned seed;
-    const char *why;
-} known[] = {
-    {586, "a mirror of order 20"},
-};
-
 // Scenes that have failed: rays to a lamp that begin or end on surfaces of order 20; crossings of
-// polynomials in CSG, and mirrors of them, less exact than what is thin by 1e-5.
-static const unsigned once[] = {242, 497, 607, 714, 214, 250, 897, 914, 942, 1028};
-
-// Whether the picture is as right as it is known to be.
-static bool places_are_good(const struct writer *w, unsigned seed,
-                            const struct image *first)
-{
-    const char *why = NULL;
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (known[i].seed == seed)
-            why = known[i].why;
-    const int bad = check_places(w, first);
-    if (!why)
-        return bad == 0;
-    // Letters are another font's elsewhere.
-    if (bad > 0 || strstr(w->text, "FONT")) {
-        print_message("scene %u: known (%s)\n", seed, why);
-        return true;
-    }
-    print_message("scene %u agrees now: take it off the list of the known\n", seed);
-    return false;
-}
+// polynomials in CSG, and mirrors of them, less exact than what is thin by 1e-5; rays that begin on
+// a surface of order 20 whose terms cancel along them.
+static const unsigned once[] = {586, 242, 497, 607, 714, 214, 250, 897, 914, 942, 1028};
 
 static bool is_good(struct writer *w, uint64_t seed, struct answers *x)
 {
@@ -350,7 +321,7 @@ static bool is_good(struct writer *w, uint64_t seed, struct answers *x)
         }
         image_free(&p);
     }
-    bad += !places_are_good(w, (unsigned)seed, &first);
+    bad += check_places(w, &first);
     image_free(&first);
     if (bad)
         print_message("scene %u:\n%s\n", (unsigned)seed, w->text);

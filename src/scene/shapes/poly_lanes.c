@@ -252,6 +252,26 @@ static struct real8 error_at(const struct poly *s, const struct line_poly8 *p,
                   r8_mul(r8_set(0x1p-51), r8_add(r8_abs(l->shift), r8_abs(t))));
 }
 
+// Lanes whose error dt moves the rays that go on from a root at t by what may be seen. The
+// one-ray form of high orders knows roots better there.
+static unsigned is_coarse(const struct poly *s, const struct lines8 *l, struct real8 t,
+                          struct real8 dt)
+{
+    static const double share = 0x1p-30; // of where the root lies
+    if (s->order <= POLY_LOW_ORDER)
+        return 0;
+    return m8_bits(r8_lt(r8_mul(r8_set(share), r8_add(r8_abs(l->shift), r8_abs(t))), dt));
+}
+
+// Lanes that begin nearer to a root than the polynomial along the line tells: on a surface, of
+// which it may have either side.
+static unsigned begins_in_doubt(const struct poly *s, const struct line_poly8 *p,
+                                const struct lines8 *l)
+{
+    const unsigned doubt = ~sign_is_clear(s, p, l, l->lo);
+    return doubt ? doubt & is_coarse(s, l, l->lo, error_at(s, p, l, l->lo)) : 0;
+}
+
 // As sharpened of poly.c, of roots whose error is dt.
 static struct real8 sharpened(const struct poly *s, const struct line_poly8 *p,
                               const struct lines8 *l, struct real8 t, struct real8 dt)
@@ -301,9 +321,12 @@ static unsigned closest(const struct poly *s, const struct shape_rays *rays,
     struct first8 f = first_root(s, &p, &l, lanes, halved, any, out->cancel);
     struct real8 dt = r8_set(0);
     unsigned unsure = f.unsure, found = f.found;
+    if (s->order > POLY_LOW_ORDER)
+        unsure |= lanes & begins_in_doubt(s, &p, &l);
     if (found && !any) {
         dt = error_at(s, &p, &l, f.t);
-        unsure |= found & ~m8_bits(r8_lt(dt, r8_set(INFINITY)));
+        unsure |=
+            found & (~m8_bits(r8_lt(dt, r8_set(INFINITY))) | is_coarse(s, &l, f.t, dt));
         f.t = sharpened(s, &p, &l, f.t, dt);
     }
     // Clearly beyond it there is nothing to tell.
