@@ -18,9 +18,18 @@ struct vec3 noise_vector(struct vec3 p);
 // them before they are split.
 #define NOISE_VALUE_SLACK 1e-13
 #define NOISE_SLOPE_SLACK 1e-6
+// No partial derivative of noise_value is larger: found by going through all pairs of entries
+// of the tables, as tests/unit/scene/test_noise_bounds.c does again.
+static inline double noise_slope_max(int generator)
+{
+    return generator == NOISE_PERLIN            ? 3.5
+           : generator == NOISE_RANGE_CORRECTED ? 3.44
+                                                : 7.01;
+}
 
 // Bounds of noise_value and of its partial derivatives over a box, with these slacks for
-// roundings.
+// roundings; a box of more lattice cells, along an axis or in all, has the whole range.
+enum { NOISE_BOUNDS_ACROSS = 3, NOISE_BOUNDS_CELLS = 8 };
 void noise_bounds(const struct interval box[3], int generator, struct interval *v,
                   struct interval slope[3]);
 double noise_turbulence(struct vec3 p, double lambda, double omega, int octaves,

@@ -8,13 +8,6 @@
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 
-enum { CELLS_MAX = 8 };
-
-// No partial derivative of any generator is larger: the entries of the tables are at most
-// one, so a corner's function is at most 3.5 in its cell and two differ by 7; the smooth
-// step rises by at most 1.5, and a corner's own slope adds one.
-#define SLOPE_MAX 12.0
-
 struct corners {
     double k[2][2][2], slope[2][2][2][3];
 };
@@ -178,11 +171,12 @@ static void cell_bounds(const struct interval box[3], const double cell[3], bool
     *v = interval(fmax(v->lo, mean.lo), fmin(v->hi, mean.hi));
 }
 
-static void whole_range(struct interval *v, struct interval slope[3])
+static void whole_range(int generator, struct interval *v, struct interval slope[3])
 {
+    const double most = noise_slope_max(generator);
     *v = interval(0, 1);
     for (int k = 0; k < 3; k++)
-        slope[k] = interval(-SLOPE_MAX, SLOPE_MAX);
+        slope[k] = interval(-most, most);
 }
 
 void noise_bounds(const struct interval box[3], int generator, struct interval *v,
@@ -191,16 +185,18 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
     const bool gradient = generator == NOISE_PERLIN;
     struct interval at[3];
     double cells = 1;
+    bool small = true;
     for (int k = 0; k < 3; k++) {
         at[k] = box[k];
         if (gradient)
             at[k] =
                 interval(box[k].lo + 10000000.023157213, box[k].hi + 10000000.023157213);
-        cells *= floor(at[k].hi) - floor(at[k].lo) + 1;
+        const double across = floor(at[k].hi) - floor(at[k].lo) + 1;
+        cells *= across;
+        small &= across <= NOISE_BOUNDS_ACROSS && interval_size(at[k]) < 0x1p40;
     }
-    if (!(cells <= CELLS_MAX) || !(interval_size(at[0]) < 0x1p40) ||
-        !(interval_size(at[1]) < 0x1p40) || !(interval_size(at[2]) < 0x1p40)) {
-        whole_range(v, slope);
+    if (!small || cells > NOISE_BOUNDS_CELLS) {
+        whole_range(generator, v, slope);
         return;
     }
     bool first = true;
@@ -224,9 +220,10 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
     *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK,
                   v->hi * scale + add + NOISE_VALUE_SLACK);
     const bool cut = v->lo < 0 || v->hi > 1;
+    const double most = noise_slope_max(generator);
     for (int k = 0; k < 3; k++) {
-        slope[k] = interval(slope[k].lo * scale - NOISE_SLOPE_SLACK,
-                            slope[k].hi * scale + NOISE_SLOPE_SLACK);
+        slope[k] = interval(fmax(slope[k].lo * scale - NOISE_SLOPE_SLACK, -most),
+                            fmin(slope[k].hi * scale + NOISE_SLOPE_SLACK, most));
         if (cut)
             slope[k] = interval_hull(slope[k], interval_point(0));
     }

@@ -176,32 +176,46 @@ LANES_INLINE void join(struct mask8 m, struct range8 *to, struct range8 v)
     to->hi = r8_select(m, r8_max(to->hi, v.hi), to->hi);
 }
 
-// Boxes of at most two cells along each axis; returns the lanes of the others.
-static unsigned small_boxes(const struct range8 box[3], struct range8 *v,
-                            struct range8 slope[3])
+// How many cells the largest box has along an axis, of those that are asked.
+LANES_INLINE int most_cells(struct mask8 asked, struct real8 more)
 {
-    struct real8 first[3];
-    struct mask8 small = m8_of(255), two[3];
+    const unsigned lanes = m8_bits(asked);
+    int n = 1;
+    while (n < NOISE_BOUNDS_ACROSS && (m8_bits(r8_le(r8_set(n), more)) & lanes))
+        n++;
+    return n;
+}
+
+// Boxes of few cells; returns which they are.
+static struct mask8 small_boxes(const struct range8 box[3], struct range8 *v,
+                                struct range8 slope[3])
+{
+    struct real8 first[3], more[3], cells = r8_set(1);
+    struct mask8 small = m8_of(255);
     const struct range8 nothing = {r8_set(INFINITY), r8_set(-INFINITY)};
+    int count[3];
     for (int i = 0; i < 3; i++) {
         first[i] = r8_floor(box[i].lo);
-        const struct real8 last = r8_floor(box[i].hi);
-        const struct real8 more = r8_sub(last, first[i]);
-        two[i] = r8_lt(r8_set(0), more);
-        small = m8_and(small, r8_le(more, r8_set(1)));
+        more[i] = r8_sub(r8_floor(box[i].hi), first[i]);
+        cells = r8_mul(cells, r8_add(more[i], r8_set(1)));
+        small = m8_and(small, r8_lt(more[i], r8_set(NOISE_BOUNDS_ACROSS)));
         small = m8_and(
             small, r8_lt(r8_max(r8_abs(box[i].lo), r8_abs(box[i].hi)), r8_set(0x1p40)));
         slope[i] = nothing;
     }
+    small = m8_and(small, r8_le(cells, r8_set(NOISE_BOUNDS_CELLS)));
+    for (int i = 0; i < 3; i++)
+        count[i] = most_cells(small, more[i]);
     *v = nothing;
-    for (int c = 0; c < 8; c++) {
+    for (int c = 0; c < count[0] * count[1] * count[2]; c++) {
+        const int at[3] = {c % count[0], c / count[0] % count[1],
+                           c / count[0] / count[1]};
         struct mask8 here = small;
         double cell[3][8];
         for (int i = 0; i < 3; i++) {
-            if (c >> i & 1)
-                here = m8_and(here, two[i]);
+            here = m8_and(here, r8_le(r8_set(at[i]), more[i]));
             r8_store(cell[i],
-                     r8_select(small, r8_add(first[i], r8_set(c >> i & 1)), r8_set(0)));
+                     r8_select(small, r8_add(first[i], r8_set(at[i])), r8_set(0)));
         }
         if (!m8_bits(here))
             continue;
@@ -211,7 +225,7 @@ static unsigned small_boxes(const struct range8 box[3], struct range8 *v,
         for (int i = 0; i < 3; i++)
             join(here, &slope[i], s[i]);
     }
-    return 255 & ~m8_bits(small);
+    return small;
 }
 
 static void one_box(const double lo[3][8], const double hi[3][8], int generator, int lane,
@@ -232,29 +246,35 @@ static void one_box(const double lo[3][8], const double hi[3][8], int generator,
 void OF_ISA(noise_bounds_)(const double lo[3][8], const double hi[3][8], int generator,
                            struct noise_bounds8 *out)
 {
-    unsigned rest = 255;
-    if (generator != NOISE_PERLIN) {
-        struct range8 box[3], v, slope[3];
-        for (int i = 0; i < 3; i++)
-            box[i] = (struct range8){r8_load(lo[i]), r8_load(hi[i])};
-        rest = small_boxes(box, &v, slope);
-        const bool corrected = generator == NOISE_RANGE_CORRECTED;
-        const struct real8 scale = r8_set(corrected ? 0.48985582 : 1);
-        const struct real8 add = r8_set(corrected ? 1.05242 * 0.48985582 : 0.5);
-        const struct real8 slack = r8_set(NOISE_VALUE_SLACK), zero = r8_set(0);
-        v.lo = r8_sub(r8_add(r8_mul(v.lo, scale), add), slack);
-        v.hi = r8_add(r8_add(r8_mul(v.hi, scale), add), slack);
-        const struct mask8 cut = m8_or(r8_lt(v.lo, zero), r8_lt(r8_set(1), v.hi));
-        for (int i = 0; i < 3; i++) {
-            const struct real8 e = r8_set(NOISE_SLOPE_SLACK);
-            const struct real8 low = r8_sub(r8_mul(slope[i].lo, scale), e);
-            const struct real8 high = r8_add(r8_mul(slope[i].hi, scale), e);
-            r8_store(out->slope_lo[i], r8_select(cut, r8_min(low, zero), low));
-            r8_store(out->slope_hi[i], r8_select(cut, r8_max(high, zero), high));
-        }
-        r8_store(out->lo, to_unit(v.lo));
-        r8_store(out->hi, to_unit(v.hi));
+    if (generator == NOISE_PERLIN) {
+        for (int lane = 0; lane < 8; lane++)
+            one_box(lo, hi, generator, lane, out);
+        return;
     }
-    for (; rest; rest &= rest - 1)
-        one_box(lo, hi, generator, __builtin_ctz(rest), out);
+    struct range8 box[3], v, slope[3];
+    for (int i = 0; i < 3; i++)
+        box[i] = (struct range8){r8_load(lo[i]), r8_load(hi[i])};
+    const struct mask8 small = small_boxes(box, &v, slope);
+    const bool corrected = generator == NOISE_RANGE_CORRECTED;
+    const struct real8 scale = r8_set(corrected ? 0.48985582 : 1);
+    const struct real8 add = r8_set(corrected ? 1.05242 * 0.48985582 : 0.5);
+    const struct real8 slack = r8_set(NOISE_VALUE_SLACK), zero = r8_set(0),
+                       one = r8_set(1);
+    v.lo = r8_sub(r8_add(r8_mul(v.lo, scale), add), slack);
+    v.hi = r8_add(r8_add(r8_mul(v.hi, scale), add), slack);
+    const struct mask8 cut = m8_or(r8_lt(v.lo, zero), r8_lt(one, v.hi));
+    const struct real8 slope_slack = r8_set(NOISE_SLOPE_SLACK),
+                       most = r8_set(noise_slope_max(generator)), least = r8_neg(most);
+    for (int i = 0; i < 3; i++) {
+        const struct real8 low =
+            r8_max(r8_sub(r8_mul(slope[i].lo, scale), slope_slack), least);
+        const struct real8 high =
+            r8_min(r8_add(r8_mul(slope[i].hi, scale), slope_slack), most);
+        r8_store(out->slope_lo[i],
+                 r8_select(small, r8_select(cut, r8_min(low, zero), low), least));
+        r8_store(out->slope_hi[i],
+                 r8_select(small, r8_select(cut, r8_max(high, zero), high), most));
+    }
+    r8_store(out->lo, r8_select(small, to_unit(v.lo), zero));
+    r8_store(out->hi, r8_select(small, to_unit(v.hi), one));
 }

@@ -37,3 +37,7 @@ check_PROGRAMS += test_pavings
 test_pavings_SOURCES = %D%/test_pavings.c
 test_pavings_CPPFLAGS = $(test_cppflags)
 test_pavings_LDADD = $(test_ldadd)
+check_PROGRAMS += test_noise_bounds
+test_noise_bounds_SOURCES = %D%/test_noise_bounds.c
+test_noise_bounds_CPPFLAGS = $(test_cppflags)
+test_noise_bounds_LDADD = $(test_ldadd)
