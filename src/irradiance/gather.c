@@ -13,7 +13,7 @@
 // need not be better known. With the root the errors still vanish as count grows.
 static uint32_t deeper_count(int count)
 {
-    static const double least = 64, growth = 2;
+    static const double least = 48, growth = 1.5;
     return (uint32_t)fmax(least, growth * sqrt((double)count));
 }
 
