@@ -4,7 +4,6 @@
 #include "trace/near_zero.h"
 #include "trace/shade.h"
 #include "trace/shade_kernel.h"
-#include "trace/wave.h"
 
 // One lane of a group.
 struct lane {
@@ -159,7 +158,7 @@ void bounce_from(const struct tracer *t, const struct simple_group *g, unsigned 
         if (wave->path && !t->job->has_air) {
             from[i] = &wave->path[wave->order[g->slot[i]]];
         } else {
-            wave_path_put(t, g->slot[i], &made[i]);
+            made[i] = wave_path(t, g->slot[i]);
             from[i] = &made[i];
         }
     }

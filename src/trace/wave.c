@@ -126,35 +126,27 @@ static void powers_run(struct tracer *t)
 
 // ---- batches --------------------------------------------------------------
 
-void wave_path_put(const struct tracer *t, uint32_t slot, struct path *p)
+struct path wave_path(const struct tracer *t, uint32_t slot)
 {
     const struct wavefront *w = &t->wave;
     if (w->path) {
-        *p = w->path[w->order[slot]];
-        if (!t->job->has_air)
-            return;
-        p->through = rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
-        p->through_t = w->through_t[slot];
-        return;
+        struct path p = w->path[w->order[slot]];
+        if (t->job->has_air) {
+            p.through =
+                rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
+            p.through_t = w->through_t[slot];
+        }
+        return p;
     }
-    p->o = vec3(t->rays->o[0][slot], t->rays->o[1][slot], t->rays->o[2][slot]);
-    p->d = vec3(t->rays->d[0][slot], t->rays->d[1][slot], t->rays->d[2][slot]);
-    p->inside = wave_inside(t, slot);
-    p->through = rgb(w->through[0][slot], w->through[1][slot], w->through[2][slot]);
-    p->through_t = t->job->has_air ? w->through_t[slot] : 1;
-    p->weight = 1;
-    p->wavelength = 0;
-    p->sample = slot;
-    p->hash = tracer_position_hash(w->position[slot]);
-    p->level = p->parent = 0;
-    p->flags = p->key = 0;
-}
-
-struct path wave_path(const struct tracer *t, uint32_t slot)
-{
-    struct path p;
-    wave_path_put(t, slot, &p);
-    return p;
+    return (struct path){
+        .o = {t->rays->o[0][slot], t->rays->o[1][slot], t->rays->o[2][slot]},
+        .d = {t->rays->d[0][slot], t->rays->d[1][slot], t->rays->d[2][slot]},
+        .inside = wave_inside(t, slot),
+        .through = {w->through[0][slot], w->through[1][slot], w->through[2][slot]},
+        .through_t = t->job->has_air ? w->through_t[slot] : 1,
+        .weight = 1,
+        .sample = slot,
+        .hash = tracer_position_hash(w->position[slot])};
 }
 
 uint32_t wave_hash(const struct tracer *t, uint32_t slot)

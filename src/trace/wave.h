@@ -12,8 +12,6 @@ void wave_run(struct tracer *t, const struct path_queue *queue);
 // The same for the `count` rays that stand in the tracer's batch, straight from a camera
 // with one eye; their samples are 0 to count - 1.
 void wave_run_camera(struct tracer *t, const struct vec2 *position, uint32_t count);
-// wave_path, put where it shall stand.
-void wave_path_put(const struct tracer *t, uint32_t slot, struct path *p);
 void wave_frames_free(struct wave_frame *frame);
 void path_queue_free(struct path_queue *q);
 // The random numbers of a sample depend on its place alone.
