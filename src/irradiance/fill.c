@@ -179,6 +179,7 @@ static void square_join(struct pass *p, struct store *fresh)
         if (p->final || gather_is_wanted(p->cache, &fresh->sample[k]))
             store_add(&p->cache->store, &fresh->sample[k]);
     store_free(fresh);
+    *fresh = (struct store){.count = 0};
 }
 
 static uint32_t bits_mirrored(uint32_t x, uint32_t bits)
@@ -245,7 +246,6 @@ static void rounds_run(struct pass *p, struct parallel *parallel, uint32_t squar
         for (uint32_t i = p->done; i < end; i++) {
             struct square *square = &p->square[p->order[i]];
             square_join(p, &square->fresh);
-            square->fresh = (struct store){.count = 0};
             report->rays += square->rays;
         }
     }

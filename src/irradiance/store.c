@@ -300,11 +300,12 @@ static uint32_t cells_find(const struct store *s, const struct cache_point *at, 
                            uint32_t count, const struct cache_cell *cell[STORE_SIZES])
 {
     const struct cache_place first = place_at(at->p, size, at->depth);
+    const bool within = is_within(first.at);
     uint32_t hash[STORE_SIZES], found = 0;
     unsigned pass = (1u << count) - 1;
-    if (is_within(first.at))
+    if (within)
         pass = s->kernels->hashes(s, first.at, size, at->depth, count, hash);
-    for (uint32_t i = 0; !is_within(first.at) && i < count; i++) {
+    for (uint32_t i = 0; !within && i < count; i++) {
         const struct cache_place p = place_at(at->p, size + (int)i, at->depth);
         hash[i] = place_hash(&p);
     }

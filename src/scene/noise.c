@@ -181,7 +181,7 @@ static double gradient_noise(struct vec3 p)
 double noise_value(struct vec3 p, int generator)
 {
     if (generator == NOISE_RANGE_CORRECTED)
-        return clamp01((value_sum(p) + 1.05242) * 0.48985582);
+        return clamp01((value_sum(p) + NOISE_CORRECTED_ADD) * NOISE_CORRECTED_SCALE);
     if (generator == NOISE_PERLIN)
         return clamp01(0.5 * (1.59 * gradient_noise(p) + 0.985));
     return clamp01(value_sum(p) + 0.5);

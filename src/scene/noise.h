@@ -13,6 +13,21 @@ enum noise_generator { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERL
 // What noise_value and noise_turbulence make of a generator that is out of range: 1.
 double noise_value(struct vec3 p, int generator);
 struct vec3 noise_vector(struct vec3 p);
+// Where generator 2 has the blend of the lattice: (blend + add) times scale.
+#define NOISE_CORRECTED_ADD   1.05242
+#define NOISE_CORRECTED_SCALE 0.48985582
+// Where each has it, before it is cut to 0..1: blend times scale + add, but for roundings.
+struct noise_range {
+    double scale, add;
+};
+static inline struct noise_range noise_range_of(int generator)
+{
+    return generator == NOISE_PERLIN ? (struct noise_range){0.795, 0.4925}
+           : generator == NOISE_RANGE_CORRECTED
+               ? (struct noise_range){NOISE_CORRECTED_SCALE,
+                                      NOISE_CORRECTED_ADD * NOISE_CORRECTED_SCALE}
+               : (struct noise_range){1, 0.5};
+}
 // A few dozen roundings of numbers below four. Slopes also differ where coordinates within
 // 1e-10 below a whole number belong to the cell above, and where generator 3 adds 1e7 to
 // them before they are split.

@@ -211,19 +211,14 @@ void noise_bounds(const struct interval box[3], int generator, struct interval *
                     slope[k] = first ? s[k] : interval_hull(slope[k], s[k]);
                 first = false;
             }
-    const double scale = gradient                             ? 0.795
-                         : generator == NOISE_RANGE_CORRECTED ? 0.48985582
-                                                              : 1;
-    const double add = gradient                             ? 0.4925
-                       : generator == NOISE_RANGE_CORRECTED ? 1.05242 * 0.48985582
-                                                            : 0.5;
-    *v = interval(v->lo * scale + add - NOISE_VALUE_SLACK,
-                  v->hi * scale + add + NOISE_VALUE_SLACK);
+    const struct noise_range range = noise_range_of(generator);
+    *v = interval(v->lo * range.scale + range.add - NOISE_VALUE_SLACK,
+                  v->hi * range.scale + range.add + NOISE_VALUE_SLACK);
     const bool cut = v->lo < 0 || v->hi > 1;
     const double most = noise_slope_max(generator);
     for (int k = 0; k < 3; k++) {
-        slope[k] = interval(fmax(slope[k].lo * scale - NOISE_SLOPE_SLACK, -most),
-                            fmin(slope[k].hi * scale + NOISE_SLOPE_SLACK, most));
+        slope[k] = interval(fmax(slope[k].lo * range.scale - NOISE_SLOPE_SLACK, -most),
+                            fmin(slope[k].hi * range.scale + NOISE_SLOPE_SLACK, most));
         if (cut)
             slope[k] = interval_hull(slope[k], interval_point(0));
     }

@@ -255,9 +255,8 @@ void OF_ISA(noise_bounds_)(const double lo[3][8], const double hi[3][8], int gen
     for (int i = 0; i < 3; i++)
         box[i] = (struct range8){r8_load(lo[i]), r8_load(hi[i])};
     const struct mask8 small = small_boxes(box, &v, slope);
-    const bool corrected = generator == NOISE_RANGE_CORRECTED;
-    const struct real8 scale = r8_set(corrected ? 0.48985582 : 1);
-    const struct real8 add = r8_set(corrected ? 1.05242 * 0.48985582 : 0.5);
+    const struct noise_range range = noise_range_of(generator);
+    const struct real8 scale = r8_set(range.scale), add = r8_set(range.add);
     const struct real8 slack = r8_set(NOISE_VALUE_SLACK), zero = r8_set(0),
                        one = r8_set(1);
     v.lo = r8_sub(r8_add(r8_mul(v.lo, scale), add), slack);

@@ -82,7 +82,8 @@ LANES_INLINE struct real8 lattice_value8(const struct place8 *p, int generator)
 {
     const struct real8 sum = value_sum8(p);
     return clamp8(generator == NOISE_RANGE_CORRECTED
-                      ? r8_mul(r8_add(sum, r8_set(1.05242)), r8_set(0.48985582))
+                      ? r8_mul(r8_add(sum, r8_set(NOISE_CORRECTED_ADD)),
+                               r8_set(NOISE_CORRECTED_SCALE))
                       : r8_add(sum, r8_set(0.5)));
 }
 

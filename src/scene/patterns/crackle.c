@@ -265,9 +265,9 @@ static void distances(const struct pattern *p, const struct noise_kernels *k,
     const double offset = p->offset;
     if (p->metric == 2 || p->metric == 1) { // loops that compilers put in lanes
         for (int i = 0; i < 8 && p->metric == 2; i++)
-            out[i] = sqrt(sum[i] + offset * offset);
+            out[i] = crackle_distance(sum[i], 2, offset);
         for (int i = 0; i < 8 && p->metric == 1; i++)
-            out[i] = sum[i] + offset;
+            out[i] = crackle_distance(sum[i], 1, offset);
         return;
     }
     const struct crackle_power power = crackle_power(p->metric);
