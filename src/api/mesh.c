@@ -4,6 +4,7 @@
 
 #include "api/context.h"
 #include "api/mesh_file.h"
+#include "base/memory.h"
 #include "base/stack.h"
 #include "tess/contour.h"
 #include "tess/parts.h"
@@ -55,11 +56,9 @@ static void write_meshes(void *user)
 {
     struct export *e = user;
     const struct scene *scene = &e->ctx->scene;
-    struct tess_mesh *mesh = calloc(scene->object_count + 1, sizeof *mesh);
-    char(*text)[24] = calloc(scene->object_count + 1, sizeof *text);
-    const char **name = calloc(scene->object_count + 1, sizeof *name);
-    if (!mesh || !text || !name)
-        abort();
+    struct tess_mesh *mesh = must_calloc(scene->object_count + 1, sizeof *mesh);
+    char(*text)[24] = must_calloc(scene->object_count + 1, sizeof *text);
+    const char **name = must_calloc(scene->object_count + 1, sizeof *name);
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->object_count && !e->ctx->cancel; i++) {
         const struct object *o = scene->object[i];

@@ -1,10 +1,10 @@
 #include "base/arena.h"
 
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 struct block {
     struct block *prev;
@@ -32,11 +32,7 @@ struct arena {
 static struct block *block_new(struct block *prev, size_t size)
 {
     size = (size + 63) & ~(size_t)63;
-    struct block *b = aligned_alloc(64, sizeof *b + size);
-    if (!b) {
-        fputs("lambert: out of memory\n", stderr);
-        abort();
-    }
+    struct block *b = must_align(_Alignof(struct block), 1, sizeof *b + size);
     b->prev = prev;
     b->used = 0;
     b->size = size;
@@ -45,10 +41,7 @@ static struct block *block_new(struct block *prev, size_t size)
 
 struct arena *arena_new(size_t first_block)
 {
-    struct arena *a = malloc(sizeof *a);
-    if (!a)
-        abort();
-    a->last = NULL;
+    struct arena *a = must_calloc(1, sizeof *a);
     a->head = block_new(NULL, first_block);
     a->size = a->head->size;
     return a;
@@ -112,7 +105,7 @@ void arena_rewind(struct arena *a, struct arena_mark mark)
 static void *alloc(struct arena *a, size_t size, size_t align)
 {
     if (size > SIZE_MAX / 4)
-        abort();
+        out_of_memory();
     struct block *b = a->head;
     size_t at = (b->used + align - 1) & ~(align - 1);
     if (at > b->size || b->size - at < size) {
@@ -135,6 +128,29 @@ void *arena_alloc_aligned(struct arena *a, size_t size, size_t align)
     return alloc(a, size, align);
 }
 
+void *arena_alloc_array(struct arena *a, size_t count, size_t size)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes))
+        out_of_memory();
+    return arena_alloc(a, bytes);
+}
+
+void *arena_grow(struct arena *a, void *array, uint32_t count, uint32_t *capacity,
+                 size_t size)
+{
+    enum { FIRST = 16 };
+    if (count < *capacity)
+        return array;
+    if (*capacity > UINT32_MAX / 2)
+        out_of_memory();
+    *capacity = *capacity ? 2 * *capacity : FIRST;
+    void *more = arena_alloc_array(a, *capacity, size);
+    if (array)
+        memcpy(more, array, count * size);
+    return more;
+}
+
 void arena_at_end(struct arena *a, void (*done)(void *data), void *data)
 {
     struct ending *e = arena_alloc(a, sizeof *e);
@@ -155,9 +171,10 @@ char *arena_printf(struct arena *a, const char *fmt, ...)
     va_list ap, ap2;
     va_start(ap, fmt);
     va_copy(ap2, ap);
-    char probe[1];
-    int n = vsnprintf(probe, sizeof probe, fmt, ap);
+    const int n = vsnprintf(NULL, 0, fmt, ap);
     va_end(ap);
+    if (n < 0) // longer than INT_MAX, or not of this locale
+        out_of_memory();
     char *s = arena_alloc(a, (size_t)n + 1);
     vsnprintf(s, (size_t)n + 1, fmt, ap2);
     va_end(ap2);

@@ -2,6 +2,7 @@
 #define BASE_ARENA_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 // A region of memory freed all at once. Everything a stage builds for the next
 // one (tokens, AST, scene) lives in an arena; nothing in it is freed alone.
@@ -24,6 +25,11 @@ void arena_rewind(struct arena *a, struct arena_mark mark);
 // Aborts the process when out of memory.
 void *arena_alloc(struct arena *a, size_t size);
 void *arena_alloc_aligned(struct arena *a, size_t size, size_t align);
+void *arena_alloc_array(struct arena *a, size_t count, size_t size);
+// Room for one item behind the first `count` of an array that holds `*capacity`: the same
+// array (NULL: none yet), or a copy of twice the size. The old one stays in the arena.
+void *arena_grow(struct arena *a, void *array, uint32_t count, uint32_t *capacity,
+                 size_t size);
 // Bytes that the arena holds of the system's memory.
 size_t arena_size(const struct arena *a);
 char *arena_strndup(struct arena *a, const char *s, size_t len);
@@ -35,6 +41,6 @@ char *arena_printf(struct arena *a, const char *fmt, ...)
 void arena_at_end(struct arena *a, void (*done)(void *data), void *data);
 
 #define arena_new_struct(a, type)   ((type *)arena_alloc((a), sizeof(type)))
-#define arena_new_array(a, type, n) ((type *)arena_alloc((a), (n) * sizeof(type)))
+#define arena_new_array(a, type, n) ((type *)arena_alloc_array((a), (n), sizeof(type)))
 
 #endif

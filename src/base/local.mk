@@ -1,6 +1,7 @@
 liblambert_a_SOURCES += \
 	%D%/arena.c %D%/arena.h \
-	%D%/clock.h %D%/digest.h %D%/memory.h \
+	%D%/clock.h %D%/digest.h \
+	%D%/memory.c %D%/memory.h \
 	%D%/diag.c %D%/diag.h %D%/diagnostics.def \
 	%D%/library.c %D%/library.h \
 	%D%/parallel.c %D%/parallel.h \

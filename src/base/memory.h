@@ -1,24 +1,27 @@
 #ifndef BASE_MEMORY_H
 #define BASE_MEMORY_H
 
+#include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 
-// Zeroed memory for what cannot go on without; freed by free().
-static inline void *must_calloc(size_t count, size_t size)
-{
-    void *p = calloc(count ? count : 1, size);
-    if (!p)
-        abort();
-    return p;
-}
+// Memory for what cannot go on without: when there is none, or `count` items of `size` bytes
+// are more than memory can be, these say so and abort the process. They never return NULL,
+// for no items either. free() takes it back.
+void *must_malloc(size_t count, size_t size);
+void *must_calloc(size_t count, size_t size); // zeroed
+void *must_realloc(void *at, size_t count, size_t size);
+void *must_align(size_t align, size_t count, size_t size); // to a power of two
 
-// As realloc, for what cannot go on without; count > 0.
-static inline void *must_realloc(void *at, size_t count, size_t size)
+_Noreturn void out_of_memory(void);
+
+// must_realloc to twice the items, at least 16.
+void *memory_double(void *at, uint32_t *capacity, size_t size);
+
+// Room for one item behind the first `count` of an array that holds `*capacity`.
+static inline void *must_grow(void *at, uint32_t count, uint32_t *capacity, size_t size)
 {
-    at = realloc(at, count * size);
-    if (!at)
-        abort();
-    return at;
+    return count < *capacity ? at : memory_double(at, capacity, size);
 }
 
 #endif

@@ -11,19 +11,6 @@ void source_map_init(struct source_map *m, struct arena *arena)
     *m = (struct source_map){.arena = arena, .expansion_count = 1};
 }
 
-// Doubles an arena-held array; the old copy stays in the arena.
-static void *grow(struct arena *a, void *old, uint32_t count, uint32_t *capacity,
-                  size_t size)
-{
-    if (count < *capacity)
-        return old;
-    *capacity = *capacity ? 2 * *capacity : 16;
-    void *p = arena_alloc(a, *capacity * size);
-    if (old)
-        memcpy(p, old, count * size);
-    return p;
-}
-
 uint32_t source_add(struct source_map *m, const char *name, const char *text, size_t len,
                     struct span included_at)
 {
@@ -33,8 +20,7 @@ uint32_t source_add(struct source_map *m, const char *name, const char *text, si
     f->len = (uint32_t)len;
     f->included_at = included_at;
     f->arena = m->arena;
-    m->file =
-        grow(m->arena, m->file, m->count, &m->capacity, sizeof(struct source_file *));
+    m->file = arena_grow(m->arena, m->file, m->count, &m->capacity, sizeof *m->file);
     m->file[m->count] = f;
     return m->count++;
 }
@@ -85,8 +71,8 @@ uint32_t source_expand(struct source_map *m, const char *macro, struct span call
     }
     if (m->expansion_count >= EXPANSIONS_MAX)
         return 0;
-    m->expansions = grow(m->arena, m->expansions, m->expansion_count,
-                         &m->expansion_capacity, sizeof(struct expansion));
+    m->expansions = arena_grow(m->arena, m->expansions, m->expansion_count,
+                               &m->expansion_capacity, sizeof *m->expansions);
     m->expansions[m->expansion_count] = (struct expansion){macro, called_at};
     return *last = m->expansion_count++;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "eval/array.h"
 #include "eval/expr.h"
 #include "eval/functions.h"
@@ -42,12 +43,7 @@ void calc_table_free(struct calc_table *t)
 
 static void keep(struct calc_table *t, uint32_t *slot)
 {
-    if (t->count == t->capacity) {
-        t->capacity = t->capacity ? 2 * t->capacity : 64;
-        t->calc = realloc(t->calc, t->capacity * sizeof *t->calc);
-        if (!t->calc)
-            abort();
-    }
+    t->calc = must_grow(t->calc, t->count, &t->capacity, sizeof *t->calc);
     size_t size = sizeof *t->scratch + t->scratch->count * sizeof t->scratch->op[0];
     t->calc[t->count] = memcpy(arena_alloc(t->arena, size), t->scratch, size);
     *slot = SLOT_FIRST + t->count++;

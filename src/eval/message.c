@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "eval/expr.h"
 
 static void tell(struct eval *e, enum word directive, const char *text)
@@ -22,9 +23,7 @@ static void tell_lines(struct eval *e, enum word directive, const char *text)
                                                       : 2];
     const char *end = strrchr(text, '\n');
     size_t old = *kept ? strlen(*kept) : 0, len = strlen(text);
-    char *all = malloc(old + len + 1);
-    if (!all)
-        abort();
+    char *all = must_malloc(old + len + 1, 1);
     if (old)
         memcpy(all, *kept, old);
     memcpy(all + old, text, len + 1);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/lexeme.h"
 #include "lang/lexer.h"
 
@@ -44,12 +45,7 @@ static bool is_closer(int kind) { return kind == '}' || kind == ')' || kind == '
 
 static void open_frame(struct format *f)
 {
-    if (f->frames == f->capacity) {
-        f->capacity = f->capacity ? 2 * f->capacity : 64;
-        f->frame = realloc(f->frame, f->capacity * sizeof *f->frame);
-        if (!f->frame)
-            abort();
-    }
+    f->frame = must_grow(f->frame, f->frames, &f->capacity, sizeof *f->frame);
     f->frame[f->frames++] = ++f->depth;
 }
 

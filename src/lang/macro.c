@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
 #include "parser.h"
@@ -203,8 +204,8 @@ void macro_call(struct stream *s, struct token name, struct macro *m)
         for (int i = 0; i < count; i++)
             ok &= s->host.bind_argument(s->host.user, m->parameter[i].text,
                                         m->parameter[i].len, &args[i]);
-        s->cursors = stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
-                                 sizeof *s->cursors);
+        s->cursors = must_grow(s->cursors, s->cursor_count, &s->cursor_capacity,
+                               sizeof *s->cursors);
         s->cursors[s->cursor_count++] =
             (struct cursor){.tokens = m->body,
                             .slots = m->slots,

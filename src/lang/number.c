@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 const double number_power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -54,9 +56,7 @@ double number_parse(const char *text, size_t len)
         return value;
     const char *point = localeconv()->decimal_point;
     size_t point_len = strlen(point);
-    char *copy = malloc(len + point_len + 1);
-    if (!copy)
-        abort();
+    char *copy = must_malloc(len + point_len + 1, 1);
     size_t n = 0;
     for (size_t i = 0; i < len; i++) {
         if (text[i] == '.') {

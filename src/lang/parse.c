@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/literal.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
@@ -261,12 +262,8 @@ void parse_open(struct parse *p, enum word word, bool entry, struct span where)
 {
     begin_faces(p, word);
 
-    if (p->block_count == p->block_capacity) {
-        p->block_capacity = p->block_capacity ? 2 * p->block_capacity : 8;
-        p->blocks = realloc(p->blocks, p->block_capacity * sizeof *p->blocks);
-        if (!p->blocks)
-            abort();
-    }
+    p->blocks =
+        must_grow(p->blocks, p->block_count, &p->block_capacity, sizeof *p->blocks);
     p->blocks[p->block_count++] =
         (struct parse_block){word, entry, p->function, where, arena_mark(p->arena), NULL};
     p->function = false;

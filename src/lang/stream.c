@@ -3,23 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/lexer.h"
 #include "lang/literal.h"
 #include "lang/parse.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
 #include "parser.h"
-
-void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size)
-{
-    if (count < *capacity)
-        return array;
-    *capacity = *capacity ? 2 * *capacity : 32;
-    array = realloc(array, *capacity * size);
-    if (!array)
-        abort();
-    return array;
-}
 
 struct stream *stream_new(struct arena *a, struct source_map *sources, uint32_t file,
                           struct diag_sink *diags, struct stream_host host)
@@ -67,15 +57,12 @@ static const struct lexed *lex_once(struct stream *s, uint32_t file)
             memcmp(o->text, f->text, f->len) == 0)
             return &s->lexed[i];
     }
-    s->lexed =
-        stream_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
+    s->lexed = must_grow(s->lexed, s->lexed_count, &s->lexed_capacity, sizeof *s->lexed);
     struct lexed *l = &s->lexed[s->lexed_count++];
     l->file = file;
     struct arena *vectors = s->host.calculate ? s->arena : NULL;
     l->tokens = lex_file(s->sources, file, s->diags, &s->words, vectors, &l->count);
-    l->slots = calloc(l->count + 1, sizeof *l->slots);
-    if (!l->slots)
-        abort();
+    l->slots = must_calloc(l->count + 1, sizeof *l->slots);
     return l;
 }
 
@@ -83,7 +70,7 @@ void stream_push_file(struct stream *s, uint32_t file)
 {
     const struct lexed *l = lex_once(s, file);
     s->cursors =
-        stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
+        must_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
     s->cursors[s->cursor_count++] =
         (struct cursor){.tokens = l->tokens,
                         .slots = l->slots,
@@ -102,7 +89,7 @@ struct frame *stream_push_frame(struct stream *s, enum frame_kind kind,
         s->stopped = true;
     }
     s->frames =
-        stream_grow(s->frames, s->frame_count, &s->frame_capacity, sizeof *s->frames);
+        must_grow(s->frames, s->frame_count, &s->frame_capacity, sizeof *s->frames);
     struct frame *f = &s->frames[s->frame_count++];
     *f = (struct frame){.kind = kind,
                         .opener = opener->where,
@@ -493,7 +480,7 @@ static bool take_named(struct stream *s, struct token *t)
     if (!l->piece)
         literal_expand(s->arena, &s->words, t);
     s->cursors =
-        stream_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
+        must_grow(s->cursors, s->cursor_count, &s->cursor_capacity, sizeof *s->cursors);
     s->cursors[s->cursor_count++] = (struct cursor){.tokens = l->piece,
                                                     .slots = l->slots,
                                                     .count = l->tokens,

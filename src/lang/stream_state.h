@@ -89,7 +89,6 @@ struct stream {
     bool stopped;
 };
 
-void *stream_grow(void *array, uint32_t count, uint32_t *capacity, size_t size);
 // Leaves texts that are read to their end, except the main file.
 void stream_pop_finished(struct stream *s);
 void stream_push_file(struct stream *s, uint32_t file);

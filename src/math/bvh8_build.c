@@ -12,6 +12,7 @@
 #endif
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/bvh8.h"
 #include "math/next_float.h"
 
@@ -281,12 +282,7 @@ static bool split(struct builder *b, struct range *r, bool binned, struct range 
 
 static uint32_t new_node(struct builder *b)
 {
-    if (b->node_count == b->node_capacity) {
-        b->node_capacity = b->node_capacity ? 2 * b->node_capacity : 64;
-        b->node = realloc(b->node, b->node_capacity * sizeof *b->node);
-        if (!b->node)
-            abort();
-    }
+    b->node = must_grow(b->node, b->node_count, &b->node_capacity, sizeof *b->node);
     struct bvh8_node *n = &b->node[b->node_count];
     for (int i = 0; i < 8; i++) {
         n->child[i] = BVH8_EMPTY;
@@ -441,9 +437,7 @@ static uint32_t make_best_node(struct builder *b, uint32_t cut)
 
 static void make_best_tree(struct builder *b, struct range all)
 {
-    b->cut = aligned_alloc(16, (2 * (size_t)all.count - 1) * sizeof *b->cut);
-    if (!b->cut)
-        abort();
+    b->cut = must_align(16, 2 * (size_t)all.count - 1, sizeof *b->cut);
     make_best_node(b, make_cuts(b, all, 0));
     free(b->cut);
 }
@@ -481,10 +475,8 @@ struct bvh8 bvh8_build_of(struct arena *a, bvh8_box *box, const void *user,
     if (!count)
         return t;
     struct builder b = {.origin = middle(bounds), .leaf_items = leaf_items};
-    b.item = aligned_alloc(16, count * sizeof *b.item);
-    b.order = malloc(count * sizeof *b.order);
-    if (!b.item || !b.order)
-        abort();
+    b.item = must_align(16, count, sizeof *b.item);
+    b.order = must_malloc(count, sizeof *b.order);
     b.pad = PAD * vec3_max_abs(vec3_sub(bounds.max, b.origin)) + FLT_MIN;
     for (uint32_t i = 0; i < count; i++) {
         const struct aabb whole = box(user, i);

@@ -2,6 +2,7 @@
 // patches do not see them.
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "radiosity/radiosity.h"
 #include "scene/texture.h"
 #include "trace/accel.h"
@@ -29,10 +30,9 @@ const struct job *clear_left_out(const struct job *job, struct clear_world **out
         first++;
     if (first == w->object_count)
         return job;
-    struct clear_world *c = calloc(1, sizeof *c);
-    if (!c || !(c->accel = malloc(sizeof *c->accel)) ||
-        !(c->object = malloc(w->object_count * sizeof *c->object)))
-        abort();
+    struct clear_world *c = must_calloc(1, sizeof *c);
+    c->accel = must_malloc(1, sizeof *c->accel);
+    c->object = must_malloc(w->object_count, sizeof *c->object);
     for (uint32_t i = 0; i < w->object_count; i++) {
         c->object[i] = w->object[i];
         if (object_is_clear(w, &w->object[i]))

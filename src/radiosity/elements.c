@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/polygon.h"
 #include "radiosity/ray_put.h"
@@ -31,10 +32,7 @@ static void *grow(void *at, uint32_t *capacity, uint32_t need, size_t size)
         return at;
     while (*capacity < need)
         *capacity = *capacity ? *capacity + *capacity / 2 : 1024;
-    at = realloc(at, *capacity * size);
-    if (!at)
-        abort();
-    return at;
+    return must_realloc(at, *capacity, size);
 }
 
 struct cell *cells_add(struct patches *p, uint32_t count)
@@ -301,9 +299,7 @@ static void sample_cell(const struct patches *p, struct sampler *s, uint32_t ind
 static void *sampling_begin(void *user)
 {
     const struct sampling *of = user;
-    struct sampler *s = malloc(sizeof *s);
-    if (!s)
-        abort();
+    struct sampler *s = must_malloc(1, sizeof *s);
     s->t = tracer_new(of->p->job);
     s->rays = ray_batch_new(POINTS_MOST);
     s->hits = hit_batch_new(POINTS_MOST);
@@ -423,9 +419,7 @@ static void cells_sample(struct patches *p, uint32_t first, int depth)
     const int few = wanted < 1 ? 1 : wanted < SAMPLES_MOST ? wanted : SAMPLES_MOST;
     const int samples = first ? few : 2 * few < SAMPLES_MOST ? 2 * few : SAMPLES_MOST;
     struct sampling s = {p, first, samples, first > 0, depth <= 0, NULL};
-    s.found = malloc(CHUNK * sizeof *s.found);
-    if (!s.found)
-        abort();
+    s.found = must_malloc(CHUNK, sizeof *s.found);
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 64,
                                  .watch = p->settings.watch,

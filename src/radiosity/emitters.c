@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "radiosity/polygon.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/ray_put.h"
@@ -95,7 +96,7 @@ static void find_shafts(struct radiosity *r)
     }
     if (!r->shafts)
         return;
-    r->between = solver_alloc(p->element_count, sizeof *r->between);
+    r->between = must_calloc(p->element_count, sizeof *r->between);
     for (uint32_t k = 0; k < p->element_count; k++)
         for (uint32_t i = 0; i < r->emitter_count; i++) {
             uint64_t some =
@@ -114,7 +115,7 @@ static void find_edges(struct radiosity *r)
     for (uint32_t i = 0; i < r->emitter_count; i++)
         count += r->emitter[i].polygon ? r->emitter[i].e.corner_count : 0;
     edges->count = (count + 7) & ~7u;
-    edges->a[0] = solver_alloc(6 * (size_t)edges->count, sizeof(double));
+    edges->a[0] = must_calloc(6 * (size_t)edges->count, sizeof(double));
     for (int k = 1; k < 6; k++)
         *(k < 3 ? &edges->a[k] : &edges->b[k - 3]) = edges->a[0] + k * edges->count;
     for (uint32_t i = 0, at = 0; i < r->emitter_count; i++) {
@@ -159,7 +160,7 @@ void emitters_find(struct radiosity *r)
         count += rgb_max(p->element[i].emission) > 0;
     if (r->settings.emitters == EMITTERS_MESH || count > MERGED_MOST)
         return;
-    r->emitter = solver_alloc(count, sizeof *r->emitter);
+    r->emitter = must_calloc(count, sizeof *r->emitter);
     for (uint32_t i = 0; i < p->element_count; i++)
         if (rgb_max(p->element[i].emission) > 0)
             r->emitter[r->emitter_count++] =
@@ -197,10 +198,8 @@ struct looks {
 
 void *emitters_begin(const void *data)
 {
-    struct looks *l = calloc(1, sizeof *l);
+    struct looks *l = must_calloc(1, sizeof *l);
     (void)data;
-    if (!l)
-        abort();
     l->rays = ray_batch_new(EMITTER_RAYS);
     return l;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "radiosity/radiosity.h"
 
 enum { LEVELS_MOST = 12, FIRST_ELEMENTS = 150 };
@@ -19,8 +20,8 @@ struct reflected {
 static struct reflected light_of(const struct radiosity *r)
 {
     const uint32_t n = r->patches->element_count;
-    struct reflected l = {n, solver_alloc(n, sizeof *l.of),
-                          solver_alloc(n, sizeof *l.area)};
+    struct reflected l = {n, must_calloc(n, sizeof *l.of),
+                          must_calloc(n, sizeof *l.area)};
     for (uint32_t i = 0; i < n; i++) {
         double rho[3];
         element_reflectance(&r->patches->element[i], rho);
@@ -58,8 +59,8 @@ static bool *choose(const struct radiosity *r, const struct reflected *l,
 {
     static const double share = .9;
     const uint32_t n = l->count;
-    struct change *change = solver_alloc(n, sizeof *change);
-    bool *split = solver_alloc(n, sizeof *split);
+    struct change *change = must_calloc(n, sizeof *change);
+    bool *split = must_calloc(n, sizeof *split);
     double all = 0, sum = 0;
     for (uint32_t i = 0; i < n; i++) {
         double step = 0;
@@ -87,7 +88,7 @@ static bool level_solve(struct radiosity *r, uint32_t level, char *error,
 {
     // How many levels there will be is not known: each is half of what is left.
     const double begin = 1 - exp2(-(double)level), end = 1 - exp2(-(double)level - 1);
-    r->lamps = solver_alloc(r->patches->element_count, sizeof *r->lamps);
+    r->lamps = must_calloc(r->patches->element_count, sizeof *r->lamps);
     watch_part(r->settings.watch, begin + .1 * (end - begin), end);
     lamps_gather(r->patches, r->settings.lamp_rays, r->settings.solver.threads, r->lamps);
     r->report.levels = level + 1;
@@ -157,7 +158,7 @@ bool radiosity_to_error(struct radiosity *r, const struct job *job, char *error,
         if (!ok)
             break;
         ok = level_solve(r, level, error, error_size);
-        off = solver_alloc(r->patches->element_count, sizeof *off);
+        off = must_calloc(r->patches->element_count, sizeof *off);
         r->report.error = ok ? fmax(radiosity_probe(r, off), r->solution.error) : 1;
         r->report.converged = ok && r->report.error <= target;
         if (r->report.converged)

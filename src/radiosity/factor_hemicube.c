@@ -3,6 +3,7 @@
 // for a known form factor.
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "math/elementary.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/hemicube.h"
@@ -19,16 +20,12 @@ struct hemicube {
 
 struct hemicube *hemicube_new(int resolution)
 {
-    struct hemicube *h = calloc(1, sizeof *h);
+    struct hemicube *h = must_calloc(1, sizeof *h);
     const size_t pixels = (size_t)resolution * (size_t)resolution;
-    if (!h)
-        abort();
     h->resolution = resolution;
-    h->depth = malloc(pixels * sizeof *h->depth);
-    h->item = malloc(pixels * sizeof *h->item);
-    h->delta = malloc(2 * pixels * sizeof *h->delta);
-    if (!h->depth || !h->item || !h->delta)
-        abort();
+    h->depth = must_malloc(pixels, sizeof *h->depth);
+    h->item = must_malloc(pixels, sizeof *h->item);
+    h->delta = must_malloc(2 * pixels, sizeof *h->delta);
     double sum = 0;
     for (size_t i = 0; i < 2 * pixels; i++) {
         const size_t at = i % pixels;

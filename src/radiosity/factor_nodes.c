@@ -2,8 +2,7 @@
 // as small polygons. Both are kept for the elements used last.
 #include "radiosity/factor_nodes.h"
 
-#include <stdlib.h>
-
+#include "base/memory.h"
 #include "radiosity/polygon.h"
 #include "radiosity/sequence.h"
 
@@ -16,9 +15,7 @@ struct node_cache {
 
 struct node_cache *node_cache_new(void)
 {
-    struct node_cache *c = calloc(1, sizeof *c);
-    if (!c)
-        abort();
+    struct node_cache *c = must_calloc(1, sizeof *c);
     for (uint32_t i = 0; i < SETS; i++)
         c->nodes[i].element = c->pieces[i].element = ELEMENT_NONE;
     return c;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/hemicube.h"
@@ -43,17 +44,13 @@ const char *form_factor_name(enum form_factor_method m) { return methods[m].name
 struct factor_state *factor_state_new(const struct enclosure *e,
                                       const struct form_factor_settings *s)
 {
-    struct factor_state *t = calloc(1, sizeof *t);
-    if (!t)
-        abort();
+    struct factor_state *t = must_calloc(1, sizeof *t);
     t->enclosure = e;
     t->settings = s;
     t->of_enclosure = e->thread_begin ? e->thread_begin(e->user) : e->user;
     t->rays = ray_batch_new(FACTOR_RAYS);
-    t->hidden = malloc(FACTOR_RAYS);
-    t->met = malloc(FACTOR_RAYS * sizeof *t->met);
-    if (!t->hidden || !t->met)
-        abort();
+    t->hidden = must_malloc(FACTOR_RAYS, sizeof *t->hidden);
+    t->met = must_malloc(FACTOR_RAYS, sizeof *t->met);
     return t;
 }
 
@@ -235,9 +232,7 @@ double factors_balance(struct factors *f, const struct enclosure *e, struct watc
     enum { ROUNDS = 100 };
     static const double exact = 1e-6; // floats hold no more
     const size_t n = f->count;
-    double *scale = malloc((n + 1) * sizeof *scale), worst = 0;
-    if (!scale)
-        abort();
+    double *scale = must_malloc(n + 1, sizeof *scale), worst = 0;
     if (!f->symmetric)
         factors_symmetrize(f, e);
     for (size_t i = 0; i < n; i++)

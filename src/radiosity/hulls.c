@@ -1,6 +1,6 @@
 // Corners and faces of what holds an object: often much less than its box.
-#include <stdlib.h>
 
+#include "base/memory.h"
 #include "radiosity/patches.h"
 #include "radiosity/polygon.h"
 #include "scene/shapes/mesh.h"
@@ -153,9 +153,7 @@ static uint32_t object_hulls(const struct world *w, const struct world_object *o
 
 struct shaft_hulls *hulls_of(const struct world *w)
 {
-    struct shaft_hulls *hulls = calloc(w->object_count + 1, sizeof *hulls);
-    if (!hulls)
-        abort();
+    struct shaft_hulls *hulls = must_calloc(w->object_count + 1, sizeof *hulls);
     for (uint32_t i = 0; i < w->object_count; i++)
         hulls[i].count = object_hulls(w, &w->object[i], hulls[i].hull);
     return hulls;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/sequence.h"
@@ -25,9 +26,7 @@ struct gather_state {
 static void *begin(void *user)
 {
     const struct gather *g = user;
-    struct gather_state *s = calloc(1, sizeof *s);
-    if (!s)
-        abort();
+    struct gather_state *s = must_calloc(1, sizeof *s);
     s->t = tracer_new(g->p->job);
     s->of_enclosure = g->p->enclosure.thread_begin(g->p->enclosure.user);
     return s;

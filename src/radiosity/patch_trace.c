@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/patches.h"
 #include "radiosity/ray_put.h"
@@ -228,9 +229,7 @@ enum { ENCLOSURE_BATCH = 1024 };
 
 static void *thread_begin(void *user)
 {
-    struct of_thread *t = calloc(1, sizeof *t);
-    if (!t)
-        abort();
+    struct of_thread *t = must_calloc(1, sizeof *t);
     t->p = user;
     t->scratch = trace_scratch_new(t->p->job->world);
     t->hit = hit_batch_new(ENCLOSURE_BATCH);
@@ -396,9 +395,7 @@ void patches_enclosure(struct patches *p)
 
 void patches_neighbours(struct patches *p)
 {
-    p->neighbours = calloc(p->element_count + 1, sizeof *p->neighbours);
-    if (!p->neighbours)
-        abort();
+    p->neighbours = must_calloc(p->element_count + 1, sizeof *p->neighbours);
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 64,
                                  .watch = p->settings.watch,

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "math/isa.h"
 #include "radiosity/polygon.h"
@@ -152,9 +153,7 @@ static void find_rooms(struct patches *p)
 {
     const struct job *job = p->job;
     const struct world *w = job->world;
-    p->room = calloc(w->object_count + 1, sizeof *p->room);
-    if (!p->room)
-        abort();
+    p->room = must_calloc(w->object_count + 1, sizeof *p->room);
     room_add(p, job->camera->location, UINT32_MAX);
     for (uint32_t i = 0; i < job->lamp_count; i++)
         room_add(p, job->lamp[i].light->location, UINT32_MAX);
@@ -323,9 +322,7 @@ static struct aabb *leaf_limits(const struct job *job)
 {
     const struct world *w = job->world;
     const struct aabb limit = scene_limit(job);
-    struct aabb *out = malloc((w->leaf_count + 1) * sizeof *out);
-    if (!out)
-        abort();
+    struct aabb *out = must_malloc(w->leaf_count + 1, sizeof *out);
     for (uint32_t l = 0; l < w->leaf_count; l++)
         out[l] = w->object[w->leaf[l].object].bounds;
     for (uint32_t o = 0; o < w->object_count; o++)
@@ -341,9 +338,7 @@ static void charts_build(struct patches *p)
 {
     const struct world *w = p->job->world;
     struct aabb *limit = leaf_limits(p->job);
-    p->leaf_first = calloc(w->leaf_count + 1, sizeof *p->leaf_first);
-    if (!p->leaf_first)
-        abort();
+    p->leaf_first = must_calloc(w->leaf_count + 1, sizeof *p->leaf_first);
     for (int pass = 0; pass < 2; pass++) {
         uint32_t count = 0;
         for (uint32_t l = 0; l < w->leaf_count; l++) {
@@ -354,8 +349,8 @@ static void charts_build(struct patches *p)
         }
         p->leaf_first[w->leaf_count] = count;
         p->chart_count = count;
-        if (!p->chart && !(p->chart = calloc(count + 1, sizeof *p->chart)))
-            abort();
+        if (!p->chart)
+            p->chart = must_calloc(count + 1, sizeof *p->chart);
     }
     free(limit);
 }
@@ -370,9 +365,7 @@ static double size_for(const struct patches *p)
 
 static struct patches *with_charts(const struct job *job, const struct patch_settings *s)
 {
-    struct patches *p = calloc(1, sizeof *p);
-    if (!p)
-        abort();
+    struct patches *p = must_calloc(1, sizeof *p);
     p->job = job;
     p->settings = *s;
     p->sight = ISA_NAMED(job->world->accel->kernels->name, sight_kernels);
@@ -432,10 +425,8 @@ struct forecast {
 
 static void forecast_init(struct forecast *f, const struct patches *trial)
 {
-    *f = (struct forecast){trial, calloc(trial->chart_count + 1, sizeof *f->whole),
-                           calloc(trial->chart_count + 1, sizeof *f->cut), 1};
-    if (!f->whole || !f->cut)
-        abort();
+    *f = (struct forecast){trial, must_calloc(trial->chart_count + 1, sizeof *f->whole),
+                           must_calloc(trial->chart_count + 1, sizeof *f->cut), 1};
     for (uint32_t i = 0; i < trial->element_count; i++) {
         const uint32_t c = trial->cell[trial->element_cell[i] / 2].chart;
         f->whole[c] += trial->element[i].area / trial->chart[c].area;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/sequence.h"
@@ -125,8 +126,8 @@ double radiosity_probe(struct radiosity *r, double *share)
     double sum[3];
     gather_init(&g, &system, &r->settings.solver, 0);
     g.b = r->solution.b;
-    p.sum = solver_alloc(n, sizeof *p.sum);
-    p.first = solver_alloc(n + 1, sizeof *p.first);
+    p.sum = must_calloc(n, sizeof *p.sum);
+    p.first = must_calloc(n + 1, sizeof *p.first);
     points_share(&p);
     for (;; p.rays *= 2) {
         probe_round(&p, sum);

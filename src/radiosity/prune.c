@@ -3,6 +3,7 @@
 // groups; only the groups of the camera and the lamps stay.
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/patches.h"
@@ -90,16 +91,12 @@ struct looker {
 static void *looker_begin(void *user)
 {
     const struct groups *g = user;
-    struct looker *l = calloc(1, sizeof *l);
-    if (!l)
-        abort();
+    struct looker *l = must_calloc(1, sizeof *l);
     l->of_enclosure = g->p->enclosure.thread_begin(g->p->enclosure.user);
     l->rays = ray_batch_new(EYE_RAYS);
-    l->met = malloc(EYE_RAYS * sizeof *l->met);
-    l->slot = malloc(EYE_RAYS * sizeof *l->slot);
-    l->hidden = malloc(EYE_RAYS);
-    if (!l->met || !l->slot || !l->hidden)
-        abort();
+    l->met = must_malloc(EYE_RAYS, sizeof *l->met);
+    l->slot = must_malloc(EYE_RAYS, sizeof *l->slot);
+    l->hidden = must_malloc(EYE_RAYS, sizeof *l->hidden);
     return l;
 }
 
@@ -173,9 +170,7 @@ static void look_from(struct groups *g, uint32_t *list, uint32_t count, uint32_t
                       uint32_t rays)
 {
     const uint32_t chunk = rays < CHUNK ? CHUNK / rays : 1;
-    g->met = malloc((size_t)chunk * rays * sizeof *g->met);
-    if (!g->met)
-        abort();
+    g->met = must_malloc((size_t)chunk * rays, sizeof *g->met);
     g->first = first;
     g->rays = rays;
     for (uint32_t at = 0; at < count && !watch_cancelled(g->p->settings.watch);
@@ -205,9 +200,7 @@ static uint32_t list_left(const struct groups *g, const uint32_t *rays, uint32_t
 // ELEMENT_RAYS of each element until it is known to be reached: most need few.
 static void look_first(struct groups *g)
 {
-    uint32_t *list = malloc((g->p->element_count + 1) * sizeof *list);
-    if (!list)
-        abort();
+    uint32_t *list = must_malloc(g->p->element_count + 1, sizeof *list);
     for (uint32_t first = 0, rays = 2; first < ELEMENT_RAYS; first += rays, rays = first)
         look_from(g, list, list_left(g, NULL, 0, list), first, rays);
     free(list);
@@ -305,9 +298,7 @@ static bool faces_reached(const struct groups *g, uint32_t i)
 static void look_once(struct groups *g, const uint32_t *list, uint32_t count,
                       uint32_t first, uint32_t end)
 {
-    uint32_t *fresh = malloc((count + 1) * sizeof *fresh), n = 0;
-    if (!fresh)
-        abort();
+    uint32_t *fresh = must_malloc(count + 1, sizeof *fresh), n = 0;
     for (uint32_t k = 0; k < count; k++)
         if (g->sent[list[k]] < end) {
             g->sent[list[k]] = end;
@@ -323,13 +314,11 @@ static bool look_again(struct groups *g)
 {
     const uint32_t n = g->p->element_count;
     uint32_t left = 0;
-    uint32_t *list = malloc((n + 1) * sizeof *list);
-    uint32_t *rays = malloc((n + 1) * sizeof *rays);
-    g->reached = malloc((n + 1) * sizeof *g->reached);
+    uint32_t *list = must_malloc(n + 1, sizeof *list);
+    uint32_t *rays = must_malloc(n + 1, sizeof *rays);
+    g->reached = must_malloc(n + 1, sizeof *g->reached);
     g->reached_count = 0;
-    g->seen = malloc(n + 1);
-    if (!list || !rays || !g->reached || !g->seen)
-        abort();
+    g->seen = must_malloc(n + 1, sizeof *g->seen);
     for (uint32_t i = 0; i < n; i++) {
         if (is_reached(g, i))
             g->reached[g->reached_count++] = i;
@@ -390,9 +379,7 @@ static void keep_groups(struct groups *g)
 {
     struct patches *p = g->p;
     const uint32_t n = p->element_count;
-    bool *keep = calloc(n + 1, sizeof *keep);
-    if (!keep)
-        abort();
+    bool *keep = must_calloc(n + 1, sizeof *keep);
     // Slivers have no ray that starts on them: what lies beside a reached element stays.
     for (uint32_t i = 0; i < n; i++) {
         if (!is_reached(g, i))
@@ -409,11 +396,9 @@ void patches_prune(struct patches *p)
     enum { ROUNDS = 8 };
     const uint32_t n = p->element_count;
     struct groups g = {.p = p, .root = n};
-    g.parent = malloc((n + 1) * sizeof *g.parent);
-    g.size = malloc((n + 1) * sizeof *g.size);
-    g.sent = calloc(n + 1, sizeof *g.sent);
-    if (!g.parent || !g.size || !g.sent)
-        abort();
+    g.parent = must_malloc(n + 1, sizeof *g.parent);
+    g.size = must_malloc(n + 1, sizeof *g.size);
+    g.sent = must_calloc(n + 1, sizeof *g.sent);
     for (uint32_t i = 0; i <= n; i++) {
         g.parent[i] = i;
         g.size[i] = 1;

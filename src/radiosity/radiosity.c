@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 
@@ -45,7 +46,7 @@ static bool is_closed(const struct patches *p, int points)
     const struct enclosure *e = &p->enclosure;
     void *state = e->thread_begin(e->user);
     struct ray_batch *rays = ray_batch_new(1024);
-    uint32_t *met = solver_alloc(1024, sizeof *met), escaped = 0;
+    uint32_t *met = must_calloc(1024, sizeof *met), escaped = 0;
     const uint32_t n = e->count, few = (uint32_t)points / 1000;
     for (uint32_t k = 0; k < (uint32_t)points && escaped <= few;) {
         for (rays->count = 0; rays->count < 1024 && k < (uint32_t)points; k++) {
@@ -158,8 +159,8 @@ static void find_shown(struct radiosity *r)
     static const double small = .5; // of a whole cell
     const struct patches *p = r->patches;
     const uint32_t n = p->element_count;
-    double(*h)[3] = solver_alloc(n, sizeof *h);
-    r->shown = solver_alloc(n, sizeof *r->shown);
+    double(*h)[3] = must_calloc(n, sizeof *h);
+    r->shown = must_calloc(n, sizeof *r->shown);
     for (uint32_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++)
             h[i][c] = r->solution.h[i][c] -
@@ -200,7 +201,7 @@ static bool single_level(struct radiosity *r, const struct job *job, const char 
         snprintf(error, error_size, "no surface of the scene can be cut into patches");
         return false;
     }
-    r->lamps = solver_alloc(r->patches->element_count, sizeof *r->lamps);
+    r->lamps = must_calloc(r->patches->element_count, sizeof *r->lamps);
     watch_part(r->settings.watch, .1, .15);
     lamps_gather(r->patches, r->settings.lamp_rays, r->settings.solver.threads, r->lamps);
     r->key = radiosity_key(r);
@@ -216,10 +217,8 @@ struct radiosity *radiosity_new(const struct job *job,
                                 const struct radiosity_options *settings,
                                 const char *saved, char *error, size_t error_size)
 {
-    struct radiosity *r = calloc(1, sizeof *r);
+    struct radiosity *r = must_calloc(1, sizeof *r);
     const double start = clock_seconds(CLOCK_MONOTONIC);
-    if (!r)
-        abort();
     r->settings = *settings;
     r->settings.patches.watch = r->settings.factors.watch = r->settings.solver.watch =
         settings->watch;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "radiosity/patches.h"
 
 // The elements that a cell had before it was quartered.
@@ -30,10 +31,8 @@ uint32_t *patches_refine(struct patches *p, const bool *split)
 {
     const uint32_t before = p->element_count, first = p->cell_count;
     uint32_t count = 0;
-    struct quartered *q = malloc((before + 1) * sizeof *q);
-    uint32_t *origin = malloc((before + 1) * sizeof *origin);
-    if (!q || !origin)
-        abort();
+    struct quartered *q = must_malloc(before + 1, sizeof *q);
+    uint32_t *origin = must_malloc(before + 1, sizeof *origin);
     for (uint32_t i = 0; i < before; i++) {
         const uint32_t index = p->element_cell[i] / 2;
         struct cell *c = &p->cell[index];
@@ -50,9 +49,7 @@ uint32_t *patches_refine(struct patches *p, const bool *split)
     }
     const uint32_t kept = keep_whole(p, origin);
     elements_add(p, first);
-    origin = realloc(origin, (p->element_count + 1) * sizeof *origin);
-    if (!origin)
-        abort();
+    origin = must_realloc(origin, p->element_count + 1, sizeof *origin);
     for (uint32_t i = kept; i < p->element_count; i++)
         origin[i] =
             q[p->cell[p->element_cell[i] / 2].from].element[p->element_cell[i] & 1];

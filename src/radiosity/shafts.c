@@ -1,6 +1,6 @@
 // Which objects can come between two elements: most pairs of a scene need no ray.
-#include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/patches.h"
 #include "scene/shape.h"
@@ -99,9 +99,7 @@ void patches_shafts(struct patches *p)
         return;
     find_boxes(p);
     p->hulls = hulls_of(p->job->world);
-    p->shaft = calloc(p->element_count + 1, sizeof *p->shaft);
-    if (!p->shaft)
-        abort();
+    p->shaft = must_calloc(p->element_count + 1, sizeof *p->shaft);
     const struct parallel run = {.threads = p->settings.threads,
                                  .piece = 256,
                                  .watch = p->settings.watch,

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "radiosity/solver.h"
 
 // ---- elimination -----------------------------------------------------------------
@@ -65,8 +66,8 @@ void solve_elimination(struct radiosity_solution *out, const struct radiosity_sy
                        const struct solver_settings *settings)
 {
     const size_t n = s->e->count;
-    double *m = solver_alloc(n * n, sizeof *m);
-    double(*x)[3] = solver_alloc(n, sizeof *x);
+    double *m = must_calloc(n * n, sizeof *m);
+    double(*x)[3] = must_calloc(n, sizeof *x);
     const bool grey = channels_equal(s);
     for (int c = 0; c < (grey ? 1 : 3); c++) {
         system_source(s, x);
@@ -137,12 +138,12 @@ void solve_cg(struct radiosity_solution *out, const struct radiosity_system *s,
     const size_t n = s->e->count;
     const uint32_t most = settings->steps_max ? settings->steps_max : 1000;
     struct cg g = {s,
-                   solver_alloc(n, sizeof *g.weight),
-                   solver_alloc(n, sizeof *g.x),
-                   solver_alloc(n, sizeof *g.r),
-                   solver_alloc(n, sizeof *g.p),
-                   solver_alloc(n, sizeof *g.q),
-                   solver_alloc(n, sizeof *g.b)};
+                   must_calloc(n, sizeof *g.weight),
+                   must_calloc(n, sizeof *g.x),
+                   must_calloc(n, sizeof *g.r),
+                   must_calloc(n, sizeof *g.p),
+                   must_calloc(n, sizeof *g.q),
+                   must_calloc(n, sizeof *g.b)};
     double first[3], now[3], next[3], pq[3], rho_most[3] = {0, 0, 0};
     cg_start(&g, settings->threads);
     for (size_t i = 0; i < n; i++)

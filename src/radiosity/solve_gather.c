@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/factor_nodes.h"
 #include "radiosity/polygon.h"
@@ -24,11 +25,11 @@ void gather_init(struct gather *g, const struct radiosity_system *s,
     double area = 0, glowing = 0;
     *g = (struct gather){
         .s = s, .settings = settings, .seed = sequence_seed(settings->seed, 2 + half)};
-    g->emitter = solver_alloc(n, sizeof *g->emitter);
-    g->up_to = solver_alloc(n, sizeof *g->up_to);
-    g->radius = solver_alloc(n, sizeof *g->radius);
-    g->rank = solver_alloc(n, sizeof *g->rank);
-    g->rays = solver_alloc(n, sizeof *g->rays);
+    g->emitter = must_calloc(n, sizeof *g->emitter);
+    g->up_to = must_calloc(n, sizeof *g->up_to);
+    g->radius = must_calloc(n, sizeof *g->radius);
+    g->rank = must_calloc(n, sizeof *g->rank);
+    g->rays = must_calloc(n, sizeof *g->rays);
     for (uint32_t i = 0; i < n; i++) {
         const struct element *e = &s->e->element[i];
         double own[3];

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
@@ -157,9 +158,7 @@ static void link_add(struct hierarchy *t, uint32_t a, uint32_t b)
 {
     if (t->link_count == t->link_capacity) {
         t->link_capacity = t->link_capacity ? 2 * t->link_capacity : 1024;
-        t->link = realloc(t->link, t->link_capacity * sizeof *t->link);
-        if (!t->link)
-            abort();
+        t->link = must_realloc(t->link, t->link_capacity, sizeof *t->link);
     }
     t->link[t->link_count++] = (struct link){a, b, 0, false};
 }
@@ -320,7 +319,7 @@ static void links_build(struct hierarchy *t, struct radiosity_solution *out)
     link_add(t, 0, 0);
     while (t->pending < t->link_count && !watch_cancelled(t->settings->watch)) {
         const size_t from = t->pending, to = t->link_count;
-        t->rays = solver_alloc(to - from, sizeof *t->rays);
+        t->rays = must_calloc(to - from, sizeof *t->rays);
         parallel_run(&run, (uint32_t)(to - from));
         for (size_t i = 0; i < to - from; i++)
             out->rays += t->rays[i];
@@ -406,9 +405,9 @@ static void balance(struct hierarchy *t)
     enum { ROUNDS = 100 };
     static const double exact = 1e-6;
     const uint32_t n = t->s->e->count;
-    double(*one)[3] = solver_alloc(n, sizeof *one);
-    double(*h)[3] = solver_alloc(n, sizeof *h);
-    double(*scaled)[3] = solver_alloc(n, sizeof *scaled), worst = INFINITY;
+    double(*one)[3] = must_calloc(n, sizeof *one);
+    double(*h)[3] = must_calloc(n, sizeof *h);
+    double(*scaled)[3] = must_calloc(n, sizeof *scaled), worst = INFINITY;
     for (uint32_t i = 0; i < n; i++)
         one[i][0] = 1;
     for (int k = 0; k < ROUNDS && worst > exact && !watch_cancelled(t->settings->watch);
@@ -432,7 +431,7 @@ static void iterate(struct hierarchy *t, struct radiosity_solution *out,
 {
     const uint32_t n = out->count;
     const uint32_t most = t->settings->steps_max ? t->settings->steps_max : 10000;
-    double previous = 0, (*scaled)[3] = solver_alloc(n, sizeof *scaled);
+    double previous = 0, (*scaled)[3] = must_calloc(n, sizeof *scaled);
     while (out->steps < most && !out->converged && !watch_cancelled(t->settings->watch)) {
         double change = 0, reflected = 0;
         exchange(t, out->b, out->h, scaled);
@@ -489,17 +488,17 @@ void solve_hierarchical(struct radiosity_solution *out, const struct radiosity_s
     if (n == 0)
         return;
     struct hierarchy t = {.s = s, .settings = settings};
-    double(*source)[3] = solver_alloc(n, sizeof *source);
-    struct sort_key *key = solver_alloc(n, sizeof *key);
-    t.order = solver_alloc(n, sizeof *t.order);
-    t.group = solver_alloc(2 * (size_t)n, sizeof *t.group);
+    double(*source)[3] = must_calloc(n, sizeof *source);
+    struct sort_key *key = must_calloc(n, sizeof *key);
+    t.order = must_calloc(n, sizeof *t.order);
+    t.group = must_calloc(2 * (size_t)n, sizeof *t.group);
     for (uint32_t i = 0; i < n; i++)
         t.order[i] = i;
     group_build(&t, 0, n, key);
     free(key);
-    t.b = solver_alloc(t.group_count, sizeof *t.b);
-    t.h = solver_alloc(t.group_count, sizeof *t.h);
-    t.bright = solver_alloc(t.group_count, sizeof *t.bright);
+    t.b = must_calloc(t.group_count, sizeof *t.b);
+    t.h = must_calloc(t.group_count, sizeof *t.h);
+    t.bright = must_calloc(t.group_count, sizeof *t.bright);
     system_source(s, source);
     expect(&t, source);
     links_build(&t, out);
@@ -507,7 +506,7 @@ void solve_hierarchical(struct radiosity_solution *out, const struct radiosity_s
     if (watch_cancelled(settings->watch))
         t.link_count = 0;
     memcpy(out->b, source, n * sizeof *source);
-    t.scale = solver_alloc(n, sizeof *t.scale);
+    t.scale = must_calloc(n, sizeof *t.scale);
     for (uint32_t i = 0; i < n; i++)
         t.scale[i] = 1;
     if (s->closed)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "radiosity/solver.h"
 
 struct shooting {
@@ -148,10 +149,10 @@ void solve_shooting(struct radiosity_solution *out, const struct radiosity_syste
     const size_t n = s->e->count;
     const uint32_t most = settings->steps_max ? settings->steps_max : UINT32_MAX;
     struct shooting w = {.s = s, .settings = settings, .out = out};
-    w.unshot = solver_alloc(n, sizeof *w.unshot);
-    w.source = solver_alloc(n, sizeof *w.source);
-    w.row = solver_alloc(n, sizeof *w.row);
-    w.has_shot = solver_alloc(n, sizeof *w.has_shot);
+    w.unshot = must_calloc(n, sizeof *w.unshot);
+    w.source = must_calloc(n, sizeof *w.source);
+    w.row = must_calloc(n, sizeof *w.row);
+    w.has_shot = must_calloc(n, sizeof *w.has_shot);
     if (!s->f)
         w.factors = factor_state_new(s->e, s->factors);
     system_source(s, w.source);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 
 enum { PASSES_MOST = 256 };
@@ -19,7 +20,7 @@ void smoother_init(struct smoother *m, const struct radiosity_system *s, int thr
     *m = (struct smoother){.s = s, .threads = threads};
     if (!e->neighbour || !e->count)
         return;
-    m->beside = solver_alloc(8 * (size_t)e->count, sizeof *m->beside);
+    m->beside = must_calloc(8 * (size_t)e->count, sizeof *m->beside);
     for (uint32_t i = 0; i < e->count; i++) {
         uint32_t *to = m->beside + 8 * (size_t)i;
         for (int k = 0; k < 8; k++)
@@ -31,8 +32,8 @@ void smoother_init(struct smoother *m, const struct radiosity_system *s, int thr
             m->surfaces = e->element[i].surface + 1;
     }
     for (int k = 0; k < 6; k++)
-        m->work[k] = solver_alloc(e->count, sizeof *m->work[k]);
-    m->sum = solver_alloc(6 * (size_t)m->surfaces, sizeof *m->sum);
+        m->work[k] = must_calloc(e->count, sizeof *m->work[k]);
+    m->sum = must_calloc(6 * (size_t)m->surfaces, sizeof *m->sum);
 }
 
 void smoother_free(struct smoother *m)
@@ -136,7 +137,7 @@ static void part_smooth(const struct smoother *m, double (*raw[2])[3],
 {
     const size_t bytes = m->s->e->count * sizeof *best[0];
     double(*at[2])[3] = {m->work[4], m->work[5]};
-    double(*spare)[3] = solver_alloc(m->s->e->count, sizeof *spare);
+    double(*spare)[3] = must_calloc(m->s->e->count, sizeof *spare);
     double least = apart(m, raw[0], raw[1]);
     uint32_t done = 0;
     for (int k = 0; k < 2; k++) {
@@ -176,8 +177,8 @@ double smoother_mean(struct smoother *m, const struct light_part half[2],
     if (m->beside) {
         double(*raw[2])[3] = {m->work[0], m->work[1]};
         double(*best[2])[3] = {m->work[2], m->work[3]};
-        double(*emitted[2])[3] = {solver_alloc(n, sizeof **emitted),
-                                  solver_alloc(n, sizeof **emitted)};
+        double(*emitted[2])[3] = {must_calloc(n, sizeof **emitted),
+                                  must_calloc(n, sizeof **emitted)};
         halves_raw(m, half, raw, emitted);
         part_smooth(m, emitted, best);
         for (uint32_t i = 0; i < n; i++)

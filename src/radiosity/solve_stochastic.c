@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
@@ -36,13 +37,13 @@ static void shots_init(struct shots *w, const struct radiosity_system *s,
     const size_t n = s->e->count;
     *w = (struct shots){
         .s = s, .settings = settings, .seed = sequence_seed(settings->seed, half)};
-    w->power = solver_alloc(n, sizeof *w->power);
-    w->expected = solver_alloc(n, sizeof *w->expected);
-    w->first = solver_alloc(n + 1, sizeof *w->first);
-    w->used = solver_alloc(n, sizeof *w->used);
-    w->received = solver_alloc(3 * n + 3, sizeof *w->received);
-    w->h = solver_alloc(n, sizeof *w->h);
-    w->h_emitted = solver_alloc(n, sizeof *w->h_emitted);
+    w->power = must_calloc(n, sizeof *w->power);
+    w->expected = must_calloc(n, sizeof *w->expected);
+    w->first = must_calloc(n + 1, sizeof *w->first);
+    w->used = must_calloc(n, sizeof *w->used);
+    w->received = must_calloc(3 * n + 3, sizeof *w->received);
+    w->h = must_calloc(n, sizeof *w->h);
+    w->h_emitted = must_calloc(n, sizeof *w->h_emitted);
 }
 
 static void shots_free(struct shots *w)
@@ -227,7 +228,7 @@ static void shots_pass(struct shots *w, double rays)
         for (int c = 0; c < 3; c++)
             w->power[i][c] *= w->s->e->element[i].area;
     }
-    double(*source)[3] = solver_alloc(n, sizeof *source);
+    double(*source)[3] = must_calloc(n, sizeof *source);
     system_source(w->s, source);
     total = 0;
     for (uint32_t i = 0; i < n; i++)
@@ -321,8 +322,8 @@ static void gather(struct halves *w, uint32_t most)
     enum { FIRST_RAYS = 32 };
     const uint32_t n = w->out->count;
     struct gather g[2];
-    double(*b)[3] = solver_alloc(n, sizeof *b);
-    double(*source)[3] = solver_alloc(n, sizeof *source);
+    double(*b)[3] = must_calloc(n, sizeof *b);
+    double(*source)[3] = must_calloc(n, sizeof *source);
     system_source(w->s, source);
     for (uint32_t k = 0; k < 2; k++)
         gather_init(&g[k], w->s, w->settings, k);
@@ -355,7 +356,7 @@ static void gather(struct halves *w, uint32_t most)
 // cancel. A factor leaves what is dark dark.
 static void balance(struct radiosity_solution *out, const struct radiosity_system *s)
 {
-    double(*source)[3] = solver_alloc(out->count, sizeof *source);
+    double(*source)[3] = must_calloc(out->count, sizeof *source);
     double sent[3] = {0, 0, 0}, absorbed[3] = {0, 0, 0};
     system_source(s, source);
     for (uint32_t i = 0; i < out->count; i++) {
@@ -381,8 +382,8 @@ void solve_stochastic(struct radiosity_solution *out, const struct radiosity_sys
     struct halves w = {.s = s, .settings = settings, .out = out};
     for (uint32_t k = 0; k < 2; k++) {
         shots_init(&w.shots[k], s, settings, k);
-        w.mean[k].h = solver_alloc(n, sizeof *w.mean[k].h);
-        w.mean[k].h_emitted = solver_alloc(n, sizeof *w.mean[k].h_emitted);
+        w.mean[k].h = must_calloc(n, sizeof *w.mean[k].h);
+        w.mean[k].h_emitted = must_calloc(n, sizeof *w.mean[k].h_emitted);
     }
     smoother_init(&w.smoother, s, settings->threads);
     if (n && !watch_cancelled(settings->watch))

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "radiosity/solver.h"
 
@@ -24,8 +25,8 @@ struct sweep {
 static void find_rooms(struct sweep *w)
 {
     const size_t n = w->s->e->count;
-    uint32_t *queue = solver_alloc(n, sizeof *queue);
-    w->room = solver_alloc(n, sizeof *w->room);
+    uint32_t *queue = must_calloc(n, sizeof *queue);
+    w->room = must_calloc(n, sizeof *w->room);
     for (size_t i = 0; i < n; i++)
         w->room[i] = UINT32_MAX;
     for (size_t start = 0; start < n; start++) {
@@ -46,8 +47,8 @@ static void find_rooms(struct sweep *w)
         w->rooms++;
     }
     free(queue);
-    w->mode = solver_alloc(w->rooms, sizeof *w->mode);
-    w->missing = solver_alloc(w->rooms, sizeof *w->missing);
+    w->mode = must_calloc(w->rooms, sizeof *w->mode);
+    w->missing = must_calloc(w->rooms, sizeof *w->missing);
 }
 
 static void sweep_begin(struct sweep *w, const struct radiosity_system *s,
@@ -56,9 +57,9 @@ static void sweep_begin(struct sweep *w, const struct radiosity_system *s,
 {
     const size_t n = s->e->count;
     *w = (struct sweep){.s = s, .settings = settings, .out = out};
-    w->source = solver_alloc(n, sizeof *w->source);
-    w->sent = solver_alloc(n, sizeof *w->sent);
-    w->next = solver_alloc(n, sizeof *w->next);
+    w->source = must_calloc(n, sizeof *w->source);
+    w->sent = must_calloc(n, sizeof *w->sent);
+    w->next = must_calloc(n, sizeof *w->next);
     system_source(s, w->source);
     memcpy(out->b, w->source, n * sizeof *out->b);
     for (size_t i = 0; i < n; i++) {

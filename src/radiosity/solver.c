@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 
 const struct solver_settings solver_defaults = {
@@ -34,14 +35,6 @@ enum solver_kind solver_find(const char *name)
 const char *solver_name(enum solver_kind k) { return solvers[k].name; }
 
 bool solver_needs_matrix(enum solver_kind k) { return solvers[k].matrix; }
-
-void *solver_alloc(size_t count, size_t size)
-{
-    void *p = calloc(count + 1, size);
-    if (!p)
-        abort();
-    return p;
-}
 
 bool solution_init(struct radiosity_solution *s, uint32_t count)
 {
@@ -129,7 +122,7 @@ double mean_reflectance(const struct enclosure *e, int channel)
 void energy_defect(const struct radiosity_system *s, double (*h)[3],
                    const double *row_sum, double defect[3])
 {
-    double(*source)[3] = solver_alloc(s->e->count, sizeof *source);
+    double(*source)[3] = must_calloc(s->e->count, sizeof *source);
     double left[3] = {0, 0, 0}, right[3] = {0, 0, 0};
     system_source(s, source);
     for (uint32_t i = 0; i < s->e->count; i++) {
@@ -150,8 +143,8 @@ void solution_gather(struct radiosity_solution *out, const struct radiosity_syst
                      int threads)
 {
     const size_t n = s->e->count;
-    double(*e)[3] = solver_alloc(n, sizeof *e);
-    double *row_sum = solver_alloc(n, sizeof *row_sum), defect[3];
+    double(*e)[3] = must_calloc(n, sizeof *e);
+    double *row_sum = must_calloc(n, sizeof *row_sum), defect[3];
     factors_apply(s->f, out->b, out->h, threads);
     for (size_t i = 0; i < n; i++)
         element_emission(&s->e->element[i], e[i]);

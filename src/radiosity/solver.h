@@ -69,9 +69,6 @@ solver_function solve_elimination, solve_jacobi, solve_gauss_seidel, solve_shoot
     solve_cg, solve_stochastic, solve_hierarchical;
 
 // ---- between the solvers -------------------------------------------------
-// Memory for doubles, zeroed; ends the process when there is none (what is large was
-// asked for before).
-void *solver_alloc(size_t count, size_t size);
 // The source term E + rho lamps.
 void system_source(const struct radiosity_system *s, double (*source)[3]);
 static inline void element_reflectance(const struct element *e, double rho[3])

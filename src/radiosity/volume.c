@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "math/elementary.h"
 #include "radiosity/radiosity.h"
@@ -203,9 +204,7 @@ void volume_find(struct radiosity *r)
     const struct aabb box = job->has_media ? media_box(job) : aabb_empty();
     if (aabb_is_empty(box) || !aabb_is_finite(box))
         return;
-    struct volume *v = calloc(1, sizeof *v);
-    if (!v)
-        abort();
+    struct volume *v = must_calloc(1, sizeof *v);
     const struct vec3 size = vec3_sub(box.max, box.min);
     const double cell = fmax(size.x, fmax(size.y, size.z)) / CELLS;
     for (int k = 0; k < 3; k++)
@@ -213,9 +212,7 @@ void volume_find(struct radiosity *r)
     v->box = box;
     v->step = vec3(size.x / v->n[0], size.y / v->n[1], size.z / v->n[2]);
     const uint32_t count = v->n[0] * v->n[1] * v->n[2];
-    v->light = calloc(count, sizeof *v->light);
-    if (!v->light)
-        abort();
+    v->light = must_calloc(count, sizeof *v->light);
     r->volume = v;
     const struct parallel run = {.threads = r->settings.solver.threads,
                                  .piece = 16,

@@ -2,17 +2,12 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 struct boundary *boundary_list_add(struct boundary_list *l, double t, double dt,
                                    enum crossing c, uint32_t part)
 {
-    if (l->count == l->capacity) {
-        uint32_t capacity = l->capacity ? 2 * l->capacity : 16;
-        struct boundary *at = realloc(l->at, capacity * sizeof *at);
-        if (!at)
-            abort();
-        l->at = at;
-        l->capacity = capacity;
-    }
+    l->at = must_grow(l->at, l->count, &l->capacity, sizeof *l->at);
     struct boundary *b = &l->at[l->count++];
     *b = (struct boundary){
         .t = t, .dt = dt, .part = part, .crossing = (uint8_t)c, .drawn = 1};

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 
 static struct object *object_new(struct arena *a, enum object_kind kind,
                                  struct span where)
@@ -98,17 +99,12 @@ void object_transform(struct arena *a, struct object *o, const struct transform 
 
 struct frame_list {
     const struct object **at;
-    size_t count, capacity;
+    uint32_t count, capacity;
 };
 
 static void push(struct frame_list *l, const struct object *o)
 {
-    if (l->count == l->capacity) {
-        l->capacity = l->capacity ? 2 * l->capacity : 64;
-        l->at = realloc(l->at, l->capacity * sizeof *l->at);
-        if (!l->at)
-            abort();
-    }
+    l->at = must_grow(l->at, l->count, &l->capacity, sizeof *l->at);
     l->at[l->count++] = o;
 }
 

@@ -9,15 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NONE = -1 };
+#include "base/memory.h"
 
-static void *reserve(size_t count, size_t size)
-{
-    void *at = calloc(count ? count : 1, size);
-    if (!at)
-        abort();
-    return at;
-}
+enum { NONE = -1 };
 
 // ---- the grid ---------------------------------------------------------------------------
 
@@ -47,7 +41,7 @@ static void lay_grid(struct contour *c, int resolution)
 
 static void mark_corners(struct contour *c)
 {
-    c->inside = reserve(corner_at(c, 0, 0, c->cells[2] + 1), 1);
+    c->inside = must_calloc(corner_at(c, 0, 0, c->cells[2] + 1), 1);
     // The outermost corners lie outside the bounds.
     for (int k = 1; k < c->cells[2]; k++)
         for (int j = 1; j < c->cells[1]; j++)
@@ -74,9 +68,8 @@ static uint32_t add_crossing(struct contour *c, const int at[3], int axis, bool 
     const uint32_t v = tess_mesh_add_vertex(c->mesh, x.p);
     if (v >= c->crossing_capacity) {
         c->crossing_capacity = 2 * v + 1024;
-        c->crossing = realloc(c->crossing, c->crossing_capacity * sizeof *c->crossing);
-        if (!c->crossing)
-            abort();
+        c->crossing =
+            must_realloc(c->crossing, c->crossing_capacity, sizeof *c->crossing);
     }
     c->crossing[v] = x;
     return v;
@@ -141,9 +134,7 @@ static void add_fan(struct contour *c, struct vec3 low, const uint32_t *vertex, 
     if (centre >= c->feature_capacity) {
         const uint32_t old = c->feature_capacity;
         c->feature_capacity = 2 * centre + 1024;
-        c->feature = realloc(c->feature, c->feature_capacity);
-        if (!c->feature)
-            abort();
+        c->feature = must_realloc(c->feature, c->feature_capacity, sizeof *c->feature);
         memset(c->feature + old, 0, c->feature_capacity - old);
     }
     c->feature[centre] = feature;
@@ -200,7 +191,7 @@ void contour_solid(struct tess_solid *s, const struct contour_settings *settings
     const size_t slots = corner_at(&c, 0, 0, 1);
     for (int l = 0; l < 2; l++)
         for (int axis = 0; axis < 3; axis++)
-            layer[l].vertex[axis] = reserve(slots, sizeof **layer[l].vertex);
+            layer[l].vertex[axis] = must_calloc(slots, sizeof **layer[l].vertex);
     cross_layer(&c, 0, &layer[0]);
     for (int k = 0; k < c.cells[2]; k++) {
         cross_layer(&c, k + 1, &layer[1]);

@@ -1,6 +1,7 @@
 // The vertex of a loop, and edges along features (Kobbelt et al. 2001, sections 3.2, 3.3).
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "math/eigen.h"
 #include "tess/contour.h"
 
@@ -168,9 +169,7 @@ static int turned_order(const void *a, const void *b)
 
 static struct segment *segments_of(const struct tess_mesh *m)
 {
-    struct segment *s = malloc((m->triangle_count + 1) * sizeof *s);
-    if (!s)
-        abort();
+    struct segment *s = must_malloc(m->triangle_count + 1, sizeof *s);
     for (uint32_t t = 0; t < m->triangle_count; t++) {
         const uint32_t a = m->triangle[t][0], b = m->triangle[t][1];
         s[t] = (struct segment){a < b ? a : b, a < b ? b : a, t};
@@ -191,9 +190,7 @@ void contour_turn_edges(struct contour *c)
 {
     struct tess_mesh *m = c->mesh;
     struct segment *s = segments_of(m);
-    struct turned *pair = malloc((m->triangle_count + 1) * sizeof *pair);
-    if (!pair)
-        abort();
+    struct turned *pair = must_malloc(m->triangle_count + 1, sizeof *pair);
     uint32_t count = 0;
     for (uint32_t i = 0; i + 1 < m->triangle_count; i += 2) {
         const uint32_t f = m->triangle[s[i].triangle][2];

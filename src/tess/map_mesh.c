@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 enum { CELLS_MAX = 2048, ROUND_MIN = 8, TRIALS = 16 };
 
 // Points of an edge closer than this, relative to the piece, are one point.
@@ -105,11 +107,9 @@ static void add_piece(struct piece *p, double step, struct tess_mesh *out)
         return;
     p->nu = cells(u, step, p->map->wraps & MAP_WRAPS_U ? ROUND_MIN : 1);
     p->nv = cells(v, step, p->map->wraps & MAP_WRAPS_V ? ROUND_MIN : 1);
-    uint32_t *low = malloc((p->nu + 1) * sizeof *low);
-    uint32_t *high = malloc((p->nu + 1) * sizeof *high);
-    uint32_t *first = malloc((p->nu + 1) * sizeof *first);
-    if (!low || !high || !first)
-        abort();
+    uint32_t *low = must_malloc(p->nu + 1, sizeof *low);
+    uint32_t *high = must_malloc(p->nu + 1, sizeof *high);
+    uint32_t *first = must_malloc(p->nu + 1, sizeof *first);
     add_row(p, 0, low, out);
     memcpy(first, low, (p->nu + 1) * sizeof *first);
     for (uint32_t j = 0; j < p->nv; j++) {

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 void tess_mesh_free(struct tess_mesh *m)
 {
     free(m->vertex);
@@ -10,28 +12,18 @@ void tess_mesh_free(struct tess_mesh *m)
     *m = (struct tess_mesh){0};
 }
 
-static void *grown(void *at, uint32_t count, uint32_t *capacity, size_t size)
-{
-    if (count < *capacity)
-        return at;
-    *capacity = *capacity ? 2 * *capacity : 1024;
-    at = realloc(at, *capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 uint32_t tess_mesh_add_vertex(struct tess_mesh *m, struct vec3 p)
 {
-    m->vertex = grown(m->vertex, m->vertex_count, &m->vertex_capacity, sizeof *m->vertex);
+    m->vertex =
+        must_grow(m->vertex, m->vertex_count, &m->vertex_capacity, sizeof *m->vertex);
     m->vertex[m->vertex_count] = p;
     return m->vertex_count++;
 }
 
 void tess_mesh_add_triangle(struct tess_mesh *m, uint32_t a, uint32_t b, uint32_t c)
 {
-    m->triangle =
-        grown(m->triangle, m->triangle_count, &m->triangle_capacity, sizeof *m->triangle);
+    m->triangle = must_grow(m->triangle, m->triangle_count, &m->triangle_capacity,
+                            sizeof *m->triangle);
     uint32_t *t = m->triangle[m->triangle_count++];
     t[0] = a;
     t[1] = b;
@@ -59,9 +51,7 @@ static int side_order(const void *a, const void *b)
 
 static struct side *sides_of(const struct tess_mesh *m)
 {
-    struct side *side = malloc((3 * (size_t)m->triangle_count + 1) * sizeof *side);
-    if (!side)
-        abort();
+    struct side *side = must_malloc(3 * (size_t)m->triangle_count + 1, sizeof *side);
     for (uint32_t t = 0; t < m->triangle_count; t++) {
         for (int k = 0; k < 3; k++) {
             const uint32_t a = m->triangle[t][k], b = m->triangle[t][(k + 1) % 3];
@@ -100,9 +90,7 @@ static void join_corners(const struct tess_mesh *m, uint32_t *parent,
 
 static bool one_fan_each(const struct tess_mesh *m, uint32_t *parent)
 {
-    uint32_t *fan = malloc((m->vertex_count + 1) * sizeof *fan);
-    if (!fan)
-        abort();
+    uint32_t *fan = must_malloc(m->vertex_count + 1, sizeof *fan);
     memset(fan, 0xff, m->vertex_count * sizeof *fan);
     bool one = true;
     for (uint32_t c = 0; c < 3 * m->triangle_count && one; c++) {
@@ -117,9 +105,7 @@ static bool one_fan_each(const struct tess_mesh *m, uint32_t *parent)
 
 static long vertices_in_use(const struct tess_mesh *m)
 {
-    uint8_t *used = calloc(m->vertex_count + 1, 1);
-    if (!used)
-        abort();
+    uint8_t *used = must_calloc(m->vertex_count + 1, 1);
     for (uint32_t t = 0; t < m->triangle_count; t++)
         for (int k = 0; k < 3; k++)
             used[m->triangle[t][k]] = 1;
@@ -151,9 +137,7 @@ struct tess_report tess_mesh_report(const struct tess_mesh *m)
     struct tess_report r = {.closed = true, .oriented = true};
     const size_t n = 3 * (size_t)m->triangle_count;
     struct side *side = sides_of(m);
-    uint32_t *parent = malloc((n + 1) * sizeof *parent);
-    if (!parent)
-        abort();
+    uint32_t *parent = must_malloc(n + 1, sizeof *parent);
     for (size_t i = 0; i < n; i++)
         parent[i] = (uint32_t)i;
     long edges = 0;

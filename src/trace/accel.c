@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
@@ -18,10 +19,8 @@
 static void build_leaf_tree(struct arena *a, const struct world *w,
                             const struct world_object *o, struct accel_large *large)
 {
-    struct aabb *box = malloc(o->leaf_count * sizeof *box);
-    uint32_t *leaf = malloc(o->leaf_count * sizeof *leaf);
-    if (!box || !leaf)
-        abort();
+    struct aabb *box = must_malloc(o->leaf_count, sizeof *box);
+    uint32_t *leaf = must_malloc(o->leaf_count, sizeof *leaf);
     uint32_t n = 0, infinite = 0;
     for (uint32_t i = 0; i < o->leaf_count; i++)
         infinite += !aabb_is_finite(w->leaf[o->first_leaf + i].bounds) &&
@@ -458,10 +457,8 @@ static bool is_of_part(const struct world *w, const struct world_object *o,
 static void build_top(struct arena *a, const struct world *w, struct accel *accel,
                       enum accel_part part)
 {
-    struct aabb *box = malloc((w->object_count + 1) * sizeof *box);
-    uint32_t *object = malloc((w->object_count + 1) * sizeof *object);
-    if (!box || !object)
-        abort();
+    struct aabb *box = must_malloc(w->object_count + 1, sizeof *box);
+    uint32_t *object = must_malloc(w->object_count + 1, sizeof *object);
     uint32_t n = 0, infinite = 0, balls = 0;
     for (uint32_t i = 0; i < w->object_count; i++)
         infinite += !aabb_is_finite(w->object[i].bounds);

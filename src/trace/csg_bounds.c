@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "scene/shapes/plane.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"
@@ -300,10 +301,8 @@ struct aabb csg_bound(struct csg_node *node, uint32_t root, uint32_t count,
         node[root].base_inside = leaf[node[root].leaf].inverted;
         return node[root].bounds = drawn_bounds(&leaf[node[root].leaf]);
     }
-    struct boxes *box = malloc((count - root) * sizeof *box);
-    struct aabb *suffix = malloc((count - root + 1) * sizeof *suffix);
-    if (!box || !suffix)
-        abort();
+    struct boxes *box = must_malloc(count - root, sizeof *box);
+    struct aabb *suffix = must_malloc(count - root + 1, sizeof *suffix);
     for (uint32_t i = count; i-- > root;) {
         struct csg_node *n = &node[i];
         struct boxes *to = &box[i - root];

@@ -5,16 +5,12 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "trace/face.h"
 
 struct face *faces_add(struct faces *f)
 {
-    if (f->count == f->capacity) {
-        f->capacity = f->capacity ? 2 * f->capacity : 64;
-        f->at = realloc(f->at, f->capacity * sizeof *f->at);
-        if (!f->at)
-            abort();
-    }
+    f->at = must_grow(f->at, f->count, &f->capacity, sizeof *f->at);
     struct face *x = &f->at[f->count++];
     *x = (struct face){.flat = false};
     return x;
@@ -144,12 +140,7 @@ static void list_pair(struct hunt *h, const struct face *f, const struct face *g
                              ? f->clear
                              : h->w->leaf[f->leaf].object > h->w->leaf[g->leaf].object;
     const struct face *later = f_later ? f : g, *earlier = f_later ? g : f;
-    if (h->count == h->capacity) {
-        h->capacity = h->capacity ? 2 * h->capacity : 64;
-        h->pair = realloc(h->pair, h->capacity * sizeof *h->pair);
-        if (!h->pair)
-            abort();
-    }
+    h->pair = must_grow(h->pair, h->count, &h->capacity, sizeof *h->pair);
     h->pair[h->count++] = (struct face_pair){
         .leaf = later->leaf,
         .seen = h->w->leaf[earlier->leaf].object,
@@ -271,9 +262,7 @@ bool face_pairs_mark(struct world *w)
         c.width *= 1 + fmax(vec3_max_abs(w->bounds.min), vec3_max_abs(w->bounds.max));
     while (c.bits < 18 && (uint64_t)1 << c.bits < 16 * (uint64_t)w->leaf_count)
         c.bits++;
-    c.count = calloc((size_t)1 << c.bits, 1);
-    if (!c.count)
-        abort();
+    c.count = must_calloc((size_t)1 << c.bits, 1);
     walk(w, &f, &c, count_faces);
     walk(w, &f, &c, keep_faces);
     const bool found = f.count > 1 && f.count <= FACES_MOST && mark(w, &f);

@@ -43,25 +43,19 @@ const struct trace_stats *trace_scratch_stats(struct trace_scratch *s)
     return &s->stats;
 }
 
-static void *aligned(size_t size)
-{
-    void *p = aligned_alloc(64, (size + 63) & ~(size_t)63);
-    if (!p)
-        abort();
-    return p;
-}
+static void *aligned(size_t count, size_t size) { return must_align(64, count, size); }
 
 struct ray_batch *ray_batch_new(uint32_t capacity)
 {
     struct ray_batch *b = must_calloc(1, sizeof *b);
     b->capacity = (capacity + 7) & ~7u;
     for (int i = 0; i < 3; i++) {
-        b->o[i] = aligned(b->capacity * sizeof(double));
-        b->d[i] = aligned(b->capacity * sizeof(double));
+        b->o[i] = aligned(b->capacity, sizeof(double));
+        b->d[i] = aligned(b->capacity, sizeof(double));
     }
-    b->t_min = aligned(b->capacity * sizeof(double));
-    b->t_max = aligned(b->capacity * sizeof(double));
-    b->hidden_by = aligned(b->capacity * sizeof(unsigned));
+    b->t_min = aligned(b->capacity, sizeof(double));
+    b->t_max = aligned(b->capacity, sizeof(double));
+    b->hidden_by = aligned(b->capacity, sizeof(unsigned));
     return b;
 }
 
@@ -71,9 +65,9 @@ struct hit_batch *hit_batch_new(uint32_t capacity)
     capacity = (capacity + 7) & ~7u;
     double **const number[] = {&b->t, &b->dt, &b->part, &b->u, &b->v};
     for (int i = 0; i < 5; i++)
-        *number[i] = aligned(capacity * sizeof(double));
-    b->leaf = aligned(capacity * sizeof *b->leaf);
-    b->crossing = aligned(capacity);
+        *number[i] = aligned(capacity, sizeof(double));
+    b->leaf = aligned(capacity, sizeof *b->leaf);
+    b->crossing = aligned(capacity, 1);
     return b;
 }
 

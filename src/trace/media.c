@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
 #include "scene/texture.h"
@@ -390,9 +391,7 @@ void media_init(struct tracer *t)
 {
     if (!t->job->has_media)
         return;
-    t->media = calloc(2, sizeof *t->media);
-    if (!t->media)
-        abort();
+    t->media = must_calloc(2, sizeof *t->media);
     for (int i = 0; i < 2; i++)
         t->media[i].arena = arena_new(4096);
     struct media_scratch *s = &t->media[WAY_SHADOW];

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "scene/mesh_camera.h"
 
 // Rays of several samples, to be traced together.
@@ -59,11 +60,9 @@ void mesh_samples(struct tracer *t, const struct vec2 *position, uint32_t count,
                   float (*out)[4])
 {
     const struct job *job = t->job;
-    struct bundle *b = malloc(sizeof *b);
-    double(*sum)[4] = calloc(count ? count : 1, sizeof *sum);
-    uint32_t *rays = calloc(count ? count : 1, sizeof *rays);
-    if (!b || !sum || !rays)
-        abort();
+    struct bundle *b = must_malloc(1, sizeof *b);
+    double(*sum)[4] = must_calloc(count, sizeof *sum);
+    uint32_t *rays = must_calloc(count, sizeof *rays);
     b->count = 0;
     b->memo = (struct mesh_camera_memo){.mesh = NULL};
     for (uint32_t i = 0; i < count; i++) {

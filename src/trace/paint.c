@@ -19,14 +19,9 @@ void paint_init(struct tracer *t)
     const uint32_t count = t->job->paint_count;
     if (!count)
         return;
-    struct paint_scratch *s = t->paint =
-        aligned_alloc(64, (sizeof *t->paint + 63) & ~(size_t)63);
-    if (!s)
-        abort();
-    s->head = malloc(count * sizeof *s->head);
-    s->tail = malloc(count * sizeof *s->tail);
-    if (!s->head || !s->tail)
-        abort();
+    struct paint_scratch *s = t->paint = must_align(64, 1, sizeof *t->paint);
+    s->head = must_malloc(count, sizeof *s->head);
+    s->tail = must_malloc(count, sizeof *s->tail);
     for (uint32_t i = 0; i < count; i++)
         s->head[i] = END;
     s->seen_count = s->group_count = s->sheet_count = s->coat_count = 0;

@@ -22,9 +22,7 @@ static uint32_t room_for(struct photon_map *m, uint32_t more)
     m->capacity = m->capacity < 32 ? 64 : 2 * m->capacity;
     if (m->capacity < least)
         m->capacity = least;
-    m->photon = realloc(m->photon, m->capacity * sizeof *m->photon);
-    if (!m->photon)
-        abort();
+    m->photon = must_realloc(m->photon, m->capacity, sizeof *m->photon);
     return more;
 }
 

@@ -58,19 +58,9 @@ void photon_volley_free(struct photon_volley *v)
 
 // ---- filling -------------------------------------------------------------------------
 
-static void *grown(void *at, uint32_t *capacity, size_t size)
-{
-    *capacity = *capacity ? 2 * *capacity : 256;
-    at = realloc(at, *capacity * size);
-    if (!at)
-        abort();
-    return at;
-}
-
 static void flock_begin(struct photon_volley *v)
 {
-    if (v->flock_count == v->flock_capacity)
-        v->flock = grown(v->flock, &v->flock_capacity, sizeof *v->flock);
+    v->flock = must_grow(v->flock, v->flock_count, &v->flock_capacity, sizeof *v->flock);
     struct flock *f = &v->flock[v->flock_count++];
     if (v->flock_count > v->flock_made) {
         v->flock_made = v->flock_count;
@@ -94,8 +84,7 @@ void photon_volley_shot(struct photon_volley *v, struct vec3 o, struct vec3 d,
     const struct flock *last = &v->flock[v->flock_count - 1];
     if (last->end - last->begin == FLOCK)
         flock_begin(v);
-    if (v->shot_count == v->shot_capacity)
-        v->shot = grown(v->shot, &v->shot_capacity, sizeof *v->shot);
+    v->shot = must_grow(v->shot, v->shot_count, &v->shot_capacity, sizeof *v->shot);
     v->shot[v->shot_count++] = (struct photon_shot){o, d, hash};
     v->flock[v->flock_count - 1].end++;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/elementary.h"
 #include "trace/packet.h"
 #include "trace/photon_volley.h"
@@ -362,9 +363,7 @@ struct photons *photons_shoot(const struct job *job, const struct photon_store *
 {
     if (!photons_wanted(job))
         return NULL;
-    struct photons *p = calloc(1, sizeof *p);
-    if (!p)
-        abort();
+    struct photons *p = must_calloc(1, sizeof *p);
     if (!store || !store->load) {
         shoot_all(p, job, cancel);
     } else if (!store->load(store->user, p)) {

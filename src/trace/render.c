@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/stack.h"
 #include "trace/photons.h"
 #include "trace/scratch.h"
@@ -144,10 +145,8 @@ static void *work_deep(void *user)
 static void work_in_threads(struct render *r)
 {
     const uint32_t count = thread_count(&r->job->settings, r->tiles_total);
-    pthread_t *thread = calloc(count + 1, sizeof *thread);
+    pthread_t *thread = must_calloc(count + 1, sizeof *thread);
     uint32_t started = 0;
-    if (!thread)
-        abort();
     // This thread works too; if the system refuses a thread, the others do its share.
     while (started + 1 < count &&
            pthread_create(&thread[started], NULL, work_deep, r) == 0)
@@ -237,7 +236,7 @@ bool render_world(const struct world *w, const struct render_settings *settings,
     struct render_settings s = *settings;
     settings_check(&s);
     if (!out->pixel && !image_init(out, s.width, s.height, 4))
-        abort();
+        out_of_memory();
     struct arena *arena = arena_new(4096);
     struct job job;
     job_init(&job, arena, w, &s);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/isa.h"
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
@@ -231,15 +232,12 @@ void simple_init(struct tracer *t)
     const uint32_t classes = t->job->simple_class_count;
     if (!classes)
         return;
-    t->group = aligned_alloc(64, (BATCH_SIZE / 8 * sizeof *t->group + 63) & ~(size_t)63);
-    t->class_head = malloc(classes * sizeof *t->class_head);
-    t->class_tail = malloc(classes * sizeof *t->class_tail);
-    t->class_seen = malloc(BATCH_SIZE * sizeof *t->class_seen);
-    t->run = malloc(BATCH_SIZE * sizeof *t->run);
-    t->class_ray = malloc(BATCH_SIZE * sizeof *t->class_ray);
-    if (!t->group || !t->class_head || !t->class_tail || !t->class_seen || !t->run ||
-        !t->class_ray)
-        abort();
+    t->group = must_align(64, BATCH_SIZE / 8, sizeof *t->group);
+    t->class_head = must_malloc(classes, sizeof *t->class_head);
+    t->class_tail = must_malloc(classes, sizeof *t->class_tail);
+    t->class_seen = must_malloc(BATCH_SIZE, sizeof *t->class_seen);
+    t->run = must_malloc(BATCH_SIZE, sizeof *t->run);
+    t->class_ray = must_malloc(BATCH_SIZE, sizeof *t->class_ray);
     for (uint32_t i = 0; i < classes; i++)
         t->class_head[i] = END;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "math/gamma.h"
 #include "scene/shape_kernels.h"
 #include "trace/accel.h"
@@ -76,12 +77,7 @@ static double moved_error(const struct world *w, const struct ray *ray,
 
 static void keep_own_dt(struct trace_scratch *s, struct boundary *b, double dt)
 {
-    if (s->own_count == s->own_capacity) {
-        s->own_capacity = s->own_capacity ? 2 * s->own_capacity : 64;
-        s->own_dt = realloc(s->own_dt, s->own_capacity * sizeof *s->own_dt);
-        if (!s->own_dt)
-            abort();
-    }
+    s->own_dt = must_grow(s->own_dt, s->own_count, &s->own_capacity, sizeof *s->own_dt);
     s->own_dt[s->own_count++] = dt;
     b->own = s->own_count;
 }

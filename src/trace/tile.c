@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "trace/shade_kernel.h"
 
 // Every other bit of a Morton code, from bit 0: one coordinate.
@@ -171,9 +172,7 @@ static void smoothed(struct tracer *t, const struct tile_tables *tables,
 {
     const struct job *job = t->job;
     const int width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
-    float(*color)[4] = malloc((size_t)(width * height) * sizeof *color);
-    if (!color)
-        abort();
+    float(*color)[4] = must_malloc((size_t)width * height, sizeof *color);
     const struct antialias a = {.settings = &job->settings,
                                 .jitter = &tables->jitter,
                                 .working = working_gamma(&job->scene->settings),
@@ -270,10 +269,8 @@ static void blurred(struct tracer *t, const struct tile_tables *tables,
                     const struct render_tile *tile, struct image *out)
 {
     const int width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
-    struct blurred *pixel = calloc((size_t)count, sizeof *pixel);
-    struct lens_rays *rays = malloc(sizeof *rays);
-    if (!pixel || !rays)
-        abort();
+    struct blurred *pixel = must_calloc((size_t)count, sizeof *pixel);
+    struct lens_rays *rays = must_malloc(1, sizeof *rays);
     rays->count = 0;
     for (int i = 0; i < count; i++)
         pixel[i].open = true;

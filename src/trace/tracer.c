@@ -36,9 +36,7 @@ static void near_photons_init(struct tracer *t)
 
 struct tracer *tracer_new(const struct job *job)
 {
-    struct tracer *t = aligned_alloc(_Alignof(struct tracer), sizeof *t);
-    if (!t)
-        abort();
+    struct tracer *t = must_align(_Alignof(struct tracer), 1, sizeof *t);
     memset(t, 0, sizeof *t);
     t->job = job;
     t->scratch = trace_scratch_new(job->world);

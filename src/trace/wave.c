@@ -489,8 +489,8 @@ static uint32_t piece(const struct path_queue *q, uint32_t begin)
 
 static struct wave_frame *frame_at(struct wave_frame **slot)
 {
-    if (!*slot && !(*slot = calloc(1, sizeof **slot)))
-        abort();
+    if (!*slot)
+        *slot = must_calloc(1, sizeof **slot);
     return *slot;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "trace/accel.h"
 #include "trace/coincident.h"
 #include "trace/csg_bounds.h"
@@ -15,9 +16,7 @@ void *world_build_add(struct vector *v, uint32_t n)
         uint32_t capacity = v->capacity ? v->capacity : 64;
         while (capacity < v->count + n)
             capacity *= 2;
-        v->at = realloc(v->at, capacity * v->size);
-        if (!v->at)
-            abort();
+        v->at = must_realloc(v->at, capacity, v->size);
         v->capacity = capacity;
     }
     char *p = (char *)v->at + v->count * v->size;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/next_float.h"
 #include "scene/shapes/isosurface.h"
 
@@ -146,9 +147,7 @@ struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
     struct iso_cell *c = atomic_load_explicit(&cell->child, memory_order_acquire);
     if (c)
         return c;
-    c = calloc(8, sizeof *c);
-    if (!c)
-        abort();
+    c = must_calloc(8, sizeof *c);
     const struct vec3 m = vec3_scale(0.5, vec3_add(box->min, box->max));
     const double slack = WIDENED * vec3_max_abs(vec3_sub(s->bounds.max, s->bounds.min));
     struct aabb b[8];

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/gamma.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
@@ -32,9 +33,7 @@ static struct aabb box_of(const void *user, uint32_t i)
 
 void mesh_finish(struct mesh *m, struct arena *a)
 {
-    uint32_t *face = malloc((m->face_count + 1) * sizeof *face);
-    if (!face)
-        abort();
+    uint32_t *face = must_malloc(m->face_count + 1, sizeof *face);
     uint32_t count = 0;
     m->bounds = aabb_empty();
     for (uint32_t f = 0; f < m->face_count; f++) {

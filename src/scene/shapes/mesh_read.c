@@ -1,7 +1,6 @@
 // mesh2 { vertex_vectors {} ... }, and what it has in common with mesh { } when read.
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -9,20 +8,6 @@
 #include "scene/shape.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/mesh_read.h"
-
-// An array that doubles in the arena.
-static void *grown(struct arena *a, void *old, uint32_t count, uint32_t *capacity,
-                   size_t size)
-{
-    if (count < *capacity)
-        return old;
-    const uint32_t more = *capacity ? 2 * *capacity : 64;
-    void *p = arena_alloc(a, more * size);
-    if (count)
-        memcpy(p, old, count * size);
-    *capacity = more;
-    return p;
-}
 
 static const double zero_normal_within = 1e-10;
 
@@ -104,7 +89,7 @@ static bool read_vectors(struct args *block, struct arena *a, struct vec3 **out,
         return false;
     // Grown as they come: the count may lie about a file that ends early.
     for (uint32_t i = 0; i < n; i++) {
-        *out = grown(a, *out, i, &capacity, sizeof **out);
+        *out = arena_grow(a, *out, i, &capacity, sizeof **out);
         if (!args_vec3(block, "vector", &(*out)[i]))
             return false;
     }
@@ -124,7 +109,7 @@ static bool read_uvs(struct args *block, struct arena *a, struct mesh *m)
     if (!read_count(block, &n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
-        m->uv = grown(a, m->uv, i, &capacity, sizeof *m->uv);
+        m->uv = arena_grow(a, m->uv, i, &capacity, sizeof *m->uv);
         if (!args_vec2(block, "uv vector", &m->uv[i]))
             return false;
     }
@@ -153,7 +138,8 @@ static bool read_face_textures(struct mesh *m, struct args *block, struct arena 
     }
     if (m->texture_count == 0)
         return true;
-    m->face_texture = grown(a, m->face_texture, face, capacity, sizeof *m->face_texture);
+    m->face_texture =
+        arena_grow(a, m->face_texture, face, capacity, sizeof *m->face_texture);
     for (uint32_t i = 0; i < 3; i++)
         m->face_texture[face][i] = n == 0 ? UINT32_MAX : index[n == 1 ? 0 : i];
     return true;
@@ -170,7 +156,7 @@ static bool read_texture_list(struct mesh *m, struct args *block, struct arena *
             args_reject(block, "there are fewer textures than said");
             return false;
         }
-        m->texture = grown(a, m->texture, i, &capacity, sizeof *m->texture);
+        m->texture = arena_grow(a, m->texture, i, &capacity, sizeof *m->texture);
         m->texture[i] = x;
         m->texture_count = i + 1;
     }
@@ -206,7 +192,7 @@ static bool read_indices(struct args *block, struct arena *a, uint32_t limit,
         return false;
     for (uint32_t i = 0; i < n; i++) {
         struct vec3 v;
-        *out = grown(a, *out, i, &capacity, sizeof **out);
+        *out = arena_grow(a, *out, i, &capacity, sizeof **out);
         if (!args_vec3(block, "indices", &v))
             return false;
         const double at[3] = {v.x, v.y, v.z};

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "scene/shapes/mesh_read.h"
 
 // Rows of one size that grow by doubling outside the arena, where what they grew out of
@@ -14,12 +15,7 @@ struct rows {
 
 static void *rows_add(struct rows *r, size_t size)
 {
-    if (r->count == r->capacity) {
-        r->capacity = r->capacity ? 2 * r->capacity : 4;
-        r->at = realloc(r->at, r->capacity * size);
-        if (!r->at)
-            abort();
-    }
+    r->at = must_grow(r->at, r->count, &r->capacity, size);
     return (char *)r->at + r->count++ * size;
 }
 
@@ -48,9 +44,7 @@ static void more_slots(struct table *t, size_t words)
 {
     free(t->slot);
     t->slots = t->slots ? 2 * t->slots : 16;
-    t->slot = calloc(t->slots, sizeof *t->slot);
-    if (!t->slot)
-        abort();
+    t->slot = must_calloc(t->slots, sizeof *t->slot);
     for (uint32_t i = 0; i < t->rows.count; i++)
         *slot_of(t, (const uint64_t *)t->rows.at + i * words, words) = i + 1;
 }

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "math/next_float.h"
 #include "scene/shapes/parametric.h"
 
@@ -166,9 +167,7 @@ struct uv_cell *uv_children(const struct parametric *p, struct uv_cell *cell, in
     struct uv_cell *c = atomic_load_explicit(&cell->child, memory_order_acquire);
     if (c)
         return c;
-    c = calloc(8, sizeof *c);
-    if (!c)
-        abort();
+    c = must_calloc(8, sizeof *c);
     divide(p, cell, c);
     for (int i = 0; i < 3; i++) {
         if (!tape_is_opaque(p->f[i])) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/memory.h"
 #include "scene/shapes/patch.h"
 
 // A leaf is where the first derivatives differ from their mean by less than this share: a
@@ -148,9 +149,7 @@ struct patch_half *patch_halves(struct patch_leaf *l)
     struct patch_half *half = atomic_load_explicit(&l->half, memory_order_acquire);
     if (half)
         return half;
-    half = calloc(2, sizeof *half);
-    if (!half)
-        abort();
+    half = must_calloc(2, sizeof *half);
     double length;
     split(l, bend(l, true, &length) >= bend(l, false, &length), &half[0].leaf,
           &half[1].leaf);

@@ -10,3 +10,7 @@ check_PROGRAMS += test_stack
 test_stack_SOURCES = %D%/test_stack.c
 test_stack_CPPFLAGS = $(test_cppflags)
 test_stack_LDADD = $(test_ldadd)
+check_PROGRAMS += test_memory
+test_memory_SOURCES = %D%/test_memory.c
+test_memory_CPPFLAGS = $(test_cppflags)
+test_memory_LDADD = $(test_ldadd)
