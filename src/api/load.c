@@ -84,7 +84,7 @@ enum { SCENE_BYTES_MAX = 1 << 30 };
 static enum lambert_status open_source(struct lambert_context *ctx, const char *path,
                                        const char *header, uint32_t *file)
 {
-    struct arena *a = ctx->scene_arena = arena_new(1 << 20);
+    struct arena *a = ctx->scene_arena = arena_new(1 << 17);
     source_map_init(&ctx->sources, a);
     ctx->diags =
         (struct diag_sink){.emit = emit,
