@@ -289,6 +289,8 @@ bool args_pov_patches(struct args *a) { return a->b->e->options->pov_patches; }
 
 struct arena *args_arena(struct args *a) { return a->b->arena; }
 
+void **args_shared(struct args *a) { return &a->b->shared[a->owner->word]; }
+
 struct diag_sink *args_diags(struct args *a) { return a->b->e->diags; }
 
 struct span args_where(struct args *a) { return args_span(a); }

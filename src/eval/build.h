@@ -45,7 +45,8 @@ struct builder {
     struct pointer_list objects, fogs, rainbows, medias, past_defaults;
     struct pointer_list cameras; // if one of them is to be chosen
     bool gamma_set, noise_set;
-    struct image_file *images;  // read so far
+    struct image_file *images; // read so far
+    void *shared[WORD_COUNT];  // by a shape's keyword: what all shapes of it share
 };
 
 // The items of one block, read in order.

@@ -81,6 +81,8 @@ const struct texels *args_image(struct args *a, struct transfer *decode);
 bool args_pov_patches(struct args *a);
 
 struct arena *args_arena(struct args *a); // the scene's
+// A place of the scene's for all shapes of this keyword, NULL at first: what they share.
+void **args_shared(struct args *a);
 struct diag_sink *args_diags(struct args *a);
 struct span args_where(struct args *a); // of the next item, or of the block's end
 const char *args_owner(struct args *a);

@@ -19,7 +19,7 @@ liblambert_a_SOURCES += \
 # functions
 liblambert_a_SOURCES += \
 	%D%/tape.def %D%/tape.h %D%/tape_bounds.c %D%/tape_build.c %D%/tape_build.h \
-	%D%/tape_builder.h %D%/tape_call.c %D%/tape_finish.c \
+	%D%/tape_builder.h %D%/tape_call.c %D%/tape_equal.c %D%/tape_finish.c \
 	%D%/tape_packet.c %D%/range_lanes.h %D%/tape_print.c %D%/tape_run.c %D%/tape_steps.h
 # textures
 liblambert_a_SOURCES += \

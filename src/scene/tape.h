@@ -30,6 +30,8 @@ int tape_width(const struct tape *t); // results: 1, or those of a vector functi
 // its values may be wide, and those of its slopes the whole line, however small the box.
 bool tape_is_opaque(const struct tape *t);
 uint32_t tape_length(const struct tape *t); // steps
+// Whether both do the same steps with the same numbers and the same data.
+bool tape_equal(const struct tape *t, const struct tape *u);
 
 // False: sum and prod, all loops inside of one together, would take more turns than this;
 // what hangs on them is no number then.

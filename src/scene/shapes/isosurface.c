@@ -75,7 +75,7 @@ static bool build(void *shape, struct args *args)
     while (read_item(args, s))
         ;
     s->bounds = container_bounds(&s->container);
-    s->root = iso_tree_new(args_arena(args));
+    s->root = iso_tree_of(s, args_arena(args), args_shared(args));
     return true;
 }
 

@@ -39,7 +39,9 @@ struct isosurface {
 // The eight children, made now if they are not there. Counts evaluations.
 struct iso_cell *iso_children(const struct isosurface *s, struct iso_cell *cell,
                               const struct aabb *box, int depth, uint32_t *evaluations);
-struct iso_cell *iso_tree_new(struct arena *a);
+// The root of the cells, which isosurfaces share that differ in none of what decides them;
+// *trees: those of the scene.
+struct iso_cell *iso_tree_of(const struct isosurface *s, struct arena *a, void **trees);
 
 static inline struct aabb iso_child_box(const struct aabb *box, const struct vec3 *m,
                                         int octant)

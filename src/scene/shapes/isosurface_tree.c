@@ -1,6 +1,7 @@
 // The cells of an isosurface's container (isosurface.h).
 #include <float.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/memory.h"
@@ -8,8 +9,9 @@
 #include "scene/shapes/isosurface.h"
 
 enum {
-    DEPTH_MAX = 6,    // 64 cells along an axis: 14 MB if the surface were in all of them
-    DEPTH_SMOOTH = 3, // enough where the gradient hardly turns
+    DEPTH_MAX = 6,     // 64 cells along an axis: 14 MB if the surface were in all of them
+    DEPTH_SMOOTH = 3,  // enough where the gradient hardly turns
+    COMPARED_MAX = 64, // trees, the youngest, when an isosurface looks for its own
 };
 
 // The gradient hardly turns in a cell whose bounds of it are this much smaller than itself. Halves
@@ -27,18 +29,38 @@ static void free_cells(struct iso_cell *c)
     free(c);
 }
 
-static void free_tree(void *root)
+struct iso_tree {
+    struct iso_cell root;
+    struct isosurface of; // the first that has it
+    struct iso_tree *next;
+};
+
+static void free_tree(void *tree)
 {
-    struct iso_cell *c = root;
-    free_cells(atomic_load_explicit(&c->child, memory_order_relaxed));
+    struct iso_tree *t = tree;
+    free_cells(atomic_load_explicit(&t->root.child, memory_order_relaxed));
 }
 
-struct iso_cell *iso_tree_new(struct arena *a)
+static bool has_same_cells(const struct isosurface *s, const struct isosurface *r)
 {
-    struct iso_cell *root = arena_new_struct(a, struct iso_cell);
-    root->kind = CELL_BRANCH;
-    arena_at_end(a, free_tree, root);
-    return root;
+    return s->threshold == r->threshold && s->max_gradient == r->max_gradient &&
+           memcmp(&s->bounds, &r->bounds, sizeof s->bounds) == 0 &&
+           tape_equal(s->f, r->f);
+}
+
+struct iso_cell *iso_tree_of(const struct isosurface *s, struct arena *a, void **trees)
+{
+    struct iso_tree *t = *trees;
+    for (int i = 0; t && i < COMPARED_MAX; t = t->next, i++)
+        if (has_same_cells(s, &t->of))
+            return &t->root;
+    t = arena_new_struct(a, struct iso_tree);
+    t->root.kind = CELL_BRANCH;
+    t->of = *s;
+    t->next = *trees;
+    *trees = t;
+    arena_at_end(a, free_tree, t);
+    return &t->root;
 }
 
 // Whether the gradient points one way, more or less.

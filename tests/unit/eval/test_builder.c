@@ -2,6 +2,7 @@
 
 #include "base/arena.h"
 #include "eval/eval.h"
+#include "scene/shapes/isosurface.h"
 #include "scene/shapes/mesh.h"
 
 static void ignore(void *user, const struct diag *d)
@@ -127,6 +128,38 @@ static void a_wrong_triangle_is_one_error(void **state)
     arena_free(a);
 }
 
+static const struct iso_cell *cells_of(const struct scene *s, uint32_t i)
+{
+    return ((const struct isosurface *)s->object[i]->shape)->root;
+}
+
+// Written again (by a macro, say) it is the same to a ray; its clip or hints do not matter.
+static void equal_isosurfaces_share_their_cells(void **state)
+{
+    (void)state;
+    struct arena *a = arena_new(1 << 16);
+    struct scene s = {0};
+    const char *text =
+        "#declare f_noise3d = function { internal(76) }\n"
+        "#declare F = function(x, y, z, R) { x*x + y*y + f_noise3d(z, x, y) - R }\n"
+        "#declare F3 = function { pigment { granite } }\n"
+        "#macro Iso(R) isosurface { function { F(x, y, z, R) } #end\n"
+        "Iso(1) } Iso(1) accuracy 0.01 open translate x } Iso(2) } Iso(1) threshold 0.5 "
+        "}\n"
+        "Iso(1) contained_by { box { -1, 2 } } } Iso(1) max_gradient 3 } Iso(1) }\n"
+        "isosurface { function { F3(x, y, z).red } } isosurface { function { F3(x, y, "
+        "z).red } }\n"
+        "isosurface { function { F3(x, y, z).green } }";
+    assert_int_equal(read_scene(a, text, &s), 0);
+    assert_int_equal(s.object_count, 10);
+    const uint32_t same_as[] = {0, 0, 2, 3, 4, 5, 0, 7, 7, 9};
+    for (uint32_t i = 0; i < 10; i++)
+        for (uint32_t k = 0; k < 10; k++)
+            assert_int_equal(cells_of(&s, i) == cells_of(&s, k),
+                             same_as[i] == same_as[k]);
+    arena_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -135,6 +168,7 @@ int main(void)
         cmocka_unit_test(misplaced_items_are_errors),
         cmocka_unit_test(meshes_keep_corners_once),
         cmocka_unit_test(a_wrong_triangle_is_one_error),
+        cmocka_unit_test(equal_isosurfaces_share_their_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,7 @@ struct args {
     struct diag_sink *diags;
     struct args *parent;
     bool failed;
+    void *shared;
 };
 
 struct args *fake_args_new(struct arena *a, struct diag_sink *sink, const char *text)
@@ -258,6 +259,7 @@ bool args_pov_patches(struct args *a)
     return false;
 }
 struct arena *args_arena(struct args *a) { return a->arena; }
+void **args_shared(struct args *a) { return &a->shared; }
 struct diag_sink *args_diags(struct args *a) { return a->diags; }
 struct span args_where(struct args *a)
 {
