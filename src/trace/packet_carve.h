@@ -247,13 +247,34 @@ static unsigned inside_at(const struct carving *c, unsigned lanes, struct real8 
     return in;
 }
 
-// The same on the stretch at hand, where the solid has no crossing.
+// The lanes that are in a box at t.
+static unsigned in_box(const struct ray8 *ray, const struct aabb *b, struct real8 t)
+{
+    const struct vec8 p = v8_mad(ray->o, t, ray->d), min = V8_SET(b->min),
+                      max = V8_SET(b->max);
+    const struct mask8 x = m8_and(r8_le(min.x, p.x), r8_le(p.x, max.x)),
+                       y = m8_and(r8_le(min.y, p.y), r8_le(p.y, max.y)),
+                       z = m8_and(r8_le(min.z, p.z), r8_le(p.z, max.z));
+    return m8_bits(m8_and(m8_and(x, y), z));
+}
+
+// The same on the stretch at hand, where the solid has no crossing: outside if one end is out of
+// its box, else as in the middle.
 static unsigned inside_between(const struct carving *c, unsigned lanes)
 {
     const struct real8 lo = c->begin, hi = r8_min(c->end, c->limit);
+    const struct leaf *l = &c->e->p->w->leaf[c->solid];
+    const struct ray8 *ray = &c->e->ray;
+    unsigned out = 0;
+    if (l->solid && l->bounded)
+        out = lanes & ~(in_box(ray, &l->bounds, lo) & in_box(ray, &l->bounds, hi));
+    if (out == lanes)
+        return l->inverted ? out : 0;
     const struct real8 middle = r8_add(lo, r8_mul(r8_set(0.5), r8_sub(hi, lo))),
                        beyond = r8_add(lo, r8_max(r8_set(1), r8_abs(lo)));
-    return inside_at(c, lanes, r8_select(r8_lt(hi, r8_set(INFINITY)), middle, beyond));
+    return (l->inverted ? out : 0) |
+           inside_at(c, lanes & ~out,
+                     r8_select(r8_lt(hi, r8_set(INFINITY)), middle, beyond));
 }
 
 // ---- the solid --------------------------------------------------------------------------------
