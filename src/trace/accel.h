@@ -56,7 +56,7 @@ struct accel_large {
                // of `leaves`; else NULL
 };
 
-enum { PRODUCT_SPACES = 3 }; // transforms of a PACKET_PRODUCT that quick tests take
+enum { PRODUCT_SPACES = 8 }; // transforms of a PACKET_PRODUCT that quick tests take
 
 // A leaf of a PACKET_PRODUCT, with all that quick tests (trace/packet_quick.h) want.
 struct product_part {
