@@ -1,7 +1,5 @@
 #include "trace/subsurface.h"
 
-#include <string.h>
-
 #include "base/arena.h"
 #include "math/elementary.h"
 #include "trace/inside.h"
@@ -149,19 +147,22 @@ static void refract(const struct sss *x, struct refracted *r)
 
 enum { ASKED = BATCH_SIZE };
 
+// How many of `count` are asked at once.
+static uint32_t asked_of(uint32_t count) { return count < ASKED ? count : ASKED; }
+
 // Shadow rays that are asked together.
 struct asking {
-    struct shadow_request *request; // ASKED
+    struct shadow_request *request; // as all arrays here: as many as are asked at once
     struct rgb *factor;             // what comes through
     uint32_t *who;
     uint32_t count;
 };
 
-static struct asking asking_new(struct arena *a)
+static struct asking asking_new(struct arena *a, uint32_t most)
 {
-    return (struct asking){arena_new_array(a, struct shadow_request, ASKED),
-                           arena_new_array(a, struct rgb, ASKED),
-                           arena_new_array(a, uint32_t, ASKED), 0};
+    return (struct asking){arena_new_array(a, struct shadow_request, most),
+                           arena_new_array(a, struct rgb, most),
+                           arena_new_array(a, uint32_t, most), 0};
 }
 
 static void ask(struct asking *a, const struct sss *x, const struct lamp *lamp,
@@ -301,13 +302,11 @@ static void diffuse(const struct sss *x, struct asking *a, uint32_t count, doubl
     const struct lamp_list *list = &t->job->lamps[x->s->at.surface->light_group];
     const size_t all = (size_t)count * list->count;
     struct entry_light *lit = arena_new_array(t->arena, struct entry_light, all + 1);
-    struct entry *e = arena_new_array(t->arena, struct entry, ASKED);
-    uint32_t *who = arena_new_array(t->arena, uint32_t, ASKED), met = 0;
+    struct entry *e = arena_new_array(t->arena, struct entry, asked_of(count));
+    uint32_t *who = arena_new_array(t->arena, uint32_t, asked_of(count)), met = 0;
     const struct vec3 base = base_of(x);
-    memset(lit, 0, all * sizeof *lit);
     for (uint32_t first = 0; first < count; first += ASKED) {
-        const uint32_t n = entries(
-            x, base, first, count - first < ASKED ? count - first : ASKED, e, who, &met);
+        const uint32_t n = entries(x, base, first, asked_of(count - first), e, who, &met);
         for (uint32_t i = 0; i < list->count && n; i++)
             if (!list->lamp[i]->inert)
                 diffuse_lamp(x, list->lamp[i], a, e, who, n, lit + (size_t)i * count);
@@ -362,13 +361,13 @@ static uint32_t inner_points(const struct sss *x, const struct refracted *r,
     return n;
 }
 
-// The light of one lamp at the points, at most ASKED.
+// The light of one lamp at the points, at most ASKED; at: room for as many walls.
 static void single_lamp(const struct sss *x, const struct lamp *lamp,
                         const struct refracted *r, struct asking *a,
-                        const struct inner *q, uint32_t count, double *out)
+                        const struct inner *q, uint32_t count, struct interaction *at,
+                        double *out)
 {
     struct tracer *t = x->s->t;
-    struct interaction *at = arena_new_array(t->arena, struct interaction, ASKED);
     double way[ASKED];
     uint32_t who[ASKED];
     t->wall_rays->count = 0;
@@ -407,11 +406,12 @@ static void single(const struct sss *x, const struct refracted *r, struct asking
     struct inner *q = arena_new_array(t->arena, struct inner, 3 * (size_t)count);
     const uint32_t points = inner_points(x, r, count, q);
     double *light = arena_new_array(t->arena, double, (size_t)points * list->count + 1);
+    struct interaction *at =
+        arena_new_array(t->arena, struct interaction, asked_of(points));
     for (uint32_t j = 0; j < list->count; j++)
         for (uint32_t i = 0; i < points; i += ASKED)
             if (!list->lamp[j]->inert)
-                single_lamp(x, list->lamp[j], r, a, q + i,
-                            points - i < ASKED ? points - i : ASKED,
+                single_lamp(x, list->lamp[j], r, a, q + i, asked_of(points - i), at,
                             light + (size_t)j * points + i);
     double sum[3] = {0, 0, 0};
     for (uint32_t i = 0; i < points; i++)
@@ -462,12 +462,15 @@ void shade_subsurface(struct shading *s, const struct layer *l)
     x.out = transmittance(&x, vec3_dot(s->path->d, x.n));
     material(&x, l);
     const struct arena_mark mark = arena_mark(s->t->arena);
-    struct asking a = asking_new(s->t->arena);
+    const uint32_t often = (uint32_t)set->samples_diffuse,
+                   few = (uint32_t)set->samples_single;
+    struct asking a =
+        asking_new(s->t->arena, asked_of(often > 3 * few ? often : 3 * few));
     struct refracted r;
     double light[3] = {0, 0, 0};
     refract(&x, &r);
-    diffuse(&x, &a, (uint32_t)set->samples_diffuse, light);
-    single(&x, &r, &a, (uint32_t)set->samples_single, light);
+    diffuse(&x, &a, often, light);
+    single(&x, &r, &a, few, light);
     arena_rewind(s->t->arena, mark);
     s->t->last_push = (struct inside_pushed){0}; // may have stood behind the mark
     tracer_add(s->t, rgb_mul(rgb_mul(s->path->through, l->filter),
