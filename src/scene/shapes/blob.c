@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/eigen.h"
 #include "scene/args.h"
 #include "scene/shapes/blob.h"
 
@@ -206,6 +207,20 @@ static bool read_cylinder(struct blob *b, struct args *block, struct arena *a)
     return true;
 }
 
+// The most that a transform makes of a length.
+static double longest(const struct mat3 *m)
+{
+    double square[3][3], most = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            square[i][k] = m->m[i][0] * m->m[k][0] + m->m[i][1] * m->m[k][1] +
+                           m->m[i][2] * m->m[k][2];
+    const struct eigen e = eigen_of((const double(*)[3])square);
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, e.value[i]);
+    return sqrt(most);
+}
+
 static struct blob_reach reach_of(const struct blob_component *c)
 {
     const double grow = 1 + 0x1p-30; // far more than rounding
@@ -213,11 +228,13 @@ static struct blob_reach reach_of(const struct blob_component *c)
     const double along = c->kind == PART_STRAIGHT ? half
                          : c->kind == PART_APEX   ? c->length
                                                   : 0;
-    const struct vec3 at = vec3_mad(c->c, along, c->axis);
-    if (!c->transform.identity)
-        return (struct blob_reach){at, HUGE_VAL};
-    const double size = vec3_max_abs(at) + c->length + fabs(c->r);
-    const double r = sqrt(c->r * c->r + half * half) * grow + 0x1p-40 * size;
+    const struct vec3 middle = vec3_mad(c->c, along, c->axis);
+    const struct transform *m = &c->transform;
+    const double times = m->identity ? 1 : longest(&m->linear);
+    const struct vec3 at = transform_point(m, middle);
+    const double size = vec3_max_abs(at) + vec3_max_abs(m->offset) +
+                        times * (vec3_max_abs(middle) + c->length + fabs(c->r));
+    const double r = sqrt(c->r * c->r + half * half) * times * grow + 0x1p-40 * size;
     return (struct blob_reach){at, r * r};
 }
 

@@ -46,7 +46,15 @@ struct blob_near {
 };
 
 void blob_near_begin(struct blob_near *n, const struct blob *b, struct vec3 p);
-bool blob_near_next(struct blob_near *n, uint32_t *i);
+bool blob_near_in_tree(struct blob_near *n, uint32_t *i);
+
+static inline bool blob_near_next(struct blob_near *n, uint32_t *i)
+{
+    if (n->blob->tree.node)
+        return blob_near_in_tree(n, i);
+    *i = n->next++;
+    return *i < n->last;
+}
 
 // A component on a line: q(t) = 1 - d^2/r^2 = top + bend (t - at)^2 for lo < t < hi. About the
 // nearest point, so that a thin component keeps its digits on a line from afar.

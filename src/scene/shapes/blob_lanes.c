@@ -38,10 +38,27 @@ LANES_INLINE unsigned clip(const struct blob_component *c, struct real8 along,
     return m8_bits(r8_lt(*lo, *hi)) & ~beside;
 }
 
-// As stretch_of of blob_walk.c.
-static void add_component(struct lines *x, const struct blob_component *c, unsigned lanes)
+// Of `lanes`: those that may come within a component's reach.
+LANES_INLINE unsigned near_lanes(const struct lines *x, const struct blob_reach *r,
+                                 unsigned lanes)
 {
+    static const double surely = 1 - 0x1p-40; // far more than rounding
+    const struct vec8 v = v8_sub(V8_SET(r->c), x->o);
+    const struct real8 along = v8_dot(v, x->d),
+                       beyond =
+                           r8_sub(r8_mul(r8_set(surely), v8_dot(v, v)), r8_set(r->r2));
+    return lanes & ~m8_bits(r8_lt(r8_mul(along, along), beyond));
+}
+
+// Component i, as stretch_of of blob_walk.c.
+static void add_component(struct lines *x, const struct blob *s, uint32_t i,
+                          unsigned lanes)
+{
+    const struct blob_component *c = &s->at[i];
     struct vec8 o = x->o, d = x->d;
+    lanes = near_lanes(x, &s->reach[i], lanes);
+    if (!lanes)
+        return;
     const struct vec8 axis = V8_SET(c->axis);
     if (!c->transform.identity) {
         o = v8_inverse_point(&c->transform, o);
@@ -83,9 +100,9 @@ static void add_component(struct lines *x, const struct blob_component *c, unsig
         r8_store(each[k], of[k]);
     for (; lanes; lanes &= lanes - 1) {
         const int l = __builtin_ctz(lanes);
-        const uint32_t i = x->count[l]++;
-        if (i < MET)
-            x->at[l][i] =
+        const uint32_t k = x->count[l]++;
+        if (k < MET)
+            x->at[l][k] =
                 (struct blob_stretch){each[0][l], each[1][l], c->s,      each[2][l],
                                       each[3][l], each[4][l], each[5][l]};
     }
@@ -124,7 +141,7 @@ static void walk_tree(struct lines *x, const struct blob *b, unsigned lanes)
         if (child < 0) {
             const uint32_t first = bvh8_leaf_first(child);
             for (uint32_t k = first; k < first + bvh8_leaf_count(child); k++)
-                add_component(x, &b->at[b->tree.item[k]], here);
+                add_component(x, b, b->tree.item[k], here);
             continue;
         }
         const struct bvh8_node *n = &b->tree.node[child];
@@ -221,7 +238,7 @@ unsigned OF_ISA(blob_closest8_)(const struct blob *s, const struct shape_rays *r
         walk_tree(&x, s, lanes);
     else
         for (uint32_t i = 0; i < s->count; i++)
-            add_component(&x, &s->at[i], lanes);
+            add_component(&x, s, i, lanes);
     for (int i = 0; i < 8; i++)
         *odd |= x.count[i] > MET ? lanes & 1u << i : 0;
     lanes &= ~*odd;

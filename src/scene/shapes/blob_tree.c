@@ -49,13 +49,9 @@ void blob_near_begin(struct blob_near *n, const struct blob *b, struct vec3 p)
     bvh8_walk_begin(&n->walk, &b->tree);
 }
 
-bool blob_near_next(struct blob_near *n, uint32_t *i)
+bool blob_near_in_tree(struct blob_near *n, uint32_t *i)
 {
     const struct bvh8 *tree = &n->blob->tree;
-    if (!tree->node) {
-        *i = n->next++;
-        return *i < n->last;
-    }
     while (n->next == n->last) {
         uint32_t count;
         if (!bvh8_walk_point(&n->walk, tree, n->p, &n->next, &count))
