@@ -166,6 +166,8 @@ bool bvh8_walk_box(struct bvh8_walk *w, const struct bvh8 *b, const float lo[3],
 {
     while (w->depth) {
         const int32_t child = w->stack[--w->depth].child;
+        if (child == BVH8_EMPTY) // a box that holds all numbers touches these as well
+            continue;
         if (child < 0) {
             *first = bvh8_leaf_first(child);
             *count = bvh8_leaf_count(child);

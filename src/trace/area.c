@@ -382,6 +382,7 @@ static bool nothing_between(const struct tracer *t, const struct area_around *ar
                           around->box,
                           around->box};
     return around->known && origins_of(around, r, count, origin, &s.from) &&
+           ray_shaft_reaches(&s.from) && ray_shaft_reaches(&s.to) &&
            !w->accel->kernels->shaft(w->dark, &s, object) &&
            (!w->clear || !w->accel->kernels->shaft(w->clear, &s, object));
 }

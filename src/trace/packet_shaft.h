@@ -209,7 +209,7 @@ LANES_INLINE void shaft_range(struct real8 low, struct real8 high, double *least
 static bool shaft_of_rays(const struct ray_batch *r, uint32_t first, uint32_t end,
                           struct ray_shaft *s)
 {
-    static const double far = 1e30;
+    const double far = ray_shaft_far;
     struct mask8 real = m8_of(255);
     double low[6], high[6];
     for (int a = 0; a < 3; a++) {

@@ -3,6 +3,8 @@
 
 // What may lie between a few places and a lamp (shaft culling: Haines and Wallace, "Shaft
 // culling for efficient ray-cast radiosity", 1991).
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "trace/world.h"
@@ -16,6 +18,17 @@ struct ray_shaft {
 };
 
 enum { RAY_SHAFT_OBJECTS = 4 };
+
+// Boxes of shafts lie nearer than this: nothing overflows in single precision. Where a lamp or a
+// place is farther off, or nowhere, there is no shaft.
+static const double ray_shaft_far = 1e30;
+
+static inline bool ray_shaft_reaches(const struct aabb *b)
+{
+    return fabs(b->min.x) < ray_shaft_far && fabs(b->min.y) < ray_shaft_far &&
+           fabs(b->min.z) < ray_shaft_far && fabs(b->max.x) < ray_shaft_far &&
+           fabs(b->max.y) < ray_shaft_far && fabs(b->max.z) < ray_shaft_far;
+}
 #define RAY_SHAFT_MANY UINT32_MAX
 
 // The objects that rays along such ways may meet, and their number, or RAY_SHAFT_MANY. Of an object
