@@ -389,14 +389,16 @@ static void tell_quality(const struct gather_level *l, const struct indirect_que
             (float)fmin(1, sample_weight * weight / required(l->owner, l->depth));
 }
 
+// What the samples of all squares say, and where that is less than `least` those of this
+// square, too.
 static struct cache_mean mean_known(const struct gather_level *l,
-                                    const struct cache_point *at)
+                                    const struct cache_point *at, double least)
 {
     const struct store *known = &l->owner->cache->store, *fresh = l->owner->fresh;
     struct cache_mean mean = {0};
     if (known->count)
         store_mean(known, at, &mean);
-    if (fresh && fresh->count && mean.weight < at->enough)
+    if (fresh && fresh->count && mean.weight < least)
         store_mean(fresh, at, &mean);
     return mean;
 }
@@ -418,10 +420,11 @@ struct rgb gather_irradiance(const void *cache, void *state, struct tracer *t,
                                    l->depth,
                                    g->final && l->depth == 0,
                                    scouts && !weighs ? least : INFINITY};
-    struct cache_mean mean = mean_known(l, &at);
+    const double wanted = weighs ? INFINITY : least;
+    struct cache_mean mean = mean_known(l, &at, wanted);
     if ((weighs || mean.weight < least) && waiting_counts(l, &at)) {
         gatherer_flush(g);
-        mean = mean_known(l, &at);
+        mean = mean_known(l, &at, wanted);
     }
     if (weighs) {
         g->weight += mean.weight;
