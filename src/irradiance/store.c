@@ -31,7 +31,7 @@ void store_free(struct store *s)
 
 static double falloff(double error, const struct cache_point *at)
 {
-    const double x = error / at->error_bound;
+    const double x = error * (1 / at->error_bound);
     if (!at->smooth)
         return 1 - x;
     const double y = x < 0.5 ? 2 * x : 2 * (1 - x);
@@ -53,22 +53,27 @@ double cache_weight(const struct cache_sample *s, const struct cache_point *at)
         return 0;
     const struct vec3 d = vec3_sub(at->p, s->p);
     const double turned = fabs(1 - vec3_dot(at->n, s->n)), distance = vec3_length(d);
-    double radius = s->radius, front = 1;
+    double radius = s->radius;
     if (distance > cache_same_place) {
-        const struct vec3 way = vec3_scale(1 / distance, d);
-        const double nearing = vec3_dot(s->to, way);
+        const double nearing = vec3_dot(s->to, d) * (1 / distance);
         if (nearing > 0)
             radius = nearing * s->nearest + (1 - nearing) * radius;
-        front = vec3_dot(way, vec3_normalize(vec3_add(at->n, s->n)));
     }
-    if (distance >= radius * at->error_bound || !(front > cache_behind))
+    if (distance >= radius * at->error_bound)
         return 0;
     const double error = distance / radius + 2 * sqrt(turned);
     if (!(error < at->error_bound))
         return 0;
+    const struct vec3 middle = vec3_add(at->n, s->n);
+    const double ahead = vec3_dot(d, middle);
     double weight = falloff(error, at);
-    if (front <= 0)
+    // Behind the sample: how far, as a cosine, need not be known elsewhere.
+    if (distance > cache_same_place && ahead < 0) {
+        const double front = ahead / (distance * vec3_length(middle));
+        if (!(front > cache_behind))
+            return 0;
         weight *= 1 - front / cache_behind;
+    }
     return weight <= cache_least_weight ? 0 : weight * s->quality;
 }
 

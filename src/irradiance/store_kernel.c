@@ -24,7 +24,7 @@ static unsigned hashes_of(const struct store *s, const int32_t place[3], int siz
 // What is asked for, in every lane.
 struct asked {
     struct vec8 p, n;
-    struct real8 bound, bound2;
+    struct real8 bound, bound2, per_bound;
     bool smooth;
 };
 
@@ -53,27 +53,25 @@ LANES_INLINE struct mask8 even_enough(const struct asked *a, const struct real8 
 LANES_INLINE struct real8 falloff8(struct real8 error, const struct asked *a)
 {
     const struct real8 one = r8_set(1), half = r8_set(0.5), two = r8_set(2);
-    const struct real8 x = r8_div(error, a->bound);
+    const struct real8 x = r8_mul(error, a->per_bound);
     if (!a->smooth)
         return r8_sub(one, x);
     const struct mask8 low = r8_lt(x, half);
     const struct real8 y = r8_select(low, r8_mul(two, x), r8_mul(two, r8_sub(one, x)));
-    const struct real8 part = r8_div(r8_mul(y, y), two);
+    const struct real8 part = r8_mul(r8_mul(y, y), half);
     return r8_select(low, r8_sub(one, part), part);
 }
 
-LANES_INLINE struct vec8 v8_scale(struct real8 s, struct vec8 v)
+// What of the weight of lanes is left that lie behind the sample; they stay on unless they lie
+// too far behind.
+LANES_INLINE struct real8 behind8(struct real8 ahead, struct real8 distance,
+                                  struct vec8 middle, struct mask8 *on)
 {
-    return (struct vec8){r8_mul(s, v.x), r8_mul(s, v.y), r8_mul(s, v.z)};
-}
-
-// The sum of two unit vectors, made unit; nought where it is nought.
-LANES_INLINE struct vec8 middle_of(struct vec8 a, struct vec8 b)
-{
-    struct vec8 m = {r8_add(a.x, b.x), r8_add(a.y, b.y), r8_add(a.z, b.z)};
-    const struct real8 nought = r8_set(0), length = r8_sqrt(v8_dot(m, m));
-    const struct real8 by = r8_select(r8_lt(nought, length), length, r8_set(1));
-    return (struct vec8){r8_div(m.x, by), r8_div(m.y, by), r8_div(m.z, by)};
+    const struct real8 least = r8_set(cache_behind);
+    const struct real8 length = r8_sqrt(v8_dot(middle, middle));
+    const struct real8 front = r8_div(ahead, r8_mul(distance, length));
+    *on = m8_and(*on, r8_lt(least, front));
+    return r8_sub(r8_set(1), r8_div(front, least));
 }
 
 // cache_weight of the samples whose rows are r, q and s.
@@ -88,22 +86,26 @@ LANES_INLINE struct real8 weights(const struct asked *a, const struct real8 r[4]
     const struct real8 distance = r8_sqrt(v8_dot(d, d));
     on = m8_and(on, r8_lt(distance, r8_mul(r[3], a->bound)));
     const struct mask8 apart = r8_lt(r8_set(cache_same_place), distance);
-    const struct vec8 way = v8_scale(r8_div(one, distance), d);
-    const struct real8 nearing = v8_dot(to, way);
+    const struct real8 nearing = r8_mul(v8_dot(to, d), r8_div(one, distance));
     const struct real8 nearer =
         r8_add(r8_mul(nearing, q[3]), r8_mul(r8_sub(one, nearing), r[3]));
     const struct real8 radius =
         r8_select(m8_and(apart, r8_lt(nought, nearing)), nearer, r[3]);
-    const struct real8 front = r8_select(apart, v8_dot(way, middle_of(a->n, n)), one);
     on = m8_and(on, r8_lt(distance, r8_mul(radius, a->bound)));
-    on = m8_and(on, r8_lt(r8_set(cache_behind), front));
     const struct real8 error =
         r8_add(r8_div(distance, radius), r8_mul(two, r8_sqrt(turned)));
     on = m8_and(on, r8_lt(error, a->bound));
-    const struct real8 full = falloff8(error, a);
-    const struct real8 less =
-        r8_mul(full, r8_sub(one, r8_div(front, r8_set(cache_behind))));
-    const struct real8 weight = r8_select(r8_le(front, nought), less, full);
+    const struct vec8 middle = {r8_add(a->n.x, n.x), r8_add(a->n.y, n.y),
+                                r8_add(a->n.z, n.z)};
+    const struct real8 ahead = v8_dot(d, middle);
+    const struct mask8 behind = m8_and(m8_and(on, apart), r8_lt(ahead, nought));
+    struct real8 weight = falloff8(error, a);
+    if (m8_bits(behind)) {
+        struct mask8 still = behind;
+        const struct real8 left = behind8(ahead, distance, middle, &still);
+        on = m8_of((m8_bits(on) & ~m8_bits(behind)) | m8_bits(still));
+        weight = r8_select(behind, r8_mul(weight, left), weight);
+    }
     on = m8_and(on, r8_lt(r8_set(cache_least_weight), weight));
     return r8_select(on, r8_mul(weight, s[3]), nought);
 }
@@ -246,8 +248,8 @@ static bool mean_of(const struct store *s, const struct cache_cell *const *cell,
     scan.s = s;
     scan.at = at;
     scan.mean = mean;
-    scan.asked = (struct asked){V8_SET(at->p), V8_SET(at->n), r8_set(bound),
-                                r8_set(bound * bound), at->smooth};
+    scan.asked = (struct asked){V8_SET(at->p),         V8_SET(at->n),     r8_set(bound),
+                                r8_set(bound * bound), r8_set(1 / bound), at->smooth};
     scan.glance = glance_of(at);
     scan.waiting = 0;
     uint32_t listed[LISTED], n = 0;
@@ -301,8 +303,8 @@ static unsigned means_of(const struct store *s, const struct cache_cell *cell,
                          struct cache_means *mean)
 {
     const struct real8 bound = r8_load(at->error_bound), nought = r8_set(0);
-    const struct asked a = {v8_load(at->p), v8_load(at->n), bound, r8_mul(bound, bound),
-                            at->smooth};
+    const struct asked a = {v8_load(at->p),       v8_load(at->n),           bound,
+                            r8_mul(bound, bound), r8_div(r8_set(1), bound), at->smooth};
     const unsigned sides = sides_of(cell, &a, lanes);
     const bool ends = at->enough < INFINITY;
     const uint32_t *filed = s->filed + cell->first;
