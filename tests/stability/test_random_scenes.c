@@ -44,23 +44,36 @@ static void say(struct writer *w, const char *format, ...)
     assert_true(w->size < w->room);
 }
 
+// Several numbers, drawn one by one: in which order a compiler works out the arguments of a call is
+// its own affair, and a seed must make the same scene everywhere.
+static void units(struct writer *w, double *out, int count)
+{
+    while (count-- > 0)
+        out[count] = unit(w);
+}
+
 static void say_place(struct writer *w)
 {
+    double u[9];
     // Parts of one solid often share faces, so half of them stand on a grid.
-    if (pick(w, 2))
-        say(w, " translate <%g, %g, %g>", .5 * (pick(w, 5) - 2), .5 * (pick(w, 5) - 2),
-            .5 * (pick(w, 5) - 2));
-    else
-        say(w,
-            " scale <%.3f, %.3f, %.3f> rotate <%.1f, %.1f, %.1f> translate <%.3f, %.3f, "
-            "%.3f>",
-            .4 + unit(w), .4 + unit(w), .4 + unit(w), 360 * unit(w), 360 * unit(w),
-            360 * unit(w), 2 * unit(w) - 1, 2 * unit(w) - 1, 2 * unit(w) - 1);
+    if (pick(w, 2)) {
+        units(w, u, 3);
+        for (int i = 0; i < 3; i++)
+            u[i] = .5 * ((int)(5 * u[i]) - 2);
+        say(w, " translate <%g, %g, %g>", u[0], u[1], u[2]);
+        return;
+    }
+    units(w, u, 9);
+    say(w, " scale <%.3f, %.3f, %.3f> rotate <%.1f, %.1f, %.1f>", .4 + u[0], .4 + u[1],
+        .4 + u[2], 360 * u[3], 360 * u[4], 360 * u[5]);
+    say(w, " translate <%.3f, %.3f, %.3f>", 2 * u[6] - 1, 2 * u[7] - 1, 2 * u[8] - 1);
 }
 
 static void say_look(struct writer *w)
 {
-    say(w, " pigment { rgb <%.2f, %.2f, %.2f>", unit(w), unit(w), unit(w));
+    double color[3];
+    units(w, color, 3);
+    say(w, " pigment { rgb <%.2f, %.2f, %.2f>", color[0], color[1], color[2]);
     if (pick(w, 4) == 0)
         say(w, " filter %.2f", .9 * unit(w));
     say(w, " } finish { ambient .1 diffuse .7");
@@ -102,16 +115,18 @@ static void say_object(struct writer *w, int depth)
 // Its parts in terms of K, the size, and O, the place, which are declared when it is read.
 static void write_scene(struct writer *w, uint64_t seed)
 {
+    double eye[2];
     w->size = 0;
     w->random = seed;
     unit(w);
+    units(w, eye, 2);
     say(w,
         "camera { location O + S*<%.2f, %.2f, -9> right x look_at O angle 33 }\n"
         "light_source { O + S*<4, 6, -5>, rgb 1 }\n"
         "light_source { O + S*<-6, 3, -2>, rgb .4 }\n"
         "background { rgb <.2, .3, .4> }\n"
         "union {\n",
-        4 * unit(w) - 2, 4 * unit(w) - 2);
+        4 * eye[0] - 2, 4 * eye[1] - 2);
     for (int n = 1 + pick(w, 5); n-- > 0;)
         say_object(w, pick(w, 4));
     say(w, " pigment { rgb <.8, .7, .6> } finish { ambient .1 diffuse .7 } scale S "
