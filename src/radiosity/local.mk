@@ -1,5 +1,5 @@
 liblambert_a_SOURCES += \
-	%D%/chart.c %D%/chart.h %D%/clear.c %D%/patch_trace.c %D%/patches.c %D%/patches.h \
+	%D%/chart.c %D%/chart.h %D%/clear.c %D%/patch_count.c %D%/patch_trace.c %D%/patches.c %D%/patches.h %D%/rooms.c \
 	%D%/enclosure.h %D%/factor_hemicube.c %D%/factor_nodes.c %D%/factor_nodes.h %D%/factor_pair.c %D%/factor_rays.c \
 	%D%/factors.c %D%/form_factor.h %D%/form_factors.def %D%/hemicube.h %D%/hulls.c \
 	%D%/polygon.c %D%/polygon.h %D%/ray_put.h \

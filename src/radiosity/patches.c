@@ -1,7 +1,7 @@
 #include "radiosity/patches.h"
 
 #include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -16,30 +16,6 @@ const struct patch_settings patch_defaults = {.count = 8000, .samples = 3, .dept
 // How far above the surface, relative to the cell, a probing ray starts.
 static const double probe_height = 1e-5;
 
-// Inside of a disc is the half space below it, but what lies there is in the open; so is
-// what lies inside of what patches do not see.
-static bool encloses(const struct world *w, uint32_t object)
-{
-    const struct world_object *o = &w->object[object];
-    return !(o->flags & OBJECT_NO_RADIOSITY) &&
-           (o->is_csg || w->leaf[o->first_leaf].ops != &disc_ops);
-}
-
-static bool in_room(const struct patches *p, struct vec3 at)
-{
-    enum { MOST = 64 };
-    uint32_t object[MOST];
-    const uint32_t n = trace_containing(p->job->world, at, object, MOST);
-    for (uint32_t i = 0, k = 0; i < n; i++) {
-        while (k < p->room_count && p->room[k] < object[i])
-            k++;
-        if ((k == p->room_count || p->room[k] != object[i]) &&
-            encloses(p->job->world, object[i]))
-            return false;
-    }
-    return true;
-}
-
 bool patch_aim(const struct patches *p, const struct cell *c, int side, double u,
                double v, struct element_point *out, struct ray *ray)
 {
@@ -52,7 +28,7 @@ bool patch_aim(const struct patches *p, const struct cell *c, int side, double u
     const double height = probe_height * p->size + 1e-9 * vec3_max_abs(out->p);
     const struct vec3 from = vec3_mad(out->p, height, out->normal);
     *ray = (struct ray){from, vec3_neg(out->normal), 0, 2 * height};
-    return in_room(p, from);
+    return patches_in_room(p, from);
 }
 
 bool patch_met(const struct patches *p, const struct cell *c, const struct ray *ray,
@@ -80,86 +56,6 @@ bool patch_point(const struct patch_probe *probe, const struct cell *c, int side
     return patch_met(p, c, ray, hit, out) &&
            (!c->anchor ||
             anchor_sees(p, probe->scratch, c->anchor, side, out->p) != c->twin);
-}
-
-// ---- rooms -------------------------------------------------------------------------
-static void room_add(struct patches *p, struct vec3 at, uint32_t except)
-{
-    enum { MOST = 64 };
-    uint32_t object[MOST];
-    const uint32_t n = trace_containing(p->job->world, at, object, MOST);
-    for (uint32_t i = 0; i < n; i++) {
-        uint32_t k = 0;
-        while (k < p->room_count && p->room[k] < object[i])
-            k++;
-        if (object[i] == except || !encloses(p->job->world, object[i]) ||
-            (k < p->room_count && p->room[k] == object[i]))
-            continue;
-        memmove(p->room + k + 1, p->room + k, (p->room_count - k) * sizeof *p->room);
-        p->room[k] = object[i];
-        p->room_count++;
-    }
-}
-
-static bool surface_glows(const struct surface *s)
-{
-    for (uint32_t i = 0; s->texture->kind == TEXTURE_PLAIN && i < s->texture->layer_count;
-         i++) {
-        const struct rgb e = s->texture->layer[i].finish->emission;
-        if (e.r > 0 || e.g > 0 || e.b > 0)
-            return true;
-    }
-    return false;
-}
-
-// Points just outside a chart; room: whether one of them lies where light can be.
-enum { OUTSIDE_POINTS = 16 };
-static uint32_t outside_points(const struct patches *p, const struct chart *c,
-                               struct vec3 *out, bool *room)
-{
-    const struct leaf *l = &p->job->world->leaf[c->leaf];
-    uint32_t n = 0;
-    for (int k = 0; k < OUTSIDE_POINTS; k++) {
-        struct vec3 at, normal;
-        if (!chart_point(c, l, (k % 4 + .5) / 4, (k / 4 + .5) / 4, &at, &normal))
-            continue;
-        const double up = l->inverted ? -1e-6 : 1e-6;
-        out[n] = vec3_mad(at, up * (vec3_max_abs(at) + p->size), normal);
-        *room = *room || in_room(p, out[n]);
-        n++;
-    }
-    return n;
-}
-
-// A leaf that glows where no other light is: inside a solid object.
-static void glow_room(struct patches *p, uint32_t leaf)
-{
-    struct vec3 at[OUTSIDE_POINTS];
-    const uint32_t object = p->job->world->leaf[leaf].object;
-    bool room = false;
-    for (uint32_t c = p->leaf_first[leaf]; c < p->leaf_first[leaf + 1] && !room; c++)
-        outside_points(p, &p->chart[c], at, &room);
-    for (uint32_t c = p->leaf_first[leaf]; c < p->leaf_first[leaf + 1] && !room; c++) {
-        bool ignored = false;
-        const uint32_t n = outside_points(p, &p->chart[c], at, &ignored);
-        for (uint32_t k = 0; k < n; k++)
-            room_add(p, at[k], object);
-    }
-}
-
-// Light can be where the camera or a lamp is, and around what glows, also when that is
-// inside an object.
-static void find_rooms(struct patches *p)
-{
-    const struct job *job = p->job;
-    const struct world *w = job->world;
-    p->room = must_calloc(w->object_count + 1, sizeof *p->room);
-    room_add(p, job->camera->location, UINT32_MAX);
-    for (uint32_t i = 0; i < job->lamp_count; i++)
-        room_add(p, job->lamp[i].light->location, UINT32_MAX);
-    for (uint32_t l = 0; l < w->leaf_count; l++)
-        if (w->leaf[l].drawn && surface_glows(&w->surface[w->leaf[l].surface]))
-            glow_room(p, l);
 }
 
 // ---- what has nothing before it ----------------------------------------------------
@@ -233,8 +129,7 @@ static void chart_measure(const struct patches *p, struct chart *c)
     }
 }
 
-// Cells along u and v so that none is longer than the size.
-static void chart_grid(const struct chart *c, double size, uint32_t grid[2])
+void patches_grid(const struct chart *c, double size, uint32_t grid[2])
 {
     grid[0] = grid[1] = 0;
     if (!(c->area > 0))
@@ -249,7 +144,7 @@ static void chart_cells(struct patches *p, uint32_t index)
 {
     struct chart *c = &p->chart[index];
     uint32_t grid[2];
-    chart_grid(c, p->size, grid);
+    patches_grid(c, p->size, grid);
     c->nu = grid[0];
     c->nv = grid[1];
     c->first_cell = p->cell_count;
@@ -363,7 +258,7 @@ static double size_for(const struct patches *p)
     return sqrt(area / fmax(p->settings.count, 1));
 }
 
-static struct patches *with_charts(const struct job *job, const struct patch_settings *s)
+struct patches *patches_charts(const struct job *job, const struct patch_settings *s)
 {
     struct patches *p = must_calloc(1, sizeof *p);
     p->job = job;
@@ -377,16 +272,14 @@ static struct patches *with_charts(const struct job *job, const struct patch_set
     return p;
 }
 
-// Cuts the charts into cells no longer than the size, and those into elements. NULL, and p
-// is freed: there is nothing to cut.
-static struct patches *cut(struct patches *p, double size)
+struct patches *patches_cut(struct patches *p, double size)
 {
     p->size = size;
     if (!(p->size > 0 && p->size < INFINITY)) {
         patches_free(p);
         return NULL;
     }
-    find_rooms(p);
+    patches_find_rooms(p);
     find_around(p);
     for (uint32_t i = 0; i < p->chart_count && !watch_cancelled(p->settings.watch); i++)
         chart_cells(p, i);
@@ -397,10 +290,10 @@ static struct patches *cut(struct patches *p, double size)
     return p;
 }
 
-static struct patches *build(const struct job *job, const struct patch_settings *s)
+struct patches *patches_cut_by(const struct job *job, const struct patch_settings *s)
 {
-    struct patches *p = with_charts(job, s);
-    return cut(p, s->size > 0 ? s->size : size_for(p));
+    struct patches *p = patches_charts(job, s);
+    return patches_cut(p, s->size > 0 ? s->size : size_for(p));
 }
 
 void patches_connect(struct patches *p)
@@ -414,131 +307,9 @@ void patches_connect(struct patches *p)
     patches_shafts(p);
 }
 
-// ---- how many there will be --------------------------------------------------------
-// What a coarse trial says about the number of elements at other sizes of cells.
-struct forecast {
-    const struct patches *trial;
-    double *whole; // by chart: elements of a cell, both sides
-    double *cut;   // and cells that exist in part
-    double scale;  // of what was built to what was expected
-};
-
-static void forecast_init(struct forecast *f, const struct patches *trial)
-{
-    *f = (struct forecast){trial, must_calloc(trial->chart_count + 1, sizeof *f->whole),
-                           must_calloc(trial->chart_count + 1, sizeof *f->cut), 1};
-    for (uint32_t i = 0; i < trial->element_count; i++) {
-        const uint32_t c = trial->cell[trial->element_cell[i] / 2].chart;
-        f->whole[c] += trial->element[i].area / trial->chart[c].area;
-        f->cut[c] += trial->element[i].partial;
-    }
-}
-
-static double forecast_count(const struct forecast *f, double size)
-{
-    // A cut cell is quartered twice: so many elements more than one of its area.
-    static const double more = 4.5;
-    double count = 0;
-    for (uint32_t i = 0; i < f->trial->chart_count; i++) {
-        uint32_t grid[2];
-        chart_grid(&f->trial->chart[i], size, grid);
-        count +=
-            f->whole[i] * grid[0] * grid[1] + more * f->cut[i] * f->trial->size / size;
-    }
-    return f->scale * count;
-}
-
-// The largest size of cells that gives as many elements.
-static double forecast_size(const struct forecast *f, double count)
-{
-    enum { STEPS = 40 };
-    double few = f->trial->size, many = few, area = 0;
-    // Cells of the size of all there is are more than coarse.
-    for (uint32_t i = 0; i < f->trial->element_count; i++)
-        area += f->trial->element[i].area;
-    few = fmax(few, sqrt(area));
-    if (forecast_count(f, few) > count)
-        return few;
-    for (int k = 0; k < STEPS && forecast_count(f, many) < count; k++)
-        many /= 2;
-    for (int k = 0; k < STEPS; k++) {
-        const double middle = sqrt(few * many);
-        if (forecast_count(f, middle) < count)
-            few = middle;
-        else
-            many = middle;
-    }
-    return many;
-}
-
-enum { TRIAL = 400 }; // elements
-
-// One cell a chart where that makes as many elements as are wanted, or more: then there is
-// nothing to try. NULL: it does not, or that would take long to find out.
-static struct patches *build_coarsest(const struct job *job,
-                                      const struct patch_settings *s)
-{
-    struct patches *p = with_charts(job, s);
-    double longest = 0;
-    for (uint32_t i = 0; i < p->chart_count; i++)
-        longest = fmax(longest, fmax(p->chart[i].side[0], p->chart[i].side[1]));
-    if (2.0 * p->chart_count < s->count) {
-        patches_free(p);
-        return NULL;
-    }
-    p = cut(p, longest);
-    if (p && p->element_count < s->count && !watch_cancelled(s->watch)) {
-        patches_free(p);
-        return NULL;
-    }
-    return p;
-}
-
-// As many elements as are wanted, about; cells that are quartered and small charts make
-// more than was counted on.
-static struct patches *build_counted(const struct job *job,
-                                     const struct patch_settings *s)
-{
-    enum { RETRIES = 3 };
-    static const double most = 1.15; // elements, of those wanted
-    struct patch_settings settings = *s;
-    struct patches *const coarsest = s->count <= TRIAL ? build_coarsest(job, s) : NULL;
-    if (coarsest)
-        return coarsest;
-    settings.count = fmin(s->count, TRIAL);
-    settings.depth = 0;
-    settings.trial = true;
-    struct patches *p = NULL, *trial = build(job, &settings);
-    if (!trial || !trial->element_count) {
-        patches_free(trial);
-        return NULL;
-    }
-    struct forecast f;
-    forecast_init(&f, trial);
-    settings = *s;
-    settings.size = forecast_size(&f, s->count);
-    for (int k = 0; k <= RETRIES && !watch_cancelled(s->watch); k++) {
-        const double before = p ? p->element_count : 0;
-        patches_free(p);
-        p = build(job, &settings);
-        if (!p || p->element_count <= most * s->count ||
-            (k && p->element_count > .9 * before))
-            break;
-        f.scale *= p->element_count / forecast_count(&f, settings.size);
-        const double size = forecast_size(&f, s->count);
-        if (size <= settings.size)
-            break;
-        settings.size = size;
-    }
-    free(f.whole);
-    free(f.cut);
-    patches_free(trial);
-    return p;
-}
-
 struct patches *patches_build(const struct job *job, const struct patch_settings *s)
 {
-    struct patches *p = s->size > 0 ? build(job, s) : build_counted(job, s);
+    struct patches *p = s->size > 0 ? patches_cut_by(job, s) : patches_counted(job, s);
     if (p)
         patches_shafts(p);
     return p;

@@ -124,6 +124,22 @@ bool patch_aim(const struct patches *p, const struct cell *c, int side, double u
                double v, struct element_point *out, struct ray *ray);
 bool patch_met(const struct patches *p, const struct cell *c, const struct ray *ray,
                const struct hit *hit, struct element_point *out);
+// The charts of a scene's surfaces, measured and not yet cut.
+struct patches *patches_charts(const struct job *job, const struct patch_settings *s);
+// Cells along u and v of a chart's square so that none is longer than the size.
+void patches_grid(const struct chart *c, double size, uint32_t grid[2]);
+// Cuts the charts into cells no longer than the size, and those into elements. NULL, and p
+// is freed: there is nothing to cut.
+struct patches *patches_cut(struct patches *p, double size);
+// Both, by s->size, or where that is 0 by the area of s->count squares.
+struct patches *patches_cut_by(const struct job *job, const struct patch_settings *s);
+// As many elements as s->count, about.
+struct patches *patches_counted(const struct job *job, const struct patch_settings *s);
+// Finds the objects inside of which light can be: where the camera or a lamp is, and around
+// what glows.
+void patches_find_rooms(struct patches *p);
+// Whether a point lies in no other objects than those.
+bool patches_in_room(const struct patches *p, struct vec3 at);
 // Room for more cells, at the end of the list; pointers to others are void.
 struct cell *cells_add(struct patches *p, uint32_t count);
 // Whether the anchor sees a point of its cell.
