@@ -15,7 +15,7 @@
 #include "eval/eval.h"
 #include "lang/ast.h"
 #include "lang/format.h"
-#include "lang/stream.h"
+#include "lang/lexer.h"
 #include "scene/object.h"
 #include "trace/world.h"
 
@@ -450,7 +450,7 @@ enum lambert_status lambert_dump_tokens(struct lambert_context *ctx, const char 
         open_source(ctx, path, lambert_option_text(ctx, "include-header"), &file);
     if (status != LAMBERT_OK)
         return status;
-    stream_dump_tokens(ctx->scene_arena, &ctx->sources, file, &ctx->diags, out);
+    lex_print(&ctx->sources, file, &ctx->diags, out);
     return ctx->diags.errors ? LAMBERT_ERROR_SCENE : LAMBERT_OK;
 }
 

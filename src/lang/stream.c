@@ -543,31 +543,3 @@ struct token stream_next(struct stream *s)
     stream_take(s, &t);
     return t;
 }
-
-void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
-                        struct diag_sink *diags, FILE *out)
-{
-    (void)a;
-    struct source_file *f = sources->file[file];
-    uint32_t count;
-    struct word_table words;
-    word_table_init(&words);
-    struct lexeme *tokens = lex_file(sources, file, diags, &words, NULL, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        struct token whole, *t = &whole;
-        lexeme_token(&tokens[i], file, f->text, 0, t);
-        const struct source_line line = source_line(f, t->where.begin);
-        const char *kind = t->kind == TOK_NUMBER   ? "number"
-                           : t->kind == TOK_STRING ? "string"
-                           : t->kind == TOK_NAME   ? "name"
-                           : t->word               ? "word"
-                                                   : "mark";
-        fprintf(out, "%u:%u %s ", line.number, t->where.begin - line.begin + 1, kind);
-        if (t->kind == TOK_NUMBER)
-            fprintf(out, "%.17g\n", t->number);
-        else
-            fprintf(out, t->kind == TOK_STRING ? "\"%.*s\"\n" : "%.*s\n", (int)t->len,
-                    t->text);
-    }
-    free(tokens);
-}

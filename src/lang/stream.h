@@ -183,7 +183,5 @@ void stream_free(struct stream *s); // arena memory stays
 struct arena *stream_arena(struct stream *s);
 struct token stream_next(struct stream *s);
 void stream_take(struct stream *s, struct token *out); // the same, written in place
-void stream_dump_tokens(struct arena *a, struct source_map *sources, uint32_t file,
-                        struct diag_sink *diags, FILE *out); // --dump-tokens
 
 #endif
