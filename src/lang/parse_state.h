@@ -68,8 +68,13 @@ bool parse_is_bare(struct parse *p, enum word word, struct span where);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);
 // A ';' that only version 3.5 and later ask for; said of the first.
 void parse_old_semicolon(struct stream *s, struct span where);
-// The kind and place of the next token, which is *p->now then.
+// parse_token.c: the kind and place of the next token, which is *p->now then.
 int parse_token(struct parse *p, struct span *where);
+
+// Counts a token among the brackets that are open.
+void parse_note_brackets(struct parse *p, const struct token *t);
+// From an opening bracket to its closing one.
+void parse_skip_group(struct stream *s);
 
 // parse_error.c: what the grammar finds wrong, in words.
 void parse_syntax_error(struct parse *p, const int *expected, int count);
