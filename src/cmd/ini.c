@@ -146,8 +146,12 @@ int ini_read(struct cmd *c, const char *path, const char *section, int depth)
         code = code ? code : of_line;
         errors += of_line != CMD_OK;
     }
+    const bool failed = ferror(f);
+    const int why = errno; // of a folder, for one
     free(line);
     fclose(f);
+    if (failed)
+        code = cmd_fail(CMD_NO_INPUT, "cannot read '%s': %s", path, strerror(why));
     if (!code && section && !in.found)
         cmd_warn(c, "%s has no section [%s]%s%s", path, section,
                  in.others ? "; it has " : "", in.others ? in.others : "");

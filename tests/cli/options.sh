@@ -96,6 +96,9 @@ printf 'Width=abc\nHeight=4\nQuality=-3 +W5\nFoo=1\n' >worse.ini
 worse_ini() { exits 64 "$lambert" sphere.pov worse.ini && has err 'worse.ini:1' && has err 'worse.ini:4' && ! has err 'worse.ini:2'; }
 check "a bad keyword is placed" bad_ini
 check "every bad line is told" worse_ini
+mkdir folder.ini
+folder_ini() { exits 66 "$lambert" sphere.pov folder.ini +W4 +H3 -q && has err "cannot read 'folder.ini'"; }
+check "a folder is no INI file" folder_ini
 echo 'sphere { 0, wrong }' >wrong.pov
 no_header() { exits 1 "$lambert" wrong.pov +HInowhere.inc && has err '^--include-header:0:10: error: .nowhere.inc. was not found' && has err '^wrong.pov:1:13: error: .wrong. is not declared'; }
 check "a header that is not there is told as such, and moves no place" no_header
