@@ -16,6 +16,13 @@ static const char style[] =
     ".match{color:#8d8}.near{color:#dd8}.far,.not,.no{color:#f88}"
     "a{color:inherit}";
 
+const char *verdict_text(enum verdict v)
+{
+    static const char *const text[VERDICT_COUNT] = {"match", "near", "far",
+                                                    "not rendered", "no reference"};
+    return text[v];
+}
+
 // Text as HTML shows it.
 static void put_text(FILE *f, const char *text)
 {
@@ -61,10 +68,11 @@ static void put_log(FILE *f, const char *folder, const char *name)
 
 static void put_row(FILE *f, const char *folder, const struct compared_scene *r)
 {
-    fprintf(f, "<tr><td><b class=\"%s\">%s</b><br>", r->verdict, r->verdict);
+    const char *verdict = verdict_text(r->verdict);
+    fprintf(f, "<tr><td><b class=\"%s\">%s</b><br>", verdict, verdict);
     put_text(f, r->scene);
     fputs("<br>", f);
-    if (!r->compared) {
+    if (!is_compared(r)) {
         put_text(f, r->reason);
         put_log(f, folder, r->name);
         fputs("</td></tr>\n", f);
@@ -86,8 +94,8 @@ static void put_row(FILE *f, const char *folder, const struct compared_scene *r)
 static int by_difference(const void *a, const void *b)
 {
     const struct compared_scene *const *x = a, *const *y = b;
-    const double p = (*x)->compared ? (*x)->percent : 1000,
-                 q = (*y)->compared ? (*y)->percent : 1000;
+    const double p = is_compared(*x) ? (*x)->percent : 1000,
+                 q = is_compared(*y) ? (*y)->percent : 1000;
     if (p != q)
         return p < q ? 1 : -1;
     return *x < *y ? -1 : *x > *y;

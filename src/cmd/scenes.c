@@ -12,20 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum verdict { MATCH, NEAR, FAR, NOT_RENDERED, NO_REFERENCE, VERDICT_COUNT };
-static const char *const verdict_name[] = {"match", "near", "far", "not rendered",
-                                           "no reference"};
-enum { ARGUMENTS_MAX = 64, REASON_MAX = 160 };
+enum { ARGUMENTS_MAX = 64 };
 static const double match_percent = 1, near_percent = 5;
-
-struct row {
-    const char *scene;
-    char *name; // of its files
-    enum verdict verdict;
-    struct lambert_difference difference;
-    double percent, reference_seconds, seconds;
-    char reason[REASON_MAX];
-};
 
 struct job {
     struct cmd *cmd;
@@ -213,7 +201,8 @@ static double run_self(const struct job *j, const char *scene, const char *folde
 }
 
 // The first error of the log, without its place, or how the process ended.
-static void find_reason(struct row *r, const char *log, double seconds, int status)
+static void find_reason(struct compared_scene *r, const char *log, double seconds,
+                        int status)
 {
     char line[1024];
     FILE *f = fopen(log, "r");
@@ -240,24 +229,24 @@ static void find_reason(struct row *r, const char *log, double seconds, int stat
         snprintf(r->reason, sizeof r->reason, "exit code %d", WEXITSTATUS(status));
 }
 
-static void judge(struct cmd *c, struct row *r, const char *reference,
+static void judge(struct cmd *c, struct compared_scene *r, const char *reference,
                   const char *picture, const char *map_path)
 {
     struct lambert_image *a = NULL, *b = NULL, *map = NULL;
     double threshold = lambert_option_number(c->ctx, "threshold") / 255;
-    r->verdict = FAR;
+    r->verdict = VERDICT_FAR;
     if (lambert_image_read(c->ctx, reference, &a) != LAMBERT_OK ||
         lambert_image_read(c->ctx, picture, &b) != LAMBERT_OK ||
         lambert_image_compare(c->ctx, a, b, threshold, &r->difference, &map) !=
             LAMBERT_OK) {
         snprintf(r->reason, sizeof r->reason, "%s", lambert_error(c->ctx));
-        r->verdict = a ? NOT_RENDERED : NO_REFERENCE;
+        r->verdict = a ? VERDICT_NOT_RENDERED : VERDICT_NO_REFERENCE;
     } else {
         r->percent =
             100 * (double)r->difference.pixels_off / (double)r->difference.pixels;
-        r->verdict = r->percent <= match_percent  ? MATCH
-                     : r->percent <= near_percent ? NEAR
-                                                  : FAR;
+        r->verdict = r->percent <= match_percent  ? VERDICT_MATCH
+                     : r->percent <= near_percent ? VERDICT_NEAR
+                                                  : VERDICT_FAR;
         lambert_image_write(c->ctx, map, map_path);
     }
     lambert_image_free(a);
@@ -265,11 +254,11 @@ static void judge(struct cmd *c, struct row *r, const char *reference,
     lambert_image_free(map);
 }
 
-static void compare_scene(const struct job *j, struct row *r)
+static void compare_scene(const struct job *j, struct compared_scene *r)
 {
     char *scene = realpath(r->scene, NULL);
     if (!scene) {
-        r->verdict = NOT_RENDERED;
+        r->verdict = VERDICT_NOT_RENDERED;
         snprintf(r->reason, sizeof r->reason, "%s", strerror(errno));
         return;
     }
@@ -286,10 +275,10 @@ static void compare_scene(const struct job *j, struct row *r)
     r->reference_seconds = reference_picture(j, scene, folder, reference, reference_log);
     r->seconds = run_self(j, scene, folder, picture, log, &status);
     if (r->seconds < 0) {
-        r->verdict = NOT_RENDERED;
+        r->verdict = VERDICT_NOT_RENDERED;
         find_reason(r, log, r->seconds, status);
     } else if (r->reference_seconds < 0) {
-        r->verdict = NO_REFERENCE;
+        r->verdict = VERDICT_NO_REFERENCE;
         const double limit = time_limit(j->cmd);
         find_reason(r, reference_log, r->reference_seconds, 0);
         if (-r->reference_seconds >= limit)
@@ -307,14 +296,14 @@ static void compare_scene(const struct job *j, struct row *r)
     free(log);
 }
 
-static void print_row(const struct row *r, bool csv)
+static void print_row(const struct compared_scene *r, bool csv)
 {
     double ratio = r->reference_seconds > 0 && r->seconds > 0
                        ? r->seconds / r->reference_seconds
                        : 0;
-    bool compared = r->verdict <= FAR;
+    const bool compared = is_compared(r);
     if (csv) {
-        printf("\"%s\",%s,", r->scene, verdict_name[r->verdict]);
+        printf("\"%s\",%s,", r->scene, verdict_text(r->verdict));
         if (compared)
             printf("%.4f,%.6f,%.2f,%.3f,%.3f,%.3f,", r->percent, r->difference.rmse,
                    r->difference.psnr, r->reference_seconds, r->seconds, ratio);
@@ -326,10 +315,10 @@ static void print_row(const struct row *r, bool csv)
         fputs("\"\n", stdout);
     } else if (compared) {
         printf("%-12s %8.3f %9.5f %7.2f %8.2f %8.2f %7.2f  %s\n",
-               verdict_name[r->verdict], r->percent, r->difference.rmse,
+               verdict_text(r->verdict), r->percent, r->difference.rmse,
                r->difference.psnr, r->reference_seconds, r->seconds, ratio, r->scene);
     } else {
-        printf("%-12s %8s %9s %7s %8s %8s %7s  %s: %s\n", verdict_name[r->verdict], "-",
+        printf("%-12s %8s %9s %7s %8s %8s %7s  %s: %s\n", verdict_text(r->verdict), "-",
                "-", "-", "-", "-", "-", r->scene, r->reason);
     }
     fflush(stdout);
@@ -345,70 +334,67 @@ static void print_header(bool csv)
                "ref. s", "ours s", "ratio", "scene");
 }
 
-// Both pictures and the heat maps side by side, in a page.
-static int write_report(const struct job *j, struct row *rows, size_t n)
+// How many scenes came to which verdict.
+static void print_counts(const size_t count[VERDICT_COUNT])
 {
-    struct compared_scene *r = calloc(n + 1, sizeof *r);
-    if (!r)
-        abort();
-    for (size_t i = 0; i < n; i++)
-        r[i] = (struct compared_scene){.scene = rows[i].scene,
-                                       .name = rows[i].name,
-                                       .verdict = verdict_name[rows[i].verdict],
-                                       .compared = rows[i].verdict <= FAR,
-                                       .difference = rows[i].difference,
-                                       .percent = rows[i].percent,
-                                       .reference_seconds = rows[i].reference_seconds,
-                                       .seconds = rows[i].seconds,
-                                       .reason = rows[i].reason};
-    const bool ok = report_write(j->out, r, n);
-    free(r);
-    return ok ? CMD_OK
-              : cmd_fail(CMD_NO_OUTPUT, "cannot write '%s/index.html': %s", j->out,
-                         strerror(errno));
+    const char *comma = "";
+    for (int v = 0; v < VERDICT_COUNT; v++) {
+        if (!count[v])
+            continue;
+        printf("%s%zu %s", comma, count[v], verdict_text(v));
+        comma = ", ";
+    }
+    putchar('\n');
+}
+
+// Compares one scene after the other and returns how many are out of tolerance.
+static size_t compare_all(const struct job *j, struct compared_scene *rows, bool csv)
+{
+    const struct cmd *c = j->cmd;
+    const double tolerance = lambert_option_number(c->ctx, "tolerance");
+    size_t count[VERDICT_COUNT] = {0}, failed = 0;
+    print_header(csv);
+    for (size_t i = 0; i < c->file_count; i++) {
+        struct compared_scene *r = &rows[i];
+        r->scene = c->file[i];
+        r->name = flat_name(r->scene);
+        compare_scene(j, r);
+        print_row(r, csv);
+        count[r->verdict]++;
+        failed += !is_compared(r) || r->percent > tolerance;
+    }
+    if (!csv)
+        print_counts(count);
+    return failed;
 }
 
 int compare_scenes(struct cmd *c)
 {
     struct job j = {.cmd = c};
     const char *out = lambert_option_text(c->ctx, "out");
-    bool csv = lambert_option_number(c->ctx, "csv") != 0;
-    size_t count[VERDICT_COUNT] = {0}, failed = 0;
+    const bool csv = lambert_option_number(c->ctx, "csv") != 0;
     if (mkdir(out, 0777) != 0 && errno != EEXIST)
         return cmd_fail(CMD_NO_OUTPUT, "cannot make '%s': %s", out, strerror(errno));
     j.out = realpath(out, NULL);
     if (!j.out)
         return cmd_fail(CMD_NO_OUTPUT, "cannot use '%s': %s", out, strerror(errno));
     collect_settings(&j);
-    print_header(csv);
-    struct row *rows = calloc(c->file_count, sizeof *rows);
+    struct compared_scene *rows = calloc(c->file_count, sizeof *rows);
     if (!rows)
         abort();
-    for (size_t i = 0; i < c->file_count; i++) {
-        struct row *r = &rows[i];
-        r->scene = c->file[i];
-        r->name = flat_name(r->scene);
-        compare_scene(&j, r);
-        print_row(r, csv);
-        count[r->verdict]++;
-        failed +=
-            r->verdict > FAR || r->percent > lambert_option_number(c->ctx, "tolerance");
+    const size_t failed = compare_all(&j, rows, csv);
+    int code = failed ? CMD_FAILED : CMD_OK;
+    if (!csv) {
+        printf("side by side: %s/index.html\n", out);
+        if (!report_write(j.out, rows, c->file_count))
+            code = cmd_fail(CMD_NO_OUTPUT, "cannot write '%s/index.html': %s", j.out,
+                            strerror(errno));
     }
-    const char *comma = "";
-    for (int v = 0; v < VERDICT_COUNT && !csv; v++) {
-        if (!count[v])
-            continue;
-        printf("%s%zu %s", comma, count[v], verdict_name[v]);
-        comma = ", ";
-    }
-    if (!csv)
-        printf("\nside by side: %s/index.html\n", out);
-    const int written = csv ? CMD_OK : write_report(&j, rows, c->file_count);
     for (size_t i = 0; i < c->file_count; i++)
         free(rows[i].name);
     free(rows);
     for (size_t i = 0; i < j.settings_count; i++)
         free((void *)(uintptr_t)j.settings[i]);
     free(j.out);
-    return written ? written : failed ? CMD_FAILED : CMD_OK;
+    return code;
 }
