@@ -307,11 +307,8 @@ static int parse_valued(struct cmd *c, const struct lambert_option *o, const cha
     char first[32];
     if (value)
         return cmdline_set(c, o, value);
-    switch (o->kind) {
-    case LAMBERT_OPTION_FLAG: return cmdline_set(c, o, "on");
-    case LAMBERT_OPTION_ACTION: return cmdline_set(c, o, "on");
-    default: break;
-    }
+    if (o->kind == LAMBERT_OPTION_FLAG || o->kind == LAMBERT_OPTION_ACTION)
+        return cmdline_set(c, o, "on");
     if (o->value && o->value[0] == '[') {
         snprintf(first, sizeof first, "%.*s", (int)strcspn(o->choices, "|"), o->choices);
         return cmdline_set(c, o, first);

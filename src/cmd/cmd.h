@@ -112,9 +112,9 @@ bool text_same(const char *a, const char *b, size_t n); // ASCII, case ignored
 int ini_read(struct cmd *c, const char *path, const char *section, int depth);
 
 // help.c
-int help_print(FILE *out, bool all);
-int man_print(FILE *out);
-int completion_print(FILE *out);
+void help_print(FILE *out, bool all);
+void man_print(FILE *out);
+void completion_print(FILE *out);
 
 // output.c: the name of the picture file, to be freed. frame < 0: no animation.
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
@@ -139,6 +139,8 @@ enum command_action command_run(struct cmd *c, enum command_at at);
 void progress_begin(struct cmd *c);
 bool progress_show(void *cmd, uint32_t done, uint32_t total);
 void progress_end(struct cmd *c);
+
+// stats.c
 void stats_print(struct cmd *c, FILE *out, bool json, const char *picture);
 
 // render.c, compare.c, scenes.c, check.c, format.c, mesh.c

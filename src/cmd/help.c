@@ -6,14 +6,13 @@
 
 static const struct {
     const char *group, *title;
-    bool brief; // in the short help
 } groups[] = {
-    {"scene", "Scene", true},          {"picture", "Picture", true},
-    {"output", "Output", true},        {"quality", "Quality", true},
-    {"radiosity", "Radiosity", false}, {"run", "Running", true},
-    {"animation", "Animation", false}, {"commands", "Commands around pictures", false},
-    {"tools", "Tools", false},         {"compare", "lambert compare", false},
-    {"fmt", "lambert fmt", false},     {"mesh", "lambert mesh", false},
+    {"scene", "Scene"},         {"picture", "Picture"},
+    {"output", "Output"},       {"quality", "Quality"},
+    {"radiosity", "Radiosity"}, {"run", "Running"},
+    {"animation", "Animation"}, {"commands", "Commands around pictures"},
+    {"tools", "Tools"},         {"compare", "lambert compare"},
+    {"fmt", "lambert fmt"},     {"mesh", "lambert mesh"},
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 
@@ -28,6 +27,9 @@ static const char *const examples[][2] = {
     {"lambert compare scene.pov --out DIR", "render with POV-Ray too and compare"},
 };
 enum { EXAMPLE_COUNT = sizeof examples / sizeof examples[0] };
+
+// Columns: of a terminal, and before what the long and the brief help say of an option.
+enum { COLUMNS = 78, LONG_FORMS = 33, BRIEF_FORMS = 41 };
 
 // "--width=N, +WN, Width=N" with the forms the option has.
 static void print_forms(FILE *out, const struct lambert_option *o, bool all)
@@ -47,6 +49,28 @@ static void print_forms(FILE *out, const struct lambert_option *o, bool all)
         fprintf(out, ", %s=", o->keyword);
 }
 
+// The same as text, to be freed.
+static char *forms_of(const struct lambert_option *o, bool all)
+{
+    char *forms = NULL;
+    size_t n = 0;
+    FILE *text = open_memstream(&forms, &n);
+    if (!text)
+        abort();
+    print_forms(text, o, all);
+    fclose(text);
+    return forms;
+}
+
+// What an option does beside its forms, or below them where they are long.
+static void print_help(FILE *out, const char *forms, int width, const char *help)
+{
+    if (strlen(forms) > (size_t)width)
+        fprintf(out, "  %s\n  %*s %s", forms, width, "", help);
+    else
+        fprintf(out, "  %-*s %s", width, forms, help);
+}
+
 static void print_details(FILE *out, const struct lambert_option *o)
 {
     if (o->choices)
@@ -55,23 +79,14 @@ static void print_details(FILE *out, const struct lambert_option *o)
         fprintf(out, " [%s]", o->initial);
 }
 
-static void print_group(FILE *out, const char *group, bool all)
+static void print_group(FILE *out, const char *group)
 {
     const struct lambert_option *o;
     for (size_t i = 0; (o = lambert_option_at(i)); i++) {
         if (strcmp(o->group, group) != 0)
             continue;
-        char *forms = NULL;
-        size_t n = 0;
-        FILE *text = open_memstream(&forms, &n);
-        if (!text)
-            return;
-        print_forms(text, o, all);
-        fclose(text);
-        if (n > 33)
-            fprintf(out, "  %s\n  %-33s %s", forms, "", o->help);
-        else
-            fprintf(out, "  %-33s %s", forms, o->help);
+        char *forms = forms_of(o, true);
+        print_help(out, forms, LONG_FORMS, o->help);
         free(forms);
         print_details(out, o);
         fputc('\n', out);
@@ -86,14 +101,14 @@ static void print_names(FILE *out, const char *group)
         if (strcmp(o->group, group) != 0 || !o->keyword)
             continue;
         int n = (int)strlen(o->keyword) + 2;
-        if (column + n > 76)
+        if (column + n > COLUMNS - 2)
             column = fprintf(out, "\n") - 1;
         column += fprintf(out, "  %s", o->keyword);
     }
     fputc('\n', out);
 }
 
-int help_print(FILE *out, bool all)
+static void print_usage(FILE *out)
 {
     fputs("usage: lambert SCENE [options]\n"
           "       lambert compare A B\n"
@@ -104,38 +119,44 @@ int help_print(FILE *out, bool all)
           out);
     for (int i = 0; i < EXAMPLE_COUNT; i++)
         fprintf(out, "  %-42s %s\n", examples[i][0], examples[i][1]);
-    if (!all) {
-        static const char *const common[] = {
-            "output",       "width",   "height", "antialias", "quality", "threads",
-            "library-path", "declare", "quiet",  "stats",     "version"};
-        fputs("\noptions:\n", out);
-        for (size_t i = 0; i < sizeof common / sizeof common[0]; i++) {
-            const struct lambert_option *o = lambert_option_find(common[i]);
-            char *forms = NULL;
-            size_t n = 0;
-            FILE *text = open_memstream(&forms, &n);
-            if (!text)
-                return CMD_IO;
-            print_forms(text, o, false);
-            fclose(text);
-            fprintf(out, n > 41 ? "  %s\n  %41s " : "  %-41s%s ", forms, "");
-            fprintf(out, "%s\n", o->help);
-            free(forms);
-        }
-        fputs("\n--help=all shows every option; 'man lambert' is the manual.\n", out);
-        return CMD_OK;
+}
+
+static void print_common(FILE *out)
+{
+    static const char *const common[] = {
+        "output",       "width",   "height", "antialias", "quality", "threads",
+        "library-path", "declare", "quiet",  "stats",     "version"};
+    fputs("\noptions:\n", out);
+    for (size_t i = 0; i < sizeof common / sizeof common[0]; i++) {
+        const struct lambert_option *o = lambert_option_find(common[i]);
+        char *forms = forms_of(o, false);
+        print_help(out, forms, BRIEF_FORMS, o->help);
+        fputc('\n', out);
+        free(forms);
     }
+    fputs("\n--help=all shows every option; 'man lambert' is the manual.\n", out);
+}
+
+static void print_all(FILE *out)
+{
     for (int i = 0; i < GROUP_COUNT; i++) {
         fprintf(out, "\n%s:\n", groups[i].title);
-        print_group(out, groups[i].group, true);
+        print_group(out, groups[i].group);
     }
     fputs("\nOptions of POV-Ray that are taken and change nothing:\n", out);
     print_names(out, "compatibility");
-    return CMD_OK;
 }
 
-// Text for roff: '-' must be written so that it stays one, a line must not begin
-// with a control character.
+void help_print(FILE *out, bool all)
+{
+    print_usage(out);
+    if (all)
+        print_all(out);
+    else
+        print_common(out);
+}
+
+// Text for roff, where a plain '-' may become a hyphen.
 static void roff(FILE *out, const char *text)
 {
     for (; *text; text++) {
@@ -150,13 +171,7 @@ static void roff(FILE *out, const char *text)
 
 static void man_option(FILE *out, const struct lambert_option *o)
 {
-    char *forms = NULL;
-    size_t n = 0;
-    FILE *text = open_memstream(&forms, &n);
-    if (!text)
-        return;
-    print_forms(text, o, true);
-    fclose(text);
+    char *forms = forms_of(o, true);
     fputs(".TP\n.B ", out);
     roff(out, forms);
     fputc('\n', out);
@@ -218,7 +233,7 @@ static const char man_tail[] =
     "comments and line ends stay; blanks at the ends of lines go.\n"
     ".B \\-\\-in\\-place\nwrites the files back,\n"
     ".B \\-\\-check\nnames those that would change and exits with 1.\n"
-    ".PP\n"
+    ".SH MESH\n"
     ".B lambert mesh SCENE \\-o NAME\n"
     "writes the objects of a scene as triangle meshes (NAME ends in .obj, .stl or "
     ".ply):\n"
@@ -254,7 +269,7 @@ static const char man_tail[] =
     "rays through functions that take long) and writes what there is; a second one ends "
     "the program at once.\n";
 
-int man_print(FILE *out)
+void man_print(FILE *out)
 {
     const struct lambert_option *o;
     fprintf(out, ".TH LAMBERT 1 \"\" \"lambert %s\" \"User Commands\"\n%s",
@@ -275,10 +290,9 @@ int man_print(FILE *out)
     fputs(".SS \"Taken, without effect\"\n", out);
     man_names(out, "compatibility");
     fputs(man_tail, out);
-    return CMD_OK;
 }
 
-int completion_print(FILE *out)
+void completion_print(FILE *out)
 {
     const struct lambert_option *o;
     fputs("# bash completion for lambert, made by lambert --completion=bash\n"
@@ -302,5 +316,4 @@ int completion_print(FILE *out)
           "COMPREPLY+=($(compgen -W 'check compare fmt mesh' -- \"$cur\")) ;;\n"
           "    esac\n}\ncomplete -o filenames -F _lambert lambert\n",
           out);
-    return CMD_OK;
 }

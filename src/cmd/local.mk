@@ -1,7 +1,7 @@
 bin_PROGRAMS += lambert
 lambert_SOURCES = \
 	%D%/args.c %D%/check.c %D%/cmd.h %D%/commands.c %D%/compare.c %D%/format.c %D%/heap.c %D%/help.c %D%/ini.c %D%/main.c %D%/mesh.c %D%/output.c \
-	%D%/process.c %D%/progress.c %D%/render.c %D%/report.c %D%/report.h %D%/scenes.c %D%/streams.c
+	%D%/process.c %D%/progress.c %D%/render.c %D%/report.c %D%/report.h %D%/scenes.c %D%/stats.c %D%/streams.c
 lambert_LDADD = $(lambert_libs)
 
 # The manual page and the completion come from the table of options.

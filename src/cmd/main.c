@@ -192,6 +192,22 @@ static const struct command *find_command(int argc, char **argv)
     return &commands[0];
 }
 
+// Whether that was all that was asked for; main() sees to it that it was written.
+static bool tells_of_itself(struct cmd *c)
+{
+    if (asked(c, "help"))
+        help_print(stdout, strcmp(lambert_option_text(c->ctx, "help"), "all") == 0);
+    else if (asked(c, "version"))
+        printf("lambert %s\n", lambert_version());
+    else if (asked(c, "man"))
+        man_print(stdout);
+    else if (asked(c, "completion"))
+        completion_print(stdout);
+    else
+        return false;
+    return true;
+}
+
 static int run(struct cmd *c, int argc, char **argv)
 {
     const struct command *command = find_command(argc, argv);
@@ -201,15 +217,8 @@ static int run(struct cmd *c, int argc, char **argv)
         code = cmdline_parse(c, argc - named, argv + named);
     if (code)
         return code;
-    if (asked(c, "help"))
-        return help_print(stdout,
-                          strcmp(lambert_option_text(c->ctx, "help"), "all") == 0);
-    if (asked(c, "version"))
-        return printf("lambert %s\n", lambert_version()) < 0 ? CMD_IO : CMD_OK;
-    if (asked(c, "man"))
-        return man_print(stdout);
-    if (asked(c, "completion"))
-        return completion_print(stdout);
+    if (tells_of_itself(c))
+        return CMD_OK;
     add_library_paths(c, getenv("LAMBERT_PATH"));
     add_library_paths(c, getenv("POVINC"));
     settle_color(c);
