@@ -6,7 +6,6 @@
 
 #include <stdarg.h>
 #include <stdlib.h>
-#include <string.h>
 
 #ifndef LAMBERT_VERSION
 #define LAMBERT_VERSION "unknown"

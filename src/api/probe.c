@@ -1,7 +1,5 @@
 #include "api/probe.h"
 
-#include <stdlib.h>
-
 #include "base/arena.h"
 #include "scene/scene.h"
 #include "trace/intersect.h"

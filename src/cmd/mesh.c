@@ -1,5 +1,4 @@
 // `lambert mesh SCENE -o out.obj`: the scene's objects as triangle meshes.
-#include <stdlib.h>
 
 #include "cmd/cmd.h"
 

@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdlib.h>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif

@@ -1,7 +1,5 @@
 #include "eval/build.h"
 
-#include <string.h>
-
 // interior, media, material (spec/language 4.11).
 
 #define AT(member) offsetof(struct media, member)

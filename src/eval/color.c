@@ -1,7 +1,5 @@
 // Colour phrases (spec/language 2.6).
 
-#include <string.h>
-
 #include "eval/expr.h"
 #include "math/elementary.h"
 

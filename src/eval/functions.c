@@ -3,7 +3,6 @@
 #include "eval/functions.h"
 
 #include <math.h>
-#include <string.h>
 #include <time.h>
 
 #include "base/arena.h"

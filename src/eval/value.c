@@ -1,7 +1,5 @@
 #include "eval/value.h"
 
-#include <string.h>
-
 #include "base/arena.h"
 
 static const char *const kind_names[] = {

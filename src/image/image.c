@@ -2,7 +2,6 @@
 // Pictures in memory and the curves between linear light and file numbers.
 #include "image/image.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>

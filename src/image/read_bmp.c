@@ -1,6 +1,5 @@
 // BMP files: 1, 4 and 8 bits with a palette (plain and run-length encoded), 16, 24 and 32,
 // the fields of 16 and 32 by masks if given.
-#include <stdlib.h>
 
 #include "image/codec.h"
 

@@ -1,6 +1,5 @@
 // JPEG files through libjpeg-turbo. A file that ends too early is an error, as for the
 // other types; libjpeg itself would fill in grey.
-#include <stdlib.h>
 #include <string.h>
 
 #include "image/jpeg_job.h"

@@ -1,7 +1,6 @@
 #include "irradiance/cache.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/arena.h"
 #include "base/clock.h"

@@ -1,7 +1,6 @@
 #include "lang/format.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "lang/lexeme.h"

@@ -2,7 +2,6 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "lang/parse.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
 #include "parser.h"

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "lang/lexer.h"
 #include "lang/literal.h"
-#include "lang/parse.h"
 #include "lang/parse_state.h"
 #include "lang/stream_state.h"
 #include "parser.h"

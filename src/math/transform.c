@@ -1,7 +1,5 @@
 #include "math/transform.h"
 
-#include <float.h>
-
 #include "math/elementary.h"
 #include "math/gamma.h"
 

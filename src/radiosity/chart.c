@@ -1,7 +1,5 @@
 #include "radiosity/chart.h"
 
-#include <stdlib.h>
-
 #include "math/elementary.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"

@@ -1,6 +1,5 @@
 // What the picture takes from a solution.
 #include <math.h>
-#include <stdlib.h>
 
 #include "radiosity/radiosity.h"
 #include "radiosity/sequence.h"

@@ -1,5 +1,4 @@
 // Form factors by rays, and what hides one element from another.
-#include <stdlib.h>
 
 #include "math/elementary.h"
 #include "radiosity/form_factor.h"

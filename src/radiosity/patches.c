@@ -1,12 +1,12 @@
 #include "radiosity/patches.h"
 
-#include <stdlib.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "math/isa.h"
-#include "radiosity/polygon.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
 #include "trace/tracer.h"

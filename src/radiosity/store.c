@@ -1,7 +1,6 @@
 // Solutions in files: saved for other cameras, and as polygons.
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/digest.h"

@@ -5,7 +5,6 @@
 
 #include "math/isa.h"
 #include "math/processor.h"
-#include "scene/noise.h"
 #include "scene/noise_kernel.h"
 
 const struct noise_kernels *noise_kernels_find(const char *name)

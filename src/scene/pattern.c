@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include "base/arena.h"
 #include "scene/pattern_math.h"
 
 const struct pattern_ops *const pattern_table[] = {

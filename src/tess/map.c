@@ -1,7 +1,5 @@
 #include "tess/map.h"
 
-#include <math.h>
-
 #include "math/elementary.h"
 
 static const double pi = 3.14159265358979323846;

@@ -10,8 +10,6 @@
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
-#include "scene/shapes/disc.h"
-#include "scene/shapes/plane.h"
 #include "scene/shapes/poly.h"
 #include "scene/shapes/quadric.h"
 #include "scene/shapes/sphere.h"

@@ -1,6 +1,5 @@
 #include "trace/media_march.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"

@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "base/arena.h"
 #include "base/memory.h"
 #include "math/elementary.h"
 #include "trace/packet.h"

@@ -4,7 +4,6 @@
 #include "trace/media.h"
 #include "trace/paint.h"
 #include "trace/photons.h"
-#include "trace/sky.h"
 #include "trace/subsurface.h"
 
 static struct layer *layer_new(struct shading *s)

@@ -1,6 +1,4 @@
 // From an object's tree to nodes whose leaves may be inverted.
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/arena.h"
 #include "trace/world_build.h"

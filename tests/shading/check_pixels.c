@@ -4,7 +4,6 @@
 // and prints the first one that is off by more than A + R*|value|.
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "image/image.h"

@@ -3,8 +3,6 @@
 // are traced in packets and alone, which must give the same bits.
 #include "test.h"
 
-#include <stdlib.h>
-
 #include "loaded.h"
 
 enum { RAYS = 512 };

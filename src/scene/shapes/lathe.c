@@ -1,5 +1,4 @@
 // lathe { [linear|quadratic|cubic|bezier]_spline n, <r, h>, ... }
-#include <math.h>
 
 #include "base/arena.h"
 #include "scene/args.h"

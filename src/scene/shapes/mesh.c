@@ -6,7 +6,6 @@
 
 #include "base/arena.h"
 #include "base/memory.h"
-#include "math/gamma.h"
 #include "scene/shape.h"
 #include "scene/shapes/extrude.h"
 #include "scene/shapes/triangle.h"

@@ -1,5 +1,4 @@
 // mesh2 { vertex_vectors {} ... }, and what it has in common with mesh { } when read.
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -7,7 +7,6 @@
 // (poles, cusps, functions without bounds) Newton starts from several points.
 #include "scene/shapes/parametric.h"
 
-#include "base/arena.h"
 #include "math/gamma.h"
 #include "scene/args.h"
 

@@ -7,7 +7,6 @@
 // image under the product is -r, it lies at x + r, to within off/(1 - off) |r|: Newton's
 // method finds it, or such a box lies outside the piece. Pieces on which `off` is too large
 // for a line are halved when a line first comes there (patch_halves).
-#include <float.h>
 #include <math.h>
 
 #include "math/gamma.h"

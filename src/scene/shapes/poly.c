@@ -3,7 +3,6 @@
 // The set where a polynomial in x, y, z is negative. Coefficients come by falling power
 // of x, then of y, then of z (spec/shapes.md 4.8).
 #include <math.h>
-#include <string.h>
 
 #include "base/arena.h"
 #include "math/gamma.h"

@@ -1,5 +1,4 @@
 // sor { n, <r, h>, ... [open] }: r^2 is a cubic of the height between the points.
-#include <math.h>
 
 #include "base/arena.h"
 #include "scene/args.h"

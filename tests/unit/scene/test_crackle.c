@@ -3,7 +3,6 @@
 
 #include "test.h"
 
-#include <float.h>
 #include <stdlib.h>
 
 #include "math/elementary.h"

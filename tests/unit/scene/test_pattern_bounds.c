@@ -5,8 +5,6 @@
 #include "random.h"
 #include "test.h"
 
-#include <stdlib.h>
-
 #include "base/arena.h"
 #include "scene/noise_kernel.h"
 #include "scene/pattern_function.h"

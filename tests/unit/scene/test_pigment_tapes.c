@@ -3,8 +3,6 @@
 
 #include "test.h"
 
-#include <stdlib.h>
-
 #include "base/arena.h"
 #include "scene/noise_kernel.h"
 #include "scene/pigment_tape.h"

@@ -2,8 +2,6 @@
 // Bezier patches, sphere sweeps, height fields; and `closest` against `intersect` for all.
 #include "test.h"
 
-#include <stdlib.h>
-
 #include "base/arena.h"
 #include "base/diag.h"
 #include "fake_args.h"

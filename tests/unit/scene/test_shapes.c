@@ -2,8 +2,6 @@
 // without a sample here fails.
 #include "test.h"
 
-#include <stdlib.h>
-
 #include "base/arena.h"
 #include "base/diag.h"
 #include "fake_args.h"

@@ -1,8 +1,5 @@
 #include "test.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/arena.h"
 #include "math/elementary.h"
 #include "math/isa.h"
