@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "image/texels.h"
 
-// What the file formats share. Only src/image includes it.
+// What the file formats share, those of pictures and (src/api) of meshes.
 
 // A file being made in memory, so that a file on disk is written in one go.
 struct byte_buffer {

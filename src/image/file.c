@@ -26,6 +26,10 @@ void byte_buffer_write(struct byte_buffer *b, size_t offset, const void *data, s
 {
     if (b->failed)
         return;
+    if (n > SIZE_MAX / 2 - offset) { // doubling must end
+        b->failed = true;
+        return;
+    }
     if (offset + n > b->capacity) {
         size_t capacity = b->capacity ? b->capacity : 65536;
         while (capacity < offset + n)

@@ -84,7 +84,7 @@ struct image_write_options {
 
 // Writes to a temporary file beside `path` and renames it: an older good file is
 // never left half overwritten. Same pixels and options give the same bytes. "-" is
-// standard output. False: *error says why (static or in errbuf).
+// standard output. False: `error` says why.
 bool image_write(const struct image *im, const char *path,
                  const struct image_write_options *options, char *error,
                  size_t error_size);

@@ -392,7 +392,8 @@ static bool believable(int64_t width, int64_t height, size_t size)
     // Every chunk of up to 256 rows has its place in the file's table, 8 bytes; no
     // compression makes less than a byte of this many pixels.
     static const double most = 65536;
-    return width >= 1 && height >= 1 && width <= INT32_MAX && height <= INT32_MAX &&
+    // The library counts the bytes of a row of floats in 32 bits.
+    return width >= 1 && height >= 1 && width <= INT32_MAX / 4 && height <= INT32_MAX &&
            width * height <= INT32_MAX && (size_t)(height / 256) <= size / 8 &&
            (double)(width * height) <= most * (double)size;
 }
