@@ -10,8 +10,7 @@
 #include "tess/parts.h"
 #include "tess/sheet.h"
 
-struct export
-{
+struct mesh_export {
     struct lambert_context *ctx;
     enum mesh_format format;
     const char *path;
@@ -19,7 +18,7 @@ struct export
     bool ok;
 };
 
-static void left_out(struct export *e, const struct object *o)
+static void left_out(struct mesh_export *e, const struct object *o)
 {
     const char *why = !object_is_solid(o) ? "has no inside"
                       : aabb_is_finite(object_bounds(o))
@@ -28,7 +27,7 @@ static void left_out(struct export *e, const struct object *o)
     diag_at(&e->ctx->diags, DIAG_MESH_LEFT_OUT, o->where, why);
 }
 
-static void one_mesh(struct export *e, struct arena *a, const struct object *o,
+static void one_mesh(struct mesh_export *e, struct arena *a, const struct object *o,
                      struct tess_mesh *out)
 {
     const struct contour_settings settings = {
@@ -54,7 +53,7 @@ static void one_mesh(struct export *e, struct arena *a, const struct object *o,
 // On a large stack: objects may be thousands of levels deep.
 static void write_meshes(void *user)
 {
-    struct export *e = user;
+    struct mesh_export *e = user;
     const struct scene *scene = &e->ctx->scene;
     struct tess_mesh *mesh = must_calloc(scene->object_count + 1, sizeof *mesh);
     char(*text)[24] = must_calloc(scene->object_count + 1, sizeof *text);
@@ -98,7 +97,7 @@ static void write_meshes(void *user)
 enum lambert_status lambert_mesh_write(struct lambert_context *ctx, const char *path,
                                        struct lambert_mesh_stats *out)
 {
-    struct export e = {.ctx = ctx, .format = mesh_format_of(path), .path = path};
+    struct mesh_export e = {.ctx = ctx, .format = mesh_format_of(path), .path = path};
     *out = e.stats;
     if (!ctx->world)
         return context_fail(ctx, LAMBERT_ERROR_ARGUMENT, "no scene is loaded");

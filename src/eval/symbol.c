@@ -172,9 +172,10 @@ static struct symbol *make_entry_of(struct symbol_tables *t, struct name *name,
     struct symbol **at = &name->top;
     while (*at && (*at)->depth > depth)
         at = &(*at)->outer;
-    if (*at && (*at)->depth == depth)
-        return *at;
-    struct symbol *s = t->free;
+    struct symbol *s = *at;
+    if (s && s->depth == depth)
+        return s;
+    s = t->free;
     if (s) {
         t->free = s->next_in_scope;
         *s = (struct symbol){.text = s->text, .text_capacity = s->text_capacity};

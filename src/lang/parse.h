@@ -8,6 +8,6 @@
 // as a statement, or an old bare directive. After a syntax error it reports, skips
 // to where a statement can start, and goes on with the next. NULL at the end of
 // the input or when the error limit is reached.
-struct ast *parse_item(struct stream *in);
+struct ast *parse_item(struct stream *s);
 
 #endif

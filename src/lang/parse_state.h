@@ -62,7 +62,7 @@ struct ast *parse_finish(struct parse *p, struct ast *node);
 // Whether an item is more of the one before it, which then stands for both.
 bool parse_joins(struct parse *p, struct ast *last, const struct ast *item);
 // After a value: it may not begin with a bare `t`, which POV-Ray takes for no value there.
-void parse_check_first(struct parse *p, const struct ast *value);
+void parse_check_first(struct parse *p, const struct ast *n);
 // Of a word with a number and no braces: whether it may stand so; reports.
 bool parse_is_bare(struct parse *p, enum word word, struct span where);
 void parse_missing_semicolon(struct parse *p, const struct ast *value);

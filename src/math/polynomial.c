@@ -378,25 +378,26 @@ int polynomial_roots(const double *coefficient, int degree, double lo, double hi
     return count;
 }
 
-int polynomial_sign_changes(const double *c, int degree, double lo, double hi,
+int polynomial_sign_changes(const double *coefficient, int degree, double lo, double hi,
                             struct polynomial_root *out)
 {
     polynomial_chain chain;
     double root[POLYNOMIAL_DEGREE_MAX + 1];
     bool rising;
-    while (degree > 0 && c[degree] == 0)
+    while (degree > 0 && coefficient[degree] == 0)
         degree--;
     if (degree > POLYNOMIAL_DEGREE_MAX || !(lo < hi))
         return 0;
     int found = degree, n = 0;
     if (degree > 2)
-        found = find_roots(c, degree, lo, hi, chain, root, &rising);
+        found = find_roots(coefficient, degree, lo, hi, chain, root, &rising);
     else if (degree == 2)
-        found = quadratic_roots(c[2], 0.5 * c[1], c[0], root);
+        found =
+            quadratic_roots(coefficient[2], 0.5 * coefficient[1], coefficient[0], root);
     else if (degree == 1)
-        root[0] = -c[0] / c[1];
+        root[0] = -coefficient[0] / coefficient[1];
     if (degree <= 2)
-        rising = (c[degree] > 0) == (found == 1);
+        rising = (coefficient[degree] > 0) == (found == 1);
     for (int i = 0; i < found; i++, rising = !rising)
         if (degree > 2 || (root[i] > lo && root[i] < hi))
             out[n++] = (struct polynomial_root){.t = root[i], .rising = rising};

@@ -20,12 +20,12 @@ struct polynomial_root {
 // their number, at most degree. rounding: relative error of the coefficients, in
 // units of roundoff, on top of the evaluation's own.
 int polynomial_roots(const double *coefficient, int degree, double lo, double hi,
-                     double rounding, struct polynomial_root *root);
+                     double rounding, struct polynomial_root *out);
 
 // The same with no error bounds (dt), lines and parabolas by formula: for roots that are but
 // a step on the way.
 int polynomial_sign_changes(const double *coefficient, int degree, double lo, double hi,
-                            struct polynomial_root *root);
+                            struct polynomial_root *out);
 
 // How far a root at t may be off when the value is off by `error`, more than polynomial_roots
 // knows of: to first order where it is simple, to second at a double root.

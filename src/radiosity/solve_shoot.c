@@ -16,8 +16,8 @@ struct shooting {
     float *row;
     bool *has_shot;
     double (*unshot)[3], (*source)[3];
-    double rho[3];      // mean
-    double area, power; // of everything emitted
+    double rho[3]; // mean reflectance
+    double area;   // of all elements
 };
 
 static double channels(const double x[3]) { return x[0] + x[1] + x[2]; }

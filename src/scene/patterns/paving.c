@@ -105,8 +105,7 @@ static bool round_vertex(const struct paving *g, int64_t i, int64_t j, struct pi
                          int vertex, int edge, bool *next_wall)
 {
     int e = edge;
-    bool one = true, first = true;
-    struct piece here = own;
+    bool one = true;
     for (int step = 0; step < 5; step++) {
         across(i, j, e, &i, &j);
         // A triangle across an edge is turned by 180 degrees: seen from inside it, the
@@ -116,7 +115,6 @@ static bool round_vertex(const struct paving *g, int64_t i, int64_t j, struct pi
         const int turned = 3 - e - other; // the third edge
         const struct piece there = triangle_piece(g, i, j);
         one = one && same(own, there);
-        here = there;
         for (int v = 0; v < 3; v++) // the vertex between e and the third edge
             if ((vertex_edges[v][0] == e || vertex_edges[v][1] == e) &&
                 (vertex_edges[v][0] == turned || vertex_edges[v][1] == turned)) {
@@ -124,11 +122,10 @@ static bool round_vertex(const struct paving *g, int64_t i, int64_t j, struct pi
                 break;
             }
         e = turned;
-        if (first) {
+        if (step == 0) {
             int64_t ni, nj;
             across(i, j, e, &ni, &nj);
-            *next_wall = !same(here, triangle_piece(g, ni, nj));
-            first = false;
+            *next_wall = !same(there, triangle_piece(g, ni, nj));
         }
     }
     return one;
