@@ -14,7 +14,7 @@ liblambert_a_SOURCES += \
 	%D%/scout.c %D%/scout.h %D%/shade.c %D%/shade.h \
 	%D%/shade_light.c %D%/shade_transmit.c %D%/ray_shaft.h %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/sky.c %D%/sky.h \
 	%D%/simple.c %D%/simple.h %D%/simple_bounce.c %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
-	%D%/wave.c %D%/wave.h
+	%D%/path_queue.c %D%/wave.c %D%/wave.h %D%/wave_order.c
 
 # What is compiled once per instruction set.
 packet_sources = src/scene/noise_kernel.c src/scene/noise_kernel.h src/scene/noise_lattice.h src/scene/noise_bounds_kernel.c \

@@ -24,60 +24,13 @@ struct wave_frame {
     struct wave_frame *deeper;
 };
 
-static uint32_t more(uint32_t capacity) { return capacity ? 2 * capacity : 256; }
-
-void path_queue_reserve(struct path_queue *q, uint32_t count)
-{
-    while (q->count + count > q->capacity) {
-        q->capacity = more(q->capacity);
-        q->at = must_realloc(q->at, q->capacity, sizeof *q->at);
-        q->order = must_realloc(q->order, q->capacity, sizeof *q->order);
-    }
-}
-
-struct path *path_queue_add(struct path_queue *q)
-{
-    path_queue_reserve(q, 1);
-    q->order[q->count] = q->count;
-    return &q->at[q->count++];
-}
-
-void path_queue_free(struct path_queue *q)
-{
-    free(q->at);
-    free(q->order);
-}
-
-void path_emit(struct tracer *t, const struct path *path)
-{
-    if (!path_counts(t->job, path->level, path->weight))
-        return;
-    struct path *p = path_queue_add(t->wave.next);
-    *p = *path;
-    p->parent = (uint16_t)t->slot;
-    p->key = 0;
-}
-
-void power_emit(struct tracer *t, const struct path *path, struct rgb factor,
-                float exponent)
-{
-    if (!path_counts(t->job, path->level, path->weight))
-        return;
-    if (t->power_count == t->power_capacity) {
-        t->power_capacity = more(t->power_capacity);
-        t->power = must_realloc(t->power, t->power_capacity, sizeof *t->power);
-    }
-    t->power[t->power_count++] =
-        (struct power_request){*path, factor, exponent, path->sample};
-}
-
 void wave_sums_reserve(struct tracer *t, uint32_t count)
 {
-    while (t->sum_count + count > t->sum_capacity) {
-        t->sum_capacity = more(t->sum_capacity);
+    t->sum_count += count;
+    if (t->sum_count > t->sum_capacity) {
+        t->sum_capacity = 2 * t->sum_count;
         t->sum = must_realloc(t->sum, t->sum_capacity, sizeof *t->sum);
     }
-    t->sum_count += count;
 }
 
 void wave_sums_grow(struct tracer *t, uint32_t count)
@@ -162,118 +115,6 @@ const struct inside *wave_inside(const struct tracer *t, uint32_t slot)
     return w->path         ? w->path[w->order[slot]].inside
            : t->eye_inside ? t->eye_inside[slot]
                            : t->camera_inside;
-}
-
-enum { PARTS = 64, FINE_KEYS = PATH_KEYS_WITHIN * PARTS };
-
-// A part of the ray's octant: eight by eight of them, along a curve without far leaps.
-static unsigned fine_key(const struct path *p)
-{
-    static const unsigned char spread[8] = {0, 1, 4, 5, 16, 17, 20, 21};
-    const double x = fabs(p->d.x), y = fabs(p->d.y), z = fabs(p->d.z);
-    const double scale = 7.999 / (x + y + z);
-    return path_key_direction(p) * PARTS + spread[(int)(x * scale)] +
-           2u * spread[(int)(y * scale)];
-}
-
-// Where each of the rays stands that have these keys, below PATH_KEYS; equal ones keep their order.
-static void places_by_key(const uint16_t *key, uint32_t count, uint16_t *place)
-{
-    uint16_t begin[PATH_KEYS + 1] = {0};
-    for (uint32_t i = 0; i < count; i++)
-        begin[key[i] + 1]++;
-    for (unsigned i = 1; i < PATH_KEYS; i++)
-        begin[i] = (uint16_t)(begin[i] + begin[i - 1]);
-    for (uint32_t i = 0; i < count; i++)
-        place[i] = begin[key[i]]++;
-}
-
-// The same of keys below FINE_KEYS, by their lower digit and then by the upper: a sample may have
-// few rays.
-static void places_by_digits(const uint16_t *key, uint32_t count, uint16_t *place)
-{
-    enum { DIGIT = 32 };
-    _Static_assert(FINE_KEYS <= DIGIT * DIGIT, "two digits");
-    uint16_t low[DIGIT + 1] = {0}, high[DIGIT + 1] = {0}, order[BATCH_SIZE];
-    for (uint32_t i = 0; i < count; i++) {
-        low[key[i] % DIGIT + 1]++;
-        high[key[i] / DIGIT + 1]++;
-    }
-    for (int i = 1; i < DIGIT; i++) {
-        low[i] = (uint16_t)(low[i] + low[i - 1]);
-        high[i] = (uint16_t)(high[i] + high[i - 1]);
-    }
-    for (uint32_t i = 0; i < count; i++)
-        order[low[key[i] % DIGIT]++] = (uint16_t)i;
-    for (uint32_t i = 0; i < count; i++)
-        place[order[i]] = high[key[order[i]] / DIGIT]++;
-}
-
-// Where each ray of the wave stands in the batch.
-static void wave_sort(const struct tracer *t, uint16_t place[BATCH_SIZE])
-{
-    const struct wavefront *w = &t->wave;
-    const struct job *job = t->job;
-    // Elsewhere the order of hits counts (then it is that of the general rule), or rays come together.
-    const bool fine =
-        job->settings.purpose == RENDER_GATHER && !job->settings.indirect.data;
-    uint16_t key[BATCH_SIZE];
-    for (uint32_t i = 0; i < w->count; i++) {
-        const struct path *p = &w->path[w->order[i]];
-        key[i] = (uint16_t)(fine                       ? fine_key(p)
-                            : p->key && !job->collects ? p->key
-                                                       : path_key_direction(p));
-    }
-    if (fine)
-        places_by_digits(key, w->count, place);
-    else
-        places_by_key(key, w->count, place);
-}
-
-static void wave_put(struct tracer *t)
-{
-    struct wavefront *w = &t->wave;
-    struct ray_batch *b = t->rays;
-    uint16_t place[BATCH_SIZE];
-    wave_sort(t, place);
-    for (uint32_t i = 0; i < w->count; i++) {
-        const struct path *p = &w->path[w->order[i]];
-        const uint32_t k = place[i];
-        b->o[0][k] = p->o.x;
-        b->o[1][k] = p->o.y;
-        b->o[2][k] = p->o.z;
-        b->d[0][k] = p->d.x;
-        b->d[1][k] = p->d.y;
-        b->d[2][k] = p->d.z;
-        b->hidden_by[k] = t->job->hidden_by[(p->flags & PATH_REFLECTED) != 0];
-        w->slot[k] = (uint16_t)i;
-        w->through[0][i] = p->through.r;
-        w->through[1][i] = p->through.g;
-        w->through[2][i] = p->through.b;
-        w->through_t[i] = p->through_t;
-        w->sample[i] = p->sample;
-    }
-    b->count = w->count;
-    for (uint32_t k = 0; k < w->count && t->job->reach > 0; k++)
-        b->t_max[k] =
-            w->path[w->order[w->slot[k]]].flags & PATH_SHORT ? t->job->reach : INFINITY;
-}
-
-// Brings the rays emitted since `first` into the order of their parents.
-static void emitted_sort(struct path_queue *q, uint32_t first)
-{
-    uint32_t begin[BATCH_SIZE + 1] = {0};
-    bool sorted = true;
-    for (uint32_t i = first + 1; i < q->count && sorted; i++)
-        sorted = q->at[i - 1].parent <= q->at[i].parent;
-    if (sorted)
-        return;
-    for (uint32_t i = first; i < q->count; i++)
-        begin[q->at[i].parent + 1]++;
-    for (int i = 1; i <= BATCH_SIZE; i++)
-        begin[i] += begin[i - 1];
-    for (uint32_t i = first; i < q->count; i++)
-        q->order[first + begin[q->at[i].parent]++] = i;
 }
 
 static void miss_add(struct tracer *t, uint32_t slot, struct rgb c, float clear)
@@ -452,7 +293,7 @@ static void wave_trace(struct tracer *t)
     shadow_flush(t);
     area_flush(t);
     sums_add(t);
-    emitted_sort(w->next, first);
+    path_queue_sort(w->next, first);
 }
 
 // Traces rays of a generation; what they send on is appended to next.

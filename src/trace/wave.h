@@ -13,6 +13,10 @@ void wave_run(struct tracer *t, const struct path_queue *queue);
 // with one eye; their samples are 0 to count - 1.
 void wave_run_camera(struct tracer *t, const struct vec2 *position, uint32_t count);
 void wave_frames_free(struct wave_frame *frame);
+// Puts the rays of the wave (t->wave) into the batch (t->rays), sorted.
+void wave_put(struct tracer *t);
+// Brings the rays of a queue from `first` on into the order of their parents.
+void path_queue_sort(struct path_queue *q, uint32_t first);
 void path_queue_free(struct path_queue *q);
 // The random numbers of a sample depend on its place alone.
 uint32_t tracer_position_hash(struct vec2 p);
