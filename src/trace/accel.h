@@ -123,6 +123,9 @@ accel_large(const struct accel *a, const struct world_object *o, uint32_t object
 }
 
 struct accel *accel_build(struct arena *a, const struct world *w);
+// Its parts: leaf_shape, object_shape and plain; then product.
+void accel_classify(struct arena *a, const struct world *w, struct accel *accel);
+void accel_list_products(struct arena *a, const struct world *w, struct accel *accel);
 // The same of some objects; w->accel is there.
 enum accel_part {
     ACCEL_WHOLE,
