@@ -31,7 +31,7 @@ struct material {
     const struct interior *interior;
 };
 
-struct image_file; // build_image.c
+struct image_file; // image_source.c
 
 struct builder {
     struct eval *e;

@@ -13,7 +13,7 @@ liblambert_a_SOURCES += \
 	%D%/files.c %D%/formula.c %D%/formula.h %D%/function.c %D%/function.h \
 	%D%/function_compile.c %D%/function_compile.h \
 	%D%/functions.c %D%/functions.def \
-	%D%/functions.h %D%/host.c %D%/include_hint.c %D%/include_hint.h %D%/internal.c %D%/internal.def \
+	%D%/functions.h %D%/host.c %D%/image_source.c %D%/image_source.h %D%/include_hint.c %D%/include_hint.h %D%/internal.c %D%/internal.def \
 	%D%/internal.h %D%/internal_noise.c %D%/message.c %D%/place.c %D%/random.c %D%/spline.c %D%/spline.h \
 	%D%/strings.c %D%/symbol.c %D%/symbol.h %D%/text.c %D%/text.h %D%/value.c \
 	%D%/value.h
