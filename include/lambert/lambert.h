@@ -38,7 +38,8 @@ LAMBERT_API void lambert_run_deep(void (*fn)(void *user), void (*meanwhile)(void
 // --- Contexts -------------------------------------------------------------
 
 struct lambert_context;
-LAMBERT_API struct lambert_context *lambert_context_new(void);
+LAMBERT_API struct lambert_context *lambert_context_new(void); // NULL: no memory
+// Forgets the scene that is loaded, too; images live on. NULL is no context.
 LAMBERT_API void lambert_context_free(struct lambert_context *ctx);
 // What went wrong in the last call that did not return LAMBERT_OK.
 LAMBERT_API const char *lambert_error(const struct lambert_context *ctx);
@@ -82,14 +83,21 @@ LAMBERT_API const char *lambert_option_suggest(const char *name);
 // The same of INI keywords, whose case does not matter.
 LAMBERT_API const char *lambert_keyword_suggest(const char *keyword);
 
+// Sets an option, or adds to a list, by its long name ("width"). LAMBERT_ERROR_OPTION: there
+// is none of that name, or it does not take the value. A flag is on for "on", "true", "yes"
+// and "1" (and what begins so), else off.
 LAMBERT_API enum lambert_status lambert_option_set(struct lambert_context *ctx,
                                                    const char *name, const char *value);
+// Whether it was set so, and has not just its initial value or one that the scene asks for.
 LAMBERT_API bool lambert_option_is_set(const struct lambert_context *ctx,
                                        const char *name);
+// The value as it counts now: set, else the scene's, else initial. Flags are 0 or 1; 0 and
+// NULL also where there is none.
 LAMBERT_API double lambert_option_number(const struct lambert_context *ctx,
-                                         const char *name); // flags: 0 or 1
+                                         const char *name);
 LAMBERT_API const char *lambert_option_text(const struct lambert_context *ctx,
-                                            const char *name); // NULL: none
+                                            const char *name);
+// *values: what a list holds, in the order it was added. Returns how many.
 LAMBERT_API size_t lambert_option_list(const struct lambert_context *ctx,
                                        const char *name, const char *const **values);
 
@@ -137,7 +145,8 @@ LAMBERT_API void lambert_cancel(struct lambert_context *ctx);
 // --- Rendering ------------------------------------------------------------
 
 // Reads a scene file ("-" is standard input) in place of any earlier one, with the
-// options as they are now.
+// options as they are now. LAMBERT_ERROR_INPUT: it cannot be read; LAMBERT_ERROR_SCENE: it
+// has errors, which messages told.
 LAMBERT_API enum lambert_status lambert_load_file(struct lambert_context *ctx,
                                                   const char *path);
 
@@ -150,9 +159,9 @@ LAMBERT_API enum lambert_status lambert_format_file(struct lambert_context *ctx,
                                                     const char *path, FILE *out);
 
 // The file an interrupted render leaves its finished tiles in, removed when the whole picture
-// has been written; NULL: none. To be set before loading. With option `save-state` or `continue` tiles
-// are written as they are finished; with `continue` those that an interrupted render of the
-// same scene and settings left are taken over.
+// has been written; NULL: none. To be set before loading. With option `save-state` or
+// `continue` tiles are written as they are finished; with `continue` those that an interrupted
+// render of the same scene and settings left are taken over.
 LAMBERT_API void lambert_set_state_file(struct lambert_context *ctx, const char *path);
 
 struct lambert_image;
@@ -160,14 +169,18 @@ struct lambert_image;
 LAMBERT_API enum lambert_status lambert_render(struct lambert_context *ctx,
                                                struct lambert_image **out);
 
+// Of the last scene that was loaded, and of the last picture of it.
 struct lambert_stats {
-    double parse_seconds, build_seconds, trace_seconds, write_seconds;
+    double parse_seconds, build_seconds, trace_seconds, write_seconds; // by the clock
     double trace_cpu_seconds; // of all threads, while tracing
-    uint64_t pixels, samples, rays, shadow_rays, node_visits, leaf_tests, csg_tests;
-    uint64_t function_evaluations; // to find surfaces given by functions
-    uint32_t tiles_done, tiles_total, objects, leaves, lights;
-    uint64_t memory_peak; // bytes, of the whole process
-    unsigned errors, warnings;
+    uint64_t pixels, samples; // finished pixels, and rays from the camera
+    uint64_t rays, shadow_rays;
+    uint64_t node_visits, leaf_tests, csg_tests; // of trees of boxes, shapes, CSG objects
+    uint64_t function_evaluations;               // to find surfaces given by functions
+    uint32_t tiles_done, tiles_total;
+    uint32_t objects, leaves, lights; // leaves: shapes, those inside of CSG counted
+    uint64_t memory_peak;             // bytes, of the whole process
+    unsigned errors, warnings;        // of messages about the scene
 };
 LAMBERT_API void lambert_get_stats(const struct lambert_context *ctx,
                                    struct lambert_stats *out);
@@ -175,14 +188,16 @@ LAMBERT_API void lambert_get_stats(const struct lambert_context *ctx,
 // --- Meshes -----------------------------------------------------------------
 
 struct lambert_mesh_stats {
-    uint32_t objects,
-        left_out; // left out: no bounds, or a kind of sheet without triangles
+    uint32_t objects;  // all but lights
+    uint32_t left_out; // no end, finer than a cell, or a sheet that is not exported
     uint64_t vertices, triangles;
 };
 // Writes the objects of what was loaded as triangle meshes, one for each object: closed,
 // 2-manifold and turned outward (by the right-hand rule in the scene's coordinates) for
-// solids. The name says the format: .obj, .stl or .ply (both binary). An older file stays
-// whole when this fails.
+// solids. The name says the format: .obj, .stl or .ply (the last two binary). Options
+// `mesh-resolution` and `mesh-sharp` count. LAMBERT_ERROR_OPTION: another name;
+// LAMBERT_ERROR_SCENE: no object can be made a mesh. An older file stays whole when this
+// fails.
 LAMBERT_API enum lambert_status lambert_mesh_write(struct lambert_context *ctx,
                                                    const char *path,
                                                    struct lambert_mesh_stats *out);
@@ -204,15 +219,17 @@ LAMBERT_API int lambert_image_channels(const struct lambert_image *image); // 3 
 // Rows from the top, channels together, premultiplied, in the scene's working space.
 LAMBERT_API const float *lambert_image_pixels(const struct lambert_image *image);
 
-// Writes with the context's options (file type, bits, gamma, alpha); "-" is standard
-// output. An older file stays whole when this fails.
 // By the extension of a file's name, in upper or lower case: whether pictures of that type
 // are read and written. Files are read by what is in them, whatever they are called.
 LAMBERT_API bool lambert_image_can_read(const char *path);
 LAMBERT_API bool lambert_image_can_write(const char *path);
+// Writes with the context's options (file type, bits, gamma, alpha); "-" is standard
+// output. LAMBERT_ERROR_OUTPUT: it cannot be written; an older file stays whole then.
 LAMBERT_API enum lambert_status lambert_image_write(struct lambert_context *ctx,
                                                     const struct lambert_image *image,
                                                     const char *path);
+// A file's numbers as they are, 0..1 in integer files. *out is NULL after an error
+// (LAMBERT_ERROR_INPUT, LAMBERT_ERROR_MEMORY).
 LAMBERT_API enum lambert_status lambert_image_read(struct lambert_context *ctx,
                                                    const char *path,
                                                    struct lambert_image **out);
@@ -222,8 +239,9 @@ struct lambert_difference {
     double rmse, psnr; // of the encoded values 0..1, in dB; psnr may be infinite
     double largest;    // difference of two encoded values, 0..1
 };
-// Compares what a viewer would show: both encoded as sRGB, clipped to 0..1. The heat
-// map (NULL: none) shows where and how much.
+// Compares what a viewer would show: both encoded as sRGB, clipped to 0..1, as is
+// `threshold`. The heat map (NULL: none) shows where and how much. LAMBERT_ERROR_ARGUMENT:
+// the sizes differ.
 LAMBERT_API enum lambert_status
 lambert_image_compare(struct lambert_context *ctx, const struct lambert_image *a,
                       const struct lambert_image *b, double threshold,
