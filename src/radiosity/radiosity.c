@@ -43,16 +43,18 @@ static double memory_limit(const struct radiosity_options *s)
 // slivers that are no part of an element.
 static bool is_closed(const struct patches *p, int points)
 {
+    enum { BATCH = 1024, SEED = 99 };
     const struct enclosure *e = &p->enclosure;
     void *state = e->thread_begin(e->user);
-    struct ray_batch *rays = ray_batch_new(1024);
-    uint32_t *met = must_calloc(1024, sizeof *met), escaped = 0;
+    struct ray_batch *rays = ray_batch_new(BATCH);
+    uint32_t *met = must_calloc(BATCH, sizeof *met), escaped = 0;
     const uint32_t n = e->count, few = (uint32_t)points / 1000;
     for (uint32_t k = 0; k < (uint32_t)points && escaped <= few;) {
-        for (rays->count = 0; rays->count < 1024 && k < (uint32_t)points; k++) {
+        for (rays->count = 0; rays->count < BATCH && k < (uint32_t)points; k++) {
             struct element_point from;
             double x[4];
-            random_point(k, 99, x);
+            random_point(k, SEED, x);
+            // Knuth's multiplicative hash: elements in no order of theirs.
             if (e->point(state, (uint32_t)((uint64_t)k * 2654435761u % n), x[0], x[1],
                          &from))
                 ray_put(rays, &from, cosine_direction(from.normal, x[2], x[3]), INFINITY);
@@ -88,67 +90,91 @@ static double bytes_needed(const char *solver, uint32_t n)
     return bytes;
 }
 
-bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
+// Whether the solver finds room; an error says how much is missing.
+static bool has_memory(const struct radiosity *r, const char *solver, double need,
+                       char *error, size_t error_size)
+{
+    const uint32_t n = r->patches->enclosure.count;
+    const double limit = memory_limit(&r->settings);
+    if (need > limit)
+        snprintf(error, error_size,
+                 "solver '%s' needs %.1f GiB for %u patches, %.1f GiB may be taken; "
+                 "'stochastic' needs %.1f GiB",
+                 solver, need / gib, n, limit / gib, bytes_needed("stochastic", n) / gib);
+    return need <= limit;
+}
+
+// The matrix of form factors, for solvers that want one.
+static bool level_factors(struct radiosity *r, bool closed, struct factors *f,
+                          char *error, size_t error_size)
 {
     const struct enclosure *e = &r->patches->enclosure;
-    const uint32_t n = e->count;
+    struct radiosity_report *report = &r->report;
+    if (!factors_compute(f, e, &r->settings.factors)) {
+        snprintf(error, error_size, "no memory for %.1f GiB of form factors",
+                 factors_bytes(e->count) / gib);
+        return false;
+    }
+    report->row_sum_least = f->row_sum_least;
+    report->row_sum_most = f->row_sum_most;
+    report->asymmetry = f->asymmetry;
+    if (closed)
+        factors_balance(f, e, r->settings.watch);
+    else if (!f->symmetric)
+        factors_symmetrize(f, e);
+    report->balanced = f->balanced;
+    return true;
+}
+
+static void report_solution(struct radiosity_report *report,
+                            const struct radiosity_solution *s)
+{
+    report->rays += s->rays;
+    report->links = s->links;
+    report->steps = s->steps;
+    report->defect = s->defect;
+    report->error = s->error;
+    report->converged = s->converged;
+}
+
+bool radiosity_level(struct radiosity *r, char *error, size_t error_size)
+{
+    enum { CLOSURE_POINTS = 4096 };
+    const struct enclosure *e = &r->patches->enclosure;
     struct solver_settings solver = r->settings.solver;
     struct radiosity_report *report = &r->report;
     struct factors f = {0};
     struct radiosity_system system = {
         .e = e, .lamps = (const double(*)[3])r->lamps, .factors = &r->settings.factors};
-    solver.solver = solver_for(&r->settings, n);
-    const double need = bytes_needed(solver.solver, n),
-                 limit = memory_limit(&r->settings);
-    if (need > limit) {
-        snprintf(error, error_size,
-                 "solver '%s' needs %.1f GiB for %u patches, %.1f GiB may be taken; "
-                 "'stochastic' needs %.1f GiB",
-                 solver.solver, need / gib, n, limit / gib,
-                 bytes_needed("stochastic", n) / gib);
-        return false;
-    }
-    // Shares of the time as they are where factors are stored; a solver without a
-    // matrix takes all of it.
+    solver.solver = solver_for(&r->settings, e->count);
+    report->bytes = bytes_needed(solver.solver, e->count);
     struct watch *const watch = r->settings.watch;
-    const double from = watch ? watch->from : 0, to = watch ? watch->to : 1;
-    if (watch_cancelled(watch))
+    if (!has_memory(r, solver.solver, report->bytes, error, error_size) ||
+        watch_cancelled(watch))
         return false;
     report->solver = solver.solver;
     report->method = r->settings.factors.method;
-    report->closed = r->settings.closure != CLOSURE_REPORT && is_closed(r->patches, 4096);
+    report->closed =
+        r->settings.closure != CLOSURE_REPORT && is_closed(r->patches, CLOSURE_POINTS);
     system.closed = r->settings.closure == CLOSURE_ENFORCE ||
                     (r->settings.closure == CLOSURE_AUTO && report->closed);
     if (solver_needs_matrix(solver_find(solver.solver))) {
+        // Shares of the time as they are where factors are stored; a solver without a
+        // matrix takes all of it.
+        const double from = watch ? watch->from : 0, to = watch ? watch->to : 1;
         watch_part(watch, from, from + .9 * (to - from));
-        if (!factors_compute(&f, e, &r->settings.factors)) {
-            snprintf(error, error_size, "no memory for %.1f GiB of form factors",
-                     factors_bytes(n) / gib);
+        if (!level_factors(r, system.closed, &f, error, error_size))
             return false;
-        }
-        report->row_sum_least = f.row_sum_least;
-        report->row_sum_most = f.row_sum_most;
-        report->asymmetry = f.asymmetry;
-        if (system.closed)
-            factors_balance(&f, e, r->settings.watch);
-        else if (!f.symmetric)
-            factors_symmetrize(&f, e);
-        report->balanced = f.balanced;
         system.f = &f;
         watch_part(watch, from + .9 * (to - from), to);
     }
     const bool ok = radiosity_solve(&r->solution, &system, &solver);
-    report->rays += f.rays + r->solution.rays;
-    report->links = r->solution.links;
-    report->steps = r->solution.steps;
-    report->bytes = need;
-    report->defect = r->solution.defect;
-    report->error = r->solution.error;
-    report->converged = r->solution.converged;
+    report->rays += f.rays;
+    report_solution(report, &r->solution);
     factors_free(&f);
     watch_tell(watch, 1);
     if (!ok)
-        snprintf(error, error_size, "no memory for %u patches", n);
+        snprintf(error, error_size, "no memory for %u patches", e->count);
     return ok && !watch_cancelled(watch);
 }
 

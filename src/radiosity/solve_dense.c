@@ -132,6 +132,39 @@ static void cg_start(struct cg *g, int threads)
     }
 }
 
+// One step of conjugate gradients; now and next: |r|^2 before and after it.
+static void cg_step(struct cg *g, size_t n, int threads, const double now[3],
+                    double next[3])
+{
+    double pq[3];
+    cg_apply(g, threads);
+    dot(g->p, g->q, n, pq);
+    for (size_t i = 0; i < n; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double step = pq[c] > 0 ? now[c] / pq[c] : 0;
+            g->x[i][c] += step * g->p[i][c];
+            g->r[i][c] -= step * g->q[i][c];
+        }
+    }
+    dot(g->r, g->r, n, next);
+    for (size_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++)
+            g->p[i][c] = g->r[i][c] + (now[c] > 0 ? next[c] / now[c] : 0) * g->p[i][c];
+}
+
+// A bound on the relative error: the smallest eigenvalue of 1 - K is at least 1 - rho, and
+// |z| at least that of the first gathering.
+static double cg_error(const double first[3], const double now[3], const double rho[3])
+{
+    double error = 0;
+    for (int c = 0; c < 3; c++) {
+        const double amplify = 1 / fmax(1 - rho[c], 1e-6);
+        const double e = first[c] > 0 ? sqrt(now[c] / first[c]) * amplify : 0;
+        error = fmax(error, e);
+    }
+    return error;
+}
+
 void solve_cg(struct radiosity_solution *out, const struct radiosity_system *s,
               const struct solver_settings *settings)
 {
@@ -144,7 +177,7 @@ void solve_cg(struct radiosity_solution *out, const struct radiosity_system *s,
                    must_calloc(n, sizeof *g.p),
                    must_calloc(n, sizeof *g.q),
                    must_calloc(n, sizeof *g.b)};
-    double first[3], now[3], next[3], pq[3], rho_most[3] = {0, 0, 0};
+    double first[3], now[3], next[3], rho_most[3] = {0, 0, 0};
     cg_start(&g, settings->threads);
     for (size_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++)
@@ -152,30 +185,10 @@ void solve_cg(struct radiosity_solution *out, const struct radiosity_system *s,
     dot(g.r, g.r, n, first);
     memcpy(now, first, sizeof now);
     while (out->steps < most && !out->converged && !watch_cancelled(settings->watch)) {
-        cg_apply(&g, settings->threads);
-        dot(g.p, g.q, n, pq);
-        for (size_t i = 0; i < n; i++) {
-            for (int c = 0; c < 3; c++) {
-                const double step = pq[c] > 0 ? now[c] / pq[c] : 0;
-                g.x[i][c] += step * g.p[i][c];
-                g.r[i][c] -= step * g.q[i][c];
-            }
-        }
-        dot(g.r, g.r, n, next);
-        out->converged = true;
-        out->error = 0;
-        for (int c = 0; c < 3; c++) {
-            // The smallest eigenvalue of 1 - K is at least 1 - rho, and |z| at least
-            // that of the first gathering.
-            const double amplify = 1 / fmax(1 - rho_most[c], 1e-6);
-            const double e = first[c] > 0 ? sqrt(next[c] / first[c]) * amplify : 0;
-            out->error = fmax(out->error, e);
-        }
-        out->converged = out->error <= settings->tolerance;
-        for (size_t i = 0; i < n; i++)
-            for (int c = 0; c < 3; c++)
-                g.p[i][c] = g.r[i][c] + (now[c] > 0 ? next[c] / now[c] : 0) * g.p[i][c];
+        cg_step(&g, n, settings->threads, now, next);
         memcpy(now, next, sizeof now);
+        out->error = cg_error(first, now, rho_most);
+        out->converged = out->error <= settings->tolerance;
         out->steps++;
     }
     system_source(s, g.b);
