@@ -263,11 +263,12 @@ static const char man_tail[] =
     ".TP\n.B POVINC\nThe same, after those.\n"
     ".TP\n.B POVINI\nAn INI file read before the command line.\n"
     ".TP\n.B NO_COLOR\nNo colour in messages.\n"
+    ".TP\n.B TMPDIR\nWhere a picture goes that cannot be written where it should; else "
+    "/tmp.\n"
     ".SH SIGNALS\n"
-    "The first SIGINT or SIGTERM ends the rendering after the tiles in hand (not those "
-    "with\n"
-    "rays through functions that take long) and writes what there is; a second one ends "
-    "the program at once.\n";
+    "The first SIGINT or SIGTERM ends the rendering after the tiles in hand, or within "
+    "those\n"
+    "that take long, and writes what there is; a second one ends the program at once.\n";
 
 void man_print(FILE *out)
 {
