@@ -320,9 +320,7 @@ static void closest(void *state, const struct ray_batch *rays, uint32_t *out)
         rays->hidden_by[i] = OBJECT_NO_RADIOSITY;
     trace_closest(t->p->job->world, t->scratch, rays, t->hit);
     for (uint32_t i = 0; i < rays->count; i++) {
-        const struct ray ray = {vec3(rays->o[0][i], rays->o[1][i], rays->o[2][i]),
-                                vec3(rays->d[0][i], rays->d[1][i], rays->d[2][i]), 0,
-                                INFINITY};
+        const struct ray ray = ray_batch_line(rays, i);
         const struct hit hit = hit_batch_at(t->hit, i);
         out[i] = hit.b.t < INFINITY ? patch_of_hit(t->p, t->scratch, &ray, &hit)
                                     : ELEMENT_NONE;

@@ -9,13 +9,6 @@ static void add(struct tracer *t, const struct simple_group *g, int i, struct rg
                rgb_mul(rgb(g->through[0][i], g->through[1][i], g->through[2][i]), light));
 }
 
-static struct ray ray_of(const struct tracer *t, uint32_t k)
-{
-    const struct ray_batch *b = t->rays;
-    return (struct ray){vec3(b->o[0][k], b->o[1][k], b->o[2][k]),
-                        vec3(b->d[0][k], b->d[1][k], b->d[2][k]), 0, INFINITY};
-}
-
 // With the interaction of the hit.
 static void ask(struct tracer *t, uint32_t k, const struct indirect_hit *hit,
                 struct rgb matt, bool back)
@@ -49,7 +42,7 @@ static struct vec3 towards(struct vec3 n, struct vec3 d)
 
 struct vec3 bare_normal(const struct tracer *t, uint32_t k)
 {
-    const struct ray ray = ray_of(t, k);
+    const struct ray ray = ray_batch_line(t->rays, k);
     const struct hit met = hit_batch_at(t->hit, k);
     return towards(interaction_of(t, &ray, &met).ns, ray.d);
 }
@@ -57,7 +50,7 @@ struct vec3 bare_normal(const struct tracer *t, uint32_t k)
 void indirect_ask(struct tracer *t, uint32_t k, struct rgb matt, const struct vec3 *n,
                   bool back)
 {
-    const struct ray ray = ray_of(t, k);
+    const struct ray ray = ray_batch_line(t->rays, k);
     const struct hit met = hit_batch_at(t->hit, k);
     const struct interaction at = interaction_of(t, &ray, &met);
     const struct indirect_hit hit = {&ray, &met, &at, n ? *n : towards(at.ns, ray.d),
@@ -83,7 +76,7 @@ static void ask_side(struct tracer *t, uint32_t k, const struct indirect_kept *x
                      bool back)
 {
     const struct world *w = t->job->world;
-    const struct ray ray = ray_of(t, k);
+    const struct ray ray = ray_batch_line(t->rays, k);
     const struct hit met = hit_batch_at(t->hit, k);
     const struct leaf *l = &w->leaf[met.b.leaf];
     // As trace_interaction; what only textures look at is left out.

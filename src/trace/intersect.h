@@ -47,6 +47,22 @@ struct hit_batch {
     uint32_t *leaf;
     uint8_t *crossing;
 };
+static inline struct ray ray_batch_at(const struct ray_batch *b, uint32_t i)
+{
+    return (struct ray){{b->o[0][i], b->o[1][i], b->o[2][i]},
+                        {b->d[0][i], b->d[1][i], b->d[2][i]},
+                        b->t_min[i],
+                        b->t_max[i]};
+}
+// The same from its origin on without an end.
+static inline struct ray ray_batch_line(const struct ray_batch *b, uint32_t i)
+{
+    struct ray r = ray_batch_at(b, i);
+    r.t_min = 0;
+    r.t_max = INFINITY;
+    return r;
+}
+
 struct hit_batch *hit_batch_new(uint32_t capacity);
 void hit_batch_free(struct hit_batch *b);
 struct hit hit_batch_at(const struct hit_batch *b, uint32_t i);

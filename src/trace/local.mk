@@ -12,7 +12,7 @@ liblambert_a_SOURCES += \
 	%D%/photon_map.c %D%/photon_map.h %D%/photon_path.c %D%/photon_path.h %D%/photon_volley.c %D%/photon_volley.h \
 	%D%/photons.c %D%/photons.h %D%/shade_photons.c %D%/subsurface.c %D%/subsurface.h %D%/subsurface_plan.c %D%/mesh_samples.c %D%/mesh_samples.h %D%/near_zero.h %D%/lens.h %D%/paint.c %D%/paint_lit.c %D%/paint_compile.c %D%/paint.h %D%/projected.c %D%/projected.h %D%/render.c \
 	%D%/scout.c %D%/scout.h %D%/shade.c %D%/shade.h \
-	%D%/shade_light.c %D%/shade_transmit.c %D%/ray_shaft.h %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/sky.c %D%/sky.h \
+	%D%/shade_light.c %D%/shade_transmit.c %D%/ray_shaft.h %D%/shadow.c %D%/shadow_list.c %D%/shadow_list.h %D%/shadow_walk.c %D%/shadow_walk.h %D%/sky.c %D%/sky.h \
 	%D%/simple.c %D%/simple.h %D%/simple_bounce.c %D%/tile.c %D%/tile.h %D%/tracer.c %D%/tracer.h \
 	%D%/path_queue.c %D%/wave.c %D%/wave.h %D%/wave_order.c
 

@@ -381,11 +381,7 @@ static void place_each(struct tracer *t, const struct simple_group *g, struct pl
     double p[3][8], ng[3][8], ns[3][8], error[8];
     for (int i = 0; i < 8; i++) {
         const uint32_t k = g->ray[i];
-        const struct ray_batch *b = t->rays;
-        const struct ray ray = {{b->o[0][k], b->o[1][k], b->o[2][k]},
-                                {b->d[0][k], b->d[1][k], b->d[2][k]},
-                                0,
-                                INFINITY};
+        const struct ray ray = ray_batch_line(t->rays, k);
         struct interaction at;
         const struct hit hit = hit_batch_at(t->hit, k);
         trace_interaction(t->job->world, &ray, &hit, &at);

@@ -105,11 +105,7 @@ static bool wall_answer(const struct sss *x, uint32_t i, double *distance,
                         struct interaction *at)
 {
     const struct tracer *t = x->s->t;
-    const struct ray_batch *b = t->wall_rays;
-    const struct ray ray = {{b->o[0][i], b->o[1][i], b->o[2][i]},
-                            {b->d[0][i], b->d[1][i], b->d[2][i]},
-                            0,
-                            INFINITY};
+    const struct ray ray = ray_batch_line(t->wall_rays, i);
     *distance = t->wall_hit->t[i];
     if (!(*distance < INFINITY))
         return false;
