@@ -202,9 +202,35 @@ LANES_INLINE unsigned power_step(const struct reg *a, unsigned moving, double y,
     return left;
 }
 
+// Of a comparison or a logical operation.
+LANES_INLINE struct range compared(enum tape_op op, struct range a, struct range b)
+{
+    switch (op) {
+    case TAPE_LESS: return is_less(a, b);
+    case TAPE_GREATER: return is_less(b, a);
+    case TAPE_LESS_EQUAL: return is_less_equal(a, b);
+    case TAPE_GREATER_EQUAL: return is_less_equal(b, a);
+    case TAPE_EQUAL: return is_equal(a, b);
+    case TAPE_NOT_EQUAL: return negated(is_equal(a, b));
+    case TAPE_AND: return both(a, b);
+    default: return one_of(a, b);
+    }
+}
+
+// Of a + b, or of a - b; what does not move has slopes of zero, which are not added.
+LANES_INLINE void add_slopes(const struct reg *a, unsigned ma, const struct reg *b,
+                             unsigned mb, bool subtract, int n, struct range *out)
+{
+    for (int i = 0; i < n; i++) {
+        const struct range d = subtract ? negate(b->d[i]) : b->d[i];
+        out[i] = ma & mb & 1u << i ? add(a->d[i], d) : ma >> i & 1 ? a->d[i] : d;
+    }
+}
+
 LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
                               struct reg *r, const uint8_t *moving, unsigned all, int n)
 {
+    const enum tape_op op = (enum tape_op)s->op;
     const struct reg *a = &r[s->a], *b = &r[s->b];
     const unsigned ma = moving[s->a], mb = moving[s->b];
     const struct real8 zero = r8_set(0);
@@ -214,11 +240,11 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
         v.d[i] = range_of(zero, zero);
     struct range by, other;
     unsigned left = 0;
-    if (s->op == TAPE_POW && !is_power(t, s)) {
+    if (op == TAPE_POW && !is_power(t, s)) {
         operation_by_lanes(s, r, n, all ? n : 0, 255, &r[s->to]);
         return;
     }
-    switch ((enum tape_op)s->op) {
+    switch (op) {
     case TAPE_NEGATE:
         v.v = negate(a->v);
         for (int i = 0; i < n; i++)
@@ -240,30 +266,24 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
         v.v = root(a->v);
         if (ma)
             scale(divide(half, v.v), a->d, ma, n, v.d);
-        if (s->op == TAPE_LENGTH)
+        if (op == TAPE_LENGTH)
             limit(b, &r[s->c], s->b == s->d ? NULL : &r[s->d], n, v.d);
         break;
     case TAPE_SIN:
     case TAPE_COS:
         waves(a->v, &by, &other);
-        v.v = s->op == TAPE_SIN ? by : other;
-        scale(s->op == TAPE_SIN ? other : negate(by), a->d, ma, n, v.d);
+        v.v = op == TAPE_SIN ? by : other;
+        scale(op == TAPE_SIN ? other : negate(by), a->d, ma, n, v.d);
         left = large_lanes(a->v);
         break;
     case TAPE_POW: left = power_step(a, ma, t->constant[s->b], n, &v); break;
     case TAPE_ADD:
         v.v = add(a->v, b->v);
-        for (int i = 0; i < n; i++)
-            v.d[i] = ma & mb & 1u << i ? add(a->d[i], b->d[i])
-                     : ma >> i & 1     ? a->d[i]
-                                       : b->d[i];
+        add_slopes(a, ma, b, mb, false, n, v.d);
         break;
     case TAPE_SUBTRACT:
         v.v = add(a->v, negate(b->v));
-        for (int i = 0; i < n; i++)
-            v.d[i] = ma & mb & 1u << i ? add(a->d[i], negate(b->d[i]))
-                     : ma >> i & 1     ? a->d[i]
-                                       : negate(b->d[i]);
+        add_slopes(a, ma, b, mb, true, n, v.d);
         break;
     case TAPE_MULTIPLY:
         v.v = multiply(a->v, b->v);
@@ -290,35 +310,14 @@ LANES_INLINE void bounds_step(const struct tape *t, const struct tape_step *s,
         flat(v.v, a->d, ma, n, v.d);
         break;
     case TAPE_LESS:
-        v.v = is_less(a->v, b->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_GREATER:
-        v.v = is_less(b->v, a->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_LESS_EQUAL:
-        v.v = is_less_equal(a->v, b->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_GREATER_EQUAL:
-        v.v = is_less_equal(b->v, a->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_EQUAL:
-        v.v = is_equal(a->v, b->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_NOT_EQUAL:
-        v.v = negated(is_equal(a->v, b->v));
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_AND:
-        v.v = both(a->v, b->v);
-        flat_of_two(a, ma, b, mb, n, &v);
-        break;
     case TAPE_OR:
-        v.v = one_of(a->v, b->v);
+        v.v = compared(op, a->v, b->v);
         flat_of_two(a, ma, b, mb, n, &v);
         break;
     case TAPE_SELECT: choose(a, b, &r[s->c], &r[s->d], ma, n, &v); break;
