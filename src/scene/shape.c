@@ -57,6 +57,15 @@ void shape_print_number(FILE *out, double v)
     fputs(text, out);
 }
 
+void shape_print_vec2(FILE *out, struct vec2 v)
+{
+    fputc('<', out);
+    shape_print_number(out, v.u);
+    fputs(", ", out);
+    shape_print_number(out, v.v);
+    fputc('>', out);
+}
+
 void shape_print_vec3(FILE *out, struct vec3 v)
 {
     fputc('<', out);

@@ -137,6 +137,7 @@ struct aabb shape_placed_bounds(const struct shape_ops *ops, const void *shape,
 struct aabb shape_surface_bounds(const struct shape_ops *ops, const void *shape);
 // A number or vector as scene text that reads back as the same bits.
 void shape_print_number(FILE *out, double v);
+void shape_print_vec2(FILE *out, struct vec2 v);
 void shape_print_vec3(FILE *out, struct vec3 v);
 
 #endif

@@ -275,11 +275,8 @@ static void print(const void *shape, FILE *out)
         }
     fputs(" uv_vectors", out);
     for (int i = 0; i < 4; i++) {
-        fputs(i ? ", <" : " <", out);
-        shape_print_number(out, s->uv[i].u);
-        fputs(", ", out);
-        shape_print_number(out, s->uv[i].v);
-        fputs(">", out);
+        fputs(i ? ", " : " ", out);
+        shape_print_vec2(out, s->uv[i]);
     }
     for (int i = 0; i < 16; i++) {
         fputs(", ", out);

@@ -158,11 +158,8 @@ static void print(const void *shape, FILE *out)
     const struct lathe *l = shape;
     fprintf(out, "lathe { %s %ld", spline_word[l->spline], l->count);
     for (long i = 0; i < l->count; i++) {
-        fputs(", <", out);
-        shape_print_number(out, l->point[i].u);
         fputs(", ", out);
-        shape_print_number(out, l->point[i].v);
-        fputs(">", out);
+        shape_print_vec2(out, l->point[i]);
     }
 }
 

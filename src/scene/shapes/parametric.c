@@ -344,12 +344,10 @@ static void print(const void *shape, FILE *out)
         tape_print(p->f[i], out);
         fputs(" }", out);
     }
-    const double v[4] = {p->low.u, p->low.v, p->high.u, p->high.v};
-    for (int i = 0; i < 4; i++) {
-        fputs(i % 2 ? ", " : i ? ", <" : " <", out);
-        shape_print_number(out, v[i]);
-        fputs(i % 2 ? ">" : "", out);
-    }
+    fputc(' ', out);
+    shape_print_vec2(out, p->low);
+    fputs(", ", out);
+    shape_print_vec2(out, p->high);
     container_print(&p->container, out);
     fputs(" accuracy ", out);
     shape_print_number(out, p->accuracy);

@@ -249,11 +249,8 @@ static void print(const void *shape, FILE *out)
             q.u += g->c1.u * w + (k == 2 ? g->c2.u / 3 : 0);
             q.v += g->c1.v * w + (k == 2 ? g->c2.v / 3 : 0);
             q = k == 3 ? g->b : q;
-            fputs(", <", out);
-            shape_print_number(out, q.u);
             fputs(", ", out);
-            shape_print_number(out, q.v);
-            fputs(">", out);
+            shape_print_vec2(out, q);
         }
     }
     if (s->open)

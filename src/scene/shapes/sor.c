@@ -110,11 +110,8 @@ static void print(const void *shape, FILE *out)
     const struct sor *s = shape;
     fprintf(out, "sor { %ld", s->count);
     for (long i = 0; i < s->count; i++) {
-        fputs(", <", out);
-        shape_print_number(out, s->point[i].u);
         fputs(", ", out);
-        shape_print_number(out, s->point[i].v);
-        fputs(">", out);
+        shape_print_vec2(out, s->point[i]);
     }
     if (!s->revolve.caps_drawn)
         fputs(" open", out);
