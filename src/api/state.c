@@ -29,7 +29,8 @@ struct record {
     uint64_t digest; // of the above and the pixels
 };
 
-uint64_t digest_add_file(uint64_t digest, const char *path)
+// Of a file's bytes; that it cannot be read counts as well.
+static uint64_t digest_add_file(uint64_t digest, const char *path)
 {
     FILE *f = fopen(path, "rb");
     char chunk[16384];

@@ -26,8 +26,6 @@ struct render_state {
     int file;          // -1: nothing is kept any more
 };
 
-// Of a file's bytes; that it cannot be read counts as well.
-uint64_t digest_add_file(uint64_t digest, const char *path);
 // Of all that decides the pixels but saved light: version, settings, the scene and what it
 // reads besides.
 uint64_t picture_key(const struct lambert_context *ctx);

@@ -64,7 +64,7 @@ static bool is_folder(const char *path)
     return stat(path, &st) == 0 && S_ISDIR(st.st_mode);
 }
 
-int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
+static int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value)
 {
     if (lambert_option_set(c->ctx, o->name, value) != LAMBERT_OK)
         return cmd_fail(CMD_USAGE, "%s", lambert_error(c->ctx));

@@ -106,7 +106,6 @@ int cmdline_switch(struct cmd *c, const char *arg);                         // +
 int cmdline_keyword(struct cmd *c, const char *keyword, const char *value); // INI
 int cmdline_file(struct cmd *c, const char *name);
 void cmdline_free(struct cmd *c); // what these keep
-int cmdline_set(struct cmd *c, const struct lambert_option *o, const char *value);
 const struct lambert_option *cmdline_find_keyword(const char *keyword, size_t len);
 bool text_same(const char *a, const char *b, size_t n); // ASCII, case ignored
 int ini_read(struct cmd *c, const char *path, const char *section, int depth);
@@ -118,7 +117,6 @@ void completion_print(FILE *out);
 
 // output.c: the name of the picture file, to be freed. frame < 0: no animation.
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
-char *scene_base(const char *scene); // without folder and extension, to be freed
 char *text_format(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 char *text_format_list(const char *fmt, va_list ap) __attribute__((format(printf, 1, 0)));
 

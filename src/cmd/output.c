@@ -28,7 +28,7 @@ char *text_format(const char *fmt, ...)
     return text;
 }
 
-char *scene_base(const char *scene)
+static char *scene_base(const char *scene)
 {
     if (strcmp(scene, "-") == 0)
         return text_format("stdin");

@@ -122,7 +122,6 @@ void fields_unknown(struct args *a, const struct field *f, size_t n,
 // ---- parts -----------------------------------------------------------------
 // If the next item is TRANS, reads it; *out is transform_identity after an error.
 bool build_trans(struct args *a, struct transform *out);
-bool build_transform_block(struct args *a, struct transform *out);
 
 const struct pigment *build_pigment(struct args *a, const struct ast *block,
                                     const struct pigment *start);
@@ -169,8 +168,6 @@ const struct object *args_object(struct args *a, bool *was_object);
 // `object`s then TRANS: looks_like, projected_through, object patterns.
 const struct object *build_one_object(struct args *a, const struct ast *block,
                                       const struct transform *before);
-// Objects then TRANS of clipped_by and bounded_by.
-struct pointer_list build_object_list(struct args *a);
 
 bool build_camera(struct args *a, const struct ast *block, struct camera_state *c);
 const struct fog *build_fog(struct args *a, const struct ast *block);
@@ -211,8 +208,6 @@ bool build_warp(struct args *a, struct pattern *p); // next item is warp {}
 bool build_function_pattern(struct eval *e, const struct ast *block, struct pattern *p);
 // image_map, bump_map and image_pattern: the block at hand into the body's pattern.
 void build_image_pattern(struct args *a, struct body *body, enum word use);
-// An image with its modifiers: the items of `in` up to a texture. NULL after an error.
-const struct image_map *build_image_map(struct args *in, enum word use, float *bump_size);
 void build_material_map(struct args *a, struct texture *x);
 // The arguments of density_file.
 void build_density_file(struct args *a, struct pattern *p);

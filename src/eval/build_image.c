@@ -134,7 +134,9 @@ static bool palette_opaque(const struct image_map *m)
     return m->filter_all == 0 && m->transmit_all == 0;
 }
 
-const struct image_map *build_image_map(struct args *in, enum word use, float *bump_size)
+// An image with its modifiers: the items of `in` up to a texture. NULL after an error.
+static const struct image_map *build_image_map(struct args *in, enum word use,
+                                               float *bump_size)
 {
     struct image_source s;
     if (!image_source_read(in, &s)) {

@@ -66,7 +66,8 @@ static void change_layer(struct args *a, struct attached_texture *at)
         at->texture = x;
 }
 
-struct pointer_list build_object_list(struct args *a)
+// Objects then TRANS of clipped_by and bounded_by.
+static struct pointer_list build_object_list(struct args *a)
 {
     struct pointer_list l = {0};
     struct transform t;

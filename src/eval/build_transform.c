@@ -51,13 +51,15 @@ static void named(struct args *a, struct transform *out)
     }
 }
 
+static bool transform_block(struct args *a, struct transform *out);
+
 bool build_trans(struct args *a, struct transform *out)
 {
     struct vec3 v;
     enum word w = args_at_word(a);
     if (args_at_block(a) == WORD_transform) {
         struct args inner = args_of(a->b, args_next(a), a);
-        build_transform_block(&inner, out);
+        transform_block(&inner, out);
         return true;
     }
     if (w != WORD_translate && w != WORD_rotate && w != WORD_scale && w != WORD_matrix &&
@@ -81,7 +83,7 @@ bool build_trans(struct args *a, struct transform *out)
     return true;
 }
 
-bool build_transform_block(struct args *a, struct transform *out)
+static bool transform_block(struct args *a, struct transform *out)
 {
     static const enum word known[] = {WORD_translate, WORD_rotate,    WORD_scale,
                                       WORD_matrix,    WORD_transform, WORD_inverse};

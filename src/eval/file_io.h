@@ -10,9 +10,6 @@ struct eval;
 // Where the scene itself put a file of this name; NULL: it wrote none.
 const char *file_written(const struct eval *e, const char *name);
 
-// Whether what a path leads to, all links followed, lies in a folder that is there or in
-// one below it.
-bool file_is_below(const char *folder, const char *path);
 bool file_may_write(const struct eval *e, const char *path);
 // The real path of a file to write, in a folder that is there; NULL after an error.
 const char *file_to_write(struct eval *e, const char *name, struct span where);

@@ -35,7 +35,9 @@ static const char *find_exact(struct eval *e, const char *name)
     return NULL;
 }
 
-bool file_is_below(const char *folder, const char *path)
+// Whether what a path leads to, all links followed, lies in a folder that is there or in
+// one below it.
+static bool file_is_below(const char *folder, const char *path)
 {
     char *real_folder = realpath(folder, NULL), *real = realpath(path, NULL);
     size_t n = real_folder ? strlen(real_folder) : 0;

@@ -60,14 +60,6 @@ bool aabb_overlap(struct aabb a, struct aabb b)
     return !aabb_is_empty(aabb_meet(a, b));
 }
 
-double aabb_half_area(struct aabb a)
-{
-    if (aabb_is_empty(a))
-        return 0;
-    struct vec3 e = vec3_sub(a.max, a.min);
-    return e.x * e.y + e.y * e.z + e.z * e.x;
-}
-
 static double pad_down(double v) { return v - GAMMA(8) * fabs(v); }
 static double pad_up(double v) { return v + GAMMA(8) * fabs(v); }
 

@@ -25,7 +25,6 @@ struct aabb aabb_transform(struct aabb a, const struct transform *t);
 bool aabb_is_empty(struct aabb a);
 bool aabb_is_finite(struct aabb a);
 bool aabb_overlap(struct aabb a, struct aabb b);
-double aabb_half_area(struct aabb a);
 // Grown by a few roundings of its own coordinates, so that a box computed in
 // floating point still holds what it bounds.
 struct aabb aabb_pad(struct aabb a);

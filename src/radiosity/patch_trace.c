@@ -268,8 +268,11 @@ bool patch_cell_point(const struct patches *p, struct trace_scratch *scratch,
     return true;
 }
 
-bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
-                         uint32_t element, double u, double v, struct element_point *out)
+// The point at (u, v) of an element's square, uniform in area on planar ones. False: this
+// part of the element does not exist.
+static bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
+                                uint32_t element, double u, double v,
+                                struct element_point *out)
 {
     return patch_cell_point(p, scratch, &p->cell[p->element_cell[element] / 2],
                             p->element_cell[element] & 1, p->element[element].partial, u,

@@ -96,12 +96,8 @@ uint32_t patch_around(const struct patches *p, struct trace_scratch *scratch,
                       const struct interaction *met, uint32_t element[4],
                       double weight[4]);
 
-// The point at (u, v) of an element's square, uniform in area on planar ones. False: this
-// part of the element does not exist.
-bool patch_element_point(const struct patches *p, struct trace_scratch *scratch,
-                         uint32_t element, double u, double v, struct element_point *out);
-
-// The same of a cell's side that exists in part or as a whole.
+// The point at (u, v) of the square of a cell's side, uniform in area on planar ones; that
+// side exists in part or as a whole. False: this part of it does not.
 bool patch_cell_point(const struct patches *p, struct trace_scratch *scratch,
                       const struct cell *c, int side, bool partial, double u, double v,
                       struct element_point *out);

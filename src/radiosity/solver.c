@@ -119,8 +119,10 @@ double mean_reflectance(const struct enclosure *e, int channel)
     return area > 0 ? fmin(sum / area, 1 - 1e-6) : 0;
 }
 
-void energy_defect(const struct radiosity_system *s, double (*h)[3],
-                   const double *row_sum, double defect[3])
+// The defect of the energy identity, sum A (1 - R rho) h = sum A R S with R the row sums:
+// what elements send out arrives. By channel, relative to the right side.
+static void energy_defect(const struct radiosity_system *s, double (*h)[3],
+                          const double *row_sum, double defect[3])
 {
     double(*source)[3] = must_calloc(s->e->count, sizeof *source);
     double left[3] = {0, 0, 0}, right[3] = {0, 0, 0};

@@ -88,10 +88,6 @@ void factors_apply(const struct factors *f, double (*b)[3], double (*h)[3], int 
 // Gathers once more from out->b, fills h, h_emitted and the energy defect.
 void solution_gather(struct radiosity_solution *out, const struct radiosity_system *s,
                      int threads);
-// The defect of the energy identity, sum A (1 - R rho) h = sum A R S with R the row sums:
-// what elements send out arrives. By channel, relative to the right side.
-void energy_defect(const struct radiosity_system *s, double (*h)[3],
-                   const double *row_sum, double defect[3]);
 // Area-weighted mean reflectance of a channel, at most just below 1.
 double mean_reflectance(const struct enclosure *e, int channel);
 

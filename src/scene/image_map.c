@@ -86,8 +86,9 @@ static bool project(const struct image_map *m, struct vec3 p, double w, double h
     return true;
 }
 
-bool image_map_place(const struct image_map *m, struct vec3 p, double *column,
-                     double *row)
+// Column and row (0..width, 0..height from the top) that a point sees; false: outside.
+static bool image_map_place(const struct image_map *m, struct vec3 p, double *column,
+                            double *row)
 {
     const double width = m->texels->width, height = m->texels->height;
     double u, v;
@@ -203,8 +204,10 @@ static void add_sixteen(struct sum *s, const struct image_map *m, int x, int y, 
             add(s, m, x - 2 + i, y - 2 + j, wx[i] * wy[j]);
 }
 
-struct rgbft image_map_texel(const struct image_map *m, double column, double row,
-                             int *index)
+// The colour there, interpolated, alpha as transmit, premultiplied as the image is. The
+// index: interpolated and truncated, -1 when the image has none.
+static struct rgbft image_map_texel(const struct image_map *m, double column, double row,
+                                    int *index)
 {
     if (m->interpolation == IMAGE_NEAREST)
         return fetch(m, (int)column, (int)row, index);

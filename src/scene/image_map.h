@@ -40,14 +40,7 @@ struct image_map {
 // tables go into the arena (4 bytes per integer up to the largest sample).
 void image_map_prepare(struct arena *a, struct image_map *m);
 
-// Column and row (0..width, 0..height from the top) that a point sees; false: outside.
-bool image_map_place(const struct image_map *m, struct vec3 p, double *column,
-                     double *row);
-// The colour there, interpolated, alpha as transmit, premultiplied as the image is. The
-// index: interpolated and truncated, -1 when the image has none.
-struct rgbft image_map_texel(const struct image_map *m, double column, double row,
-                             int *index);
-// As a pigment: not premultiplied. False outside (spec/textures 9.4).
+// What a point sees, as a pigment: not premultiplied. False outside (spec/textures 9.4).
 bool image_map_color(const struct image_map *m, struct vec3 p, struct rgbft *out);
 // As a pattern, 0..1; 0 outside.
 double image_map_value(const struct image_map *m, struct vec3 p);

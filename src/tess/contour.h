@@ -5,10 +5,9 @@
 #include "tess/solid.h"
 
 struct contour_settings {
-    int resolution; // cells along the longest side of the object's bounds
+    int resolution; // cells along the longest side of the object's bounds, 2 to 512
     bool sharp;     // reconstruct edges and corners
 };
-enum { CONTOUR_RESOLUTION_MAX = 512 };
 
 // The boundary of a solid with finite bounds as a closed, oriented 2-manifold whose
 // vertices lie on the surface. Whatever is thinner than a cell may be lost.

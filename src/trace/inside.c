@@ -3,8 +3,8 @@
 #include "base/arena.h"
 #include "math/elementary.h"
 
-const struct inside *inside_push(struct arena *a, const struct inside *list,
-                                 const struct interior *interior)
+static const struct inside *inside_push(struct arena *a, const struct inside *list,
+                                        const struct interior *interior)
 {
     struct inside *n = arena_new_struct(a, struct inside);
     *n = (struct inside){interior, list, interior->hollow && inside_hollow(list)};

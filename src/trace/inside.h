@@ -4,9 +4,7 @@
 #include "scene/texture.h"
 #include "trace/tracer.h"
 
-const struct inside *inside_push(struct arena *a, const struct inside *list,
-                                 const struct interior *interior);
-// The same for a ray that enters; neighbours share what was made last.
+// The list for a ray that enters an interior; neighbours share what was made last.
 const struct inside *inside_enter(struct tracer *t, const struct inside *list,
                                   const struct interior *interior);
 static inline const struct inside *inside_find(const struct inside *list,

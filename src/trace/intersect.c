@@ -290,7 +290,7 @@ bool search_try_object(struct search *f, uint32_t object)
 }
 
 // The nearest hit's boundary in full.
-struct hit search_hit(struct search *f)
+static struct hit search_hit(struct search *f)
 {
     if (f->object != UINT32_MAX && !f->known) {
         const uint32_t object = f->object;

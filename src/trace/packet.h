@@ -25,8 +25,6 @@ struct search search_of(const struct world *w, struct trace_scratch *s,
                         const struct ray_query *q, enum sweep_mode mode);
 // Whether the object is hit nearer than all before; then it is the nearest.
 bool search_try_object(struct search *f, uint32_t object);
-// The nearest hit's boundary in full.
-struct hit search_hit(struct search *f);
 
 static inline bool search_is_nearer(const struct search *f, double t, uint32_t object)
 {

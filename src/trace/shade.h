@@ -54,8 +54,7 @@ struct rgb layers_lit(const struct shading *s, const struct lamp *lamp, struct v
 // Iridescence for light from l (spec/lighting.md 5.3).
 struct rgb irid_factor(const struct shading *s, const struct finish *f, struct vec3 n,
                        struct vec3 l);
-// How metals tint what they mirror; x is a cosine (spec/lighting.md 5.4).
-float metal_angle(double cosine);
+// How metals tint what they mirror (spec/lighting.md 5.4).
 struct rgb metal_tint(struct rgb c, struct rgb tint, float metallic, double cosine);
 
 // Rays that go on from layers [begin, end) of one plain texture (shade_transmit.c).

@@ -7,7 +7,8 @@
 #include "trace/shade.h"
 #include "trace/simple.h"
 
-float metal_angle(double cosine)
+// The part of the tint at an angle of the light (spec/lighting.md 5.4).
+static float metal_angle(double cosine)
 {
     if (!(fabs(cosine) <= 1))
         return 0;
