@@ -64,6 +64,9 @@ static const char *const shapes[] = {
     "scale <1, .5, 2> rotate 30*z } cylinder { <0, -.8, 0>, <0, .8, 0>, .3, 2 rotate "
     "20*x } "
     "}",
+    "blob { threshold .4 sphere { 0, 1, 1 scale <.1, .9, .05> rotate 40*x translate .3*x "
+    "} cylinder { -y, y, .8, 1 matrix <.3, .2, 0, -.1, .5, .1, 0, .3, .2, -.2, 0, .1> } "
+    "sphere { <.9, 0, .4>, .6, .8 scale .5 } }", // thin, sheared
     "blob { threshold .6 #declare S = seed(1); #for (I, 0, 119) sphere { <rand(S), "
     "rand(S), "
     "rand(S)>*1.6 - .8, .3, 1 } #end }",
