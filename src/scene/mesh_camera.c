@@ -164,9 +164,10 @@ static bool start_at_center(const struct camera_mesh *c, double face,
     if (memo->mesh != c->mesh || memo->face != (uint32_t)face) {
         mesh_corners(c->mesh, (uint32_t)face, p);
         *memo = (struct mesh_camera_memo){
-            c->mesh, (uint32_t)face,
-            vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
-            triangle_normal(p)};
+            .mesh = c->mesh,
+            .face = (uint32_t)face,
+            .center = vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
+            .normal = triangle_normal(p)};
     }
     *out = (struct start){c, memo->center, memo->normal};
     return true;
@@ -245,8 +246,24 @@ static bool start_of(const struct mesh_camera *m, double x, double y, int w, int
     return false;
 }
 
+static bool turns_alike(const struct transform *s, const struct transform *t)
+{
+    return s->identity == t->identity &&
+           memcmp(&s->inverse, &t->inverse, sizeof s->inverse) == 0;
+}
+
+static void find_turns(struct mesh_camera *m, struct arena *a)
+{
+    m->turn = arena_new_array(a, const struct transform *, m->mesh_count);
+    for (uint32_t i = 0; i < m->mesh_count; i++) {
+        const struct transform *own = m->mesh[i].transform;
+        m->turn[i] = i && turns_alike(m->turn[i - 1], own) ? m->turn[i - 1] : own;
+    }
+}
+
 void mesh_camera_finish(struct mesh_camera *m, struct arena *a)
 {
+    find_turns(m, a);
     m->face_count = 0;
     for (uint32_t i = 0; i < m->mesh_count; i++)
         m->face_count += m->mesh[i].mesh->face_count;
@@ -259,18 +276,35 @@ void mesh_camera_finish(struct mesh_camera *m, struct arena *a)
         m->uv = uv_faces_new(m->mesh->mesh, a);
 }
 
+// The direction of a ray along a normal, or against it.
+static struct vec3 direction_of(const struct camera *c, const struct start *s)
+{
+    static const double backwards = -1e-10; // "is negative", as the language has it
+    const struct vec3 d = c->direction.z < backwards ? vec3_neg(s->n) : s->n;
+    return vec3_normalize(transform_normal(s->mesh->transform, d));
+}
+
 bool mesh_camera_ray(const struct camera *c, double x, double y, int w, int h, uint32_t k,
                      struct mesh_camera_memo *memo, struct vec3 *origin,
                      struct vec3 *direction)
 {
-    static const double backwards = -1e-10; // "is negative", as the language has it
+    const struct mesh_camera *m = c->mesh;
     struct mesh_camera_memo own = {.mesh = NULL};
     struct start s;
-    if (!start_of(c->mesh, x, y, w, h, k, memo ? memo : &own, &s))
+    if (!memo)
+        memo = &own;
+    if (!start_of(m, x, y, w, h, k, memo, &s))
         return false;
-    const struct vec3 o = vec3_mad(s.p, c->location.z, s.n);
-    const struct vec3 d = c->direction.z < backwards ? vec3_neg(s.n) : s.n;
-    *origin = transform_point(s.mesh->transform, o);
-    *direction = vec3_normalize(transform_normal(s.mesh->transform, d));
+    *origin = transform_point(s.mesh->transform, vec3_mad(s.p, c->location.z, s.n));
+    if (m->way == MESH_CAMERA_UV) { // which keeps no face
+        *direction = direction_of(c, &s);
+        return true;
+    }
+    const struct transform *turn = m->turn[s.mesh - m->mesh];
+    if (memo->turn != turn) {
+        memo->turn = turn;
+        memo->direction = direction_of(c, &s);
+    }
+    *direction = memo->direction;
     return true;
 }

@@ -30,12 +30,14 @@ struct mesh_camera {
     double max_distance; // of what a ray from the camera sees; 0: no limit
     bool smooth;         // MESH_CAMERA_UV: along the interpolated normals
     const struct camera_mesh *mesh;
+    const struct transform **turn; // of each mesh: its own, or an earlier one that turns
+                                   // normals as it does
     uint32_t mesh_count;
     uint32_t face_count;       // of all meshes
     const struct uv_faces *uv; // MESH_CAMERA_UV: the faces by their place
 };
 
-// Fills face_count and what finds faces by uv.
+// Fills face_count, turn and what finds faces by uv.
 void mesh_camera_finish(struct mesh_camera *m, struct arena *a);
 // The face that a caller has asked last: the meshes of a camera are mostly one in several places.
 // All zero at first.
@@ -43,6 +45,9 @@ struct mesh_camera_memo {
     const struct mesh *mesh;
     uint32_t face;
     struct vec3 center, normal;
+    const struct transform
+        *turn; // what made the direction of the normal; NULL: nothing yet
+    struct vec3 direction;
 };
 // Ray k of the pixel position (x, y) of a w x h picture, as camera_ray's; the direction is
 // a unit vector. False: there is none. memo: NULL, or of this camera alone.
