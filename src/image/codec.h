@@ -55,9 +55,10 @@ const uint8_t *sample_rows_bytes(struct sample_rows *r, int y, int shift);
 // The same with blue first, for 8 bits.
 const uint8_t *sample_rows_bgr(struct sample_rows *r, int y);
 
-// The picture as linear light of three or four channels, to be freed; false: no memory.
+// The picture as linear light of three or four channels, to be freed; false: no memory. What is
+// no number becomes 0, and what lies beyond +-most becomes that.
 bool image_linear(struct image *to, const struct image *im,
-                  const struct image_write_options *o, int channels);
+                  const struct image_write_options *o, int channels, float most);
 
 // One writer per file type (writers.def).
 typedef bool image_encoder(const struct image *im, const struct image_write_options *o,

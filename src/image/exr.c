@@ -2,8 +2,11 @@
 // float. Chunks are written in order by one thread: equal pictures, equal bytes.
 #include "image/exr_file.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { HALF_MOST = 65504 }; // the largest number that has 16 bits
 
 // All of the file lies in memory; the library writes through these.
 struct memory_file {
@@ -121,7 +124,8 @@ bool exr_encode(const struct image *im, const struct image_write_options *o,
     if (!load(&f.lib, e.text, e.size))
         return false;
     struct image linear;
-    if (!image_linear(&linear, im, o, o->alpha ? 4 : 3))
+    if (!image_linear(&linear, im, o, o->alpha ? 4 : 3,
+                      o->bits > 16 ? FLT_MAX : HALF_MOST))
         return codec_fail(e, "out of memory");
     struct memory_file m = {.out = out};
     exr_context_initializer_t init = context_initializer(&m);

@@ -2,6 +2,7 @@
 // (Ward, "Real Pixels", Graphics Gems II, 1991). What is below zero becomes zero.
 #include "image/codec.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static void pixel(const float *p, uint8_t rgbe[4])
     double c[3], most = 0;
     int exponent;
     for (int k = 0; k < 3; k++) {
-        c[k] = p[k] > 0 ? fmin((double)p[k], 0x1p126) : 0; // NaN becomes 0
+        c[k] = p[k] > 0 ? fmin((double)p[k], 0x1p126) : 0;
         most = fmax(most, c[k]);
     }
     memset(rgbe, 0, 4);
@@ -103,7 +104,7 @@ bool hdr_encode(const struct image *im, const struct image_write_options *o,
                 struct byte_buffer *out, struct codec_error e)
 {
     struct image linear;
-    if (!image_linear(&linear, im, o, 3))
+    if (!image_linear(&linear, im, o, 3, FLT_MAX))
         return codec_fail(e, "out of memory");
     uint8_t *row = malloc(5 * (size_t)im->width);
     write_header(out, im, &o->metadata);

@@ -1,6 +1,9 @@
 #include "test.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -183,6 +186,27 @@ static void exr_round_trip(void **state)
             image_free(&back);
         }
     unlink("t_image.exr");
+}
+
+// Files of light hold numbers, and of those what their type can: 65504 is the largest half.
+static void light_beyond_numbers(void **state)
+{
+    (void)state;
+    const float wild[6] = {1e6f, -1e30f, NAN, INFINITY, -INFINITY, 3};
+    for (int bits = 16; bits <= 32; bits += 16) {
+        const float most = bits == 16 ? 65504 : FLT_MAX;
+        const float kept[6] = {
+            bits == 16 ? most : 1e6f, bits == 16 ? -most : -1e30f, 0, most, -most, 3};
+        struct image im, back;
+        assert_true(image_init(&im, 2, 1, 3));
+        memcpy(im.pixel, wild, sizeof wild);
+        write_file(&im, "t_wild.exr", options(IMAGE_EXR, bits));
+        read_file(&back, "t_wild.exr", none);
+        assert_memory_equal(back.pixel, kept, sizeof kept);
+        image_free(&im);
+        image_free(&back);
+    }
+    unlink("t_wild.exr");
 }
 
 static void check_integer(enum image_type type, const char *path, int bits, int channels,
@@ -428,6 +452,7 @@ int main(void)
         cmocka_unit_test(curves_are_inverse),
         cmocka_unit_test(exr_round_trip),
         cmocka_unit_test(exr_of_few_pixels),
+        cmocka_unit_test(light_beyond_numbers),
         cmocka_unit_test(integer_round_trips),
         cmocka_unit_test(packed_runs),
         cmocka_unit_test(hdr_extremes),
