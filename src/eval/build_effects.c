@@ -24,20 +24,30 @@ static const enum word radiosity_words[] = {WORD_count,         WORD_nearest_cou
                                             WORD_minimum_reuse, WORD_maximum_reuse,
                                             WORD_load_file,     WORD_save_file};
 
+static bool pair_in_range(struct args *a, const char *role, struct span where, double v,
+                          double low, double high)
+{
+    if (v >= low && v <= high)
+        return true;
+    diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, role, v, low, high);
+    args_fail(a);
+    return false;
+}
+
 static bool read_pair(struct args *a, int *first, int *second, double low, double high)
 {
     double v, w = *second;
-    struct span where = args_span(a);
-    const struct ast *n = args_next(a);
-    if (!args_float(a, word_text((enum word)n->word), &v))
+    const char *role = word_text((enum word)args_next(a)->word);
+    struct span where = args_span(a), next;
+    if (!args_float(a, role, &v))
         return true;
+    next = args_span(a);
     args_optional(a, &w);
-    if (v < low || v > high)
-        diag_at(args_diags(a), DIAG_OUT_OF_RANGE, where, word_text((enum word)n->word), v,
-                low, high),
-            args_fail(a);
-    *first = (int)v;
-    *second = (int)w;
+    if (pair_in_range(a, role, where, v, low, high) &&
+        pair_in_range(a, role, next, w, 0, high)) {
+        *first = (int)v;
+        *second = (int)w;
+    }
     return true;
 }
 
