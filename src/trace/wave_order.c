@@ -6,14 +6,19 @@
 
 enum { PARTS = 64, FINE_KEYS = PATH_KEYS_WITHIN * PARTS };
 
+// Of an eighth's number; a direction that is none has some.
+static unsigned spread(double eighth)
+{
+    static const unsigned char bits[8] = {0, 1, 4, 5, 16, 17, 20, 21};
+    return eighth < 8 ? bits[(int)eighth] : 0;
+}
+
 // A part of the ray's octant: eight by eight of them, along a curve without far leaps.
 static unsigned fine_key(const struct path *p)
 {
-    static const unsigned char spread[8] = {0, 1, 4, 5, 16, 17, 20, 21};
     const double x = fabs(p->d.x), y = fabs(p->d.y), z = fabs(p->d.z);
     const double scale = 7.999 / (x + y + z);
-    return path_key_direction(p) * PARTS + spread[(int)(x * scale)] +
-           2u * spread[(int)(y * scale)];
+    return path_key_direction(p) * PARTS + spread(x * scale) + 2u * spread(y * scale);
 }
 
 // Where each of the rays stands that have these keys, below PATH_KEYS; equal ones keep their order.
