@@ -1,6 +1,7 @@
 #include "math/aabb.h"
 
 #include "math/gamma.h"
+#include "math/larger.h"
 
 struct aabb aabb_empty(void)
 {
@@ -105,9 +106,9 @@ struct aabb aabb_transform(struct aabb a, const struct transform *t)
             if (m == 0)
                 continue;
             double p = m * lo[i], q = m * hi[i];
-            min[j] += fmin(p, q);
-            max[j] += fmax(p, q);
-            size += fmax(fabs(p), fabs(q));
+            min[j] += smaller(p, q);
+            max[j] += larger(p, q);
+            size += larger(fabs(p), fabs(q));
         }
         if (isfinite(size) && !transform_is_diagonal(t)) {
             min[j] -= GAMMA(6) * size;

@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "math/gamma.h"
+#include "math/larger.h"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -29,8 +30,8 @@ bool bvh8_ray_begin(const struct bvh8 *b, const struct ray *ray, double t_min,
             continue;
         }
         double t0 = (lo - o) / vec3_axis(ray->d, a), t1 = (hi - o) / vec3_axis(ray->d, a);
-        t_min = fmax(t_min, fmin(t0, t1));
-        t_max = fmin(t_max, fmax(t0, t1));
+        t_min = larger(smaller(t0, t1), t_min);
+        t_max = smaller(larger(t0, t1), t_max);
     }
     if (!(t_min <= t_max))
         return false;

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 #include "math/gamma.h"
+#include "math/larger.h"
 #include "scene/camera.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/triangle.h"
@@ -111,9 +112,9 @@ static bool uv_weights(const struct vec2 t[3], struct vec2 p, double w[3], doubl
     const double area = a * d - b * c;
     if (area == 0)
         return false;
-    double most = fmax(fabs(p.u), fabs(p.v));
+    double most = larger(fabs(p.u), fabs(p.v));
     for (int i = 0; i < 3; i++)
-        most = fmax(most, fmax(fabs(t[i].u), fabs(t[i].v)));
+        most = larger(larger(fabs(t[i].u), fabs(t[i].v)), most);
     *off = GAMMA(8) * most * (fabs(a) + fabs(b) + fabs(c) + fabs(d)) / fabs(area);
     w[1] = (e * d - b * f) / area;
     w[2] = (a * f - e * c) / area;
@@ -135,7 +136,7 @@ static uint32_t uv_face_at(const struct uv_faces *f, const struct mesh *m, struc
         uv_corners(m, f->face[i], t);
         if (!uv_weights(t, p, at, &off))
             continue;
-        const double least = fmin(at[0], fmin(at[1], at[2]));
+        const double least = smaller(at[0], smaller(at[1], at[2]));
         if (least <= best || least < -off)
             continue;
         best = least;

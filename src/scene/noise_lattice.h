@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "math/lanes.h"
+#include "math/larger.h"
 #include "scene/noise.h"
 #include "scene/noise_tables.h"
 
@@ -202,9 +203,6 @@ LANES_INLINE void place_of(struct vec8 p, double scale, bool near, struct place8
     out->fz = split8(r8_mul(s, p.z), near, &cell.z);
     number_cells(cell, near, out);
 }
-
-// fmax would be a call.
-LANES_INLINE double larger(double a, double b) { return a > b ? a : b; }
 
 // Whether all points stay near, even times `scale`.
 LANES_INLINE bool are_near(struct vec8 p, double scale)

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "math/larger.h"
 #include "scene/shape.h"
 #include "trace/face_pairs.h"
 #include "trace/packet.h"
@@ -69,8 +70,8 @@ static const double wide = 32;
 
 static void look_between(struct ray_query *q, double t, double reach)
 {
-    q->ray.t_min = fmax(q->ray.t_min, t - reach);
-    q->ray.t_max = fmin(q->ray.t_max, t + reach);
+    q->ray.t_min = larger(t - reach, q->ray.t_min);
+    q->ray.t_max = smaller(t + reach, q->ray.t_max);
 }
 
 // Puts the opaque face that is to be seen in place of hit i of a clear one.
@@ -107,7 +108,7 @@ static double along_ray(const struct world *w, const struct ray *ray,
     trace_interaction(w, ray, hit, &at);
     const double length = vec3_length(ray->d);
     const double cosine = fabs(vec3_dot(at.ng, ray->d)) / length;
-    return apart / (length * fmax(cosine, sqrt(GAMMA(64))));
+    return apart / (length * larger(cosine, sqrt(GAMMA(64))));
 }
 
 // Puts the face that is to be seen of those in one place in place of hit i of another one;

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "math/gamma.h"
+#include "math/larger.h"
 #include "scene/shape_kernels.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
@@ -253,7 +254,7 @@ static bool object_hit(struct search *f, uint32_t object, struct boundary *out)
         return false;
     if (o->is_csg) {
         double t;
-        f->box.t_max = fmin(q->ray.t_max, f->t + fabs(f->t) * BOX_SLACK);
+        f->box.t_max = smaller(f->t + fabs(f->t) * BOX_SLACK, q->ray.t_max);
         if (!box_meets(&o->bounds, &f->box, &t))
             return false;
         if (one_kind && f->w->accel->object_shape[object] == PACKET_SPONGE) {
@@ -308,7 +309,7 @@ struct hit trace_closest_1(const struct world *w, struct trace_scratch *s,
     for (uint32_t i = 0; i < a->infinite_count; i++)
         search_try_object(&f, a->infinite[i]);
     struct bvh8_ray r;
-    if (bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, fmin(q->ray.t_max, f.t), &r))
+    if (bvh8_ray_begin(&a->top, &q->ray, q->ray.t_min, smaller(f.t, q->ray.t_max), &r))
         a->kernels->walk(&f, &r, 0);
     return search_hit(&f);
 }
@@ -425,7 +426,7 @@ static double stretch(const struct mat3 *m)
 {
     double most = 0;
     for (int i = 0; i < 3; i++)
-        most = fmax(most, fabs(m->m[i][0]) + fabs(m->m[i][1]) + fabs(m->m[i][2]));
+        most = larger(fabs(m->m[i][0]) + fabs(m->m[i][1]) + fabs(m->m[i][2]), most);
     return most;
 }
 
@@ -436,7 +437,7 @@ static double position_error(const struct leaf *l, double size)
         return GAMMA(32) * size;
     size += vec3_max_abs(l->transform->offset);
     return GAMMA(32) * size *
-           fmax(1, stretch(&l->transform->linear) * stretch(&l->transform->inverse));
+           larger(stretch(&l->transform->linear) * stretch(&l->transform->inverse), 1);
 }
 
 void trace_interaction(const struct world *w, const struct ray *ray,

@@ -9,12 +9,11 @@
 #include <math.h>
 
 #include "math/gamma.h"
+#include "math/larger.h"
 #include "scene/shapes/patch.h"
 
 enum { AXES = 3, STEPS_MAX = 12, DEPTH_MAX = 110, SPLITS_MAX = 4000 };
 static const double IDENTITY = 0.5;
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
 
 struct net {
     double p[4][4][AXES]; // across, across, along the line

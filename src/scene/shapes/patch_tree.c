@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "base/memory.h"
+#include "math/larger.h"
 #include "scene/shapes/patch.h"
 
 // A leaf is where the first derivatives differ from their mean by less than this share: a
@@ -75,8 +76,6 @@ static double bend(const struct patch_leaf *l, bool along_u, double *length)
     *length = vec3_length(mean);
     return most;
 }
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
 
 // Adds to l->bend how far one derivative is from its mean.
 static void add_bend(struct patch_leaf *l, bool along_u)

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "math/gamma.h"
+#include "math/larger.h"
 #include "scene/shapes/poly.h"
 
 // Terms looked at in all, and how often a face and the cube are halved.
@@ -22,9 +23,6 @@ struct search {
 struct range {
     double lo, hi;
 };
-
-static double smaller(double a, double b) { return a < b ? a : b; }
-static double larger(double a, double b) { return a > b ? a : b; }
 
 static struct range times(struct range a, struct range b)
 {

@@ -3,6 +3,7 @@
 #include "scene/shapes/triangle.h"
 
 #include "math/gamma.h"
+#include "math/larger.h"
 #include "scene/args.h"
 #include "scene/shape.h"
 
@@ -46,9 +47,9 @@ bool triangle_meet(const struct triangle_ray *r, const struct vec3 p[3],
     // slant (small det against the corners' spread) that counts more along the ray.
     double size = 0, spread = 0, depth = 0;
     for (int i = 0; i < 3; i++) {
-        size = fmax(size, vec3_max_abs(p[i]));
-        spread = fmax(spread, fmax(fabs(x[i]), fabs(y[i])));
-        depth = fmax(depth, fabs(z[i] - z[(i + 1) % 3]));
+        size = larger(vec3_max_abs(p[i]), size);
+        spread = larger(larger(fabs(x[i]), fabs(y[i])), spread);
+        depth = larger(fabs(z[i] - z[(i + 1) % 3]), depth);
     }
     size += vec3_max_abs(r->o);
     const double slant = depth * spread / fabs(det);

@@ -7,6 +7,7 @@
 
 #include "math/acos_lanes.h"
 #include "math/elementary.h"
+#include "math/larger.h"
 #include "math/next_float.h"
 #include "math/power_lanes.h"
 
@@ -237,6 +238,19 @@ static void neighbours_of_floats(void **state)
         assert_neighbours((float)random_argument(&seed));
 }
 
+// As fmax and fmin, but for a NaN that comes second.
+static void larger_and_smaller(void **state)
+{
+    (void)state;
+    const double number[] = {0, 1, -1, 0x1p-1074, -DBL_MAX, INFINITY, -INFINITY, NAN};
+    enum { COUNT = sizeof number / sizeof *number };
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < COUNT - 1; k++) {
+            assert_true(larger(number[i], number[k]) == fmax(number[i], number[k]));
+            assert_true(smaller(number[i], number[k]) == fmin(number[i], number[k]));
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -248,6 +262,7 @@ int main(void)
         cmocka_unit_test(acos_in_lanes),
         cmocka_unit_test(powers_in_lanes),
         cmocka_unit_test(neighbours_of_floats),
+        cmocka_unit_test(larger_and_smaller),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
