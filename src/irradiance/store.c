@@ -101,12 +101,6 @@ static struct cache_cell *cell_find(const struct store *s, uint32_t hash, int si
     }
 }
 
-static void *grown(void *at, uint32_t *capacity, size_t size)
-{
-    *capacity = *capacity ? 2 * *capacity : 64;
-    return must_realloc(at, *capacity, size);
-}
-
 static void cell_place(struct store *s, const struct cache_cell *c)
 {
     const uint32_t bit = filter_bit(s, c->hash);
@@ -142,7 +136,7 @@ static void cell_move(struct store *s, struct cache_cell *c)
     const uint32_t used = c->count ? CACHE_SIDES + c->count : 0,
                    room = used ? 2 * used : FEWEST;
     while (s->filed_capacity - s->filed_count < room)
-        s->filed = grown(s->filed, &s->filed_capacity, sizeof *s->filed);
+        s->filed = memory_double(s->filed, &s->filed_capacity, sizeof *s->filed);
     uint32_t *to = s->filed + s->filed_count;
     if (used)
         memcpy(to, cell_ends(s, c), used * sizeof *to);
@@ -226,10 +220,8 @@ void store_add(struct store *s, const struct cache_sample *sample)
 {
     enum { SIZE_LEAST = -1000 }; // its inverse is a number, too
     const double reach = sample->reach;
-    if (s->count == s->capacity)
-        s->sample = grown(s->sample, &s->capacity, sizeof *s->sample);
-    if (s->count == s->spot_capacity)
-        s->spot = grown(s->spot, &s->spot_capacity, sizeof *s->spot);
+    s->sample = must_grow(s->sample, s->count, &s->capacity, sizeof *s->sample);
+    s->spot = must_grow(s->spot, s->count, &s->spot_capacity, sizeof *s->spot);
     s->sample[s->count] = *sample;
     s->spot[s->count] = spot_of(sample);
     int size;

@@ -1,6 +1,8 @@
 #ifndef MATH_ISA_H
 #define MATH_ISA_H
 
+#include <string.h>
+
 // Names of what is compiled once per instruction set. The build defines ISA; where a header
 // is read alone it is the portable one.
 #ifndef ISA
