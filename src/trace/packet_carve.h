@@ -258,8 +258,9 @@ static unsigned in_box(const struct ray8 *ray, const struct aabb *b, struct real
     return m8_bits(m8_and(m8_and(x, y), z));
 }
 
-// The same on the stretch at hand, where the solid has no crossing: outside if one end is out of
-// its box, else as in the middle.
+// The same on the stretch at hand, where no crossing of the solid was found: outside if both ends
+// are out of its box; else as in the middle, since rounding may hide a crossing in a face of the
+// box (that of an isosurface in its container's).
 static unsigned inside_between(const struct carving *c, unsigned lanes)
 {
     const struct real8 lo = c->begin, hi = r8_min(c->end, c->limit);
@@ -267,7 +268,7 @@ static unsigned inside_between(const struct carving *c, unsigned lanes)
     const struct ray8 *ray = &c->e->ray;
     unsigned out = 0;
     if (l->solid && l->bounded)
-        out = lanes & ~(in_box(ray, &l->bounds, lo) & in_box(ray, &l->bounds, hi));
+        out = lanes & ~(in_box(ray, &l->bounds, lo) | in_box(ray, &l->bounds, hi));
     if (out == lanes)
         return l->inverted ? out : 0;
     const struct real8 middle = r8_add(lo, r8_mul(r8_set(0.5), r8_sub(hi, lo))),
