@@ -109,7 +109,7 @@ static bool cut_is_far(const struct carving *c, uint32_t place, unsigned bits)
     if (!l->inverted || !aabb_is_finite(*b))
         return false;
     const struct real8 size =
-        r8_add(e->ray.o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max))));
+        r8_add(e->ray.o_max, r8_set(larger(vec3_max_abs(b->min), vec3_max_abs(b->max))));
     const struct real8 margin = r8_mul(r8_mul(r8_set(0x1p-30), e->ray.per_length), size);
     return !(bits &
              box_lanes_between(e, b, r8_sub(e->t_min, margin), r8_add(c->limit, margin)));

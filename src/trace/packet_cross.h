@@ -140,7 +140,7 @@ LANES_INLINE struct cross8 cross8_box(const struct box *b, const struct ray8 *ra
     x.met = m8_and(r8_le(s.in, s.out), r8_lt(r8_set(-INFINITY), s.in));
     const struct real8 e = r8_mul(
         r8_set(GAMMA(12)),
-        r8_add(ray->o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
+        r8_add(ray->o_max, r8_set(larger(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
     x.t[0] = s.in;
     x.t[1] = s.out;
     x.dt[0] = r8_div(e, r8_abs(s.in_d));
@@ -293,7 +293,7 @@ LANES_INLINE struct cross8 cross8_cone(const struct cone *c, const struct ray8 *
     met = m8_without(met, m8_without(caps.across, between));
     x.met = m8_without(met, x.odd);
 
-    const double r = fmax(c->r0, c->r1);
+    const double r = larger(c->r0, c->r1);
     const struct real8 e_p =
         r8_mul(r8_set(GAMMA(24)),
                r8_add(r8_add(r8_add(ray->o_max, r8_set(vec3_max_abs(c->frame.origin))),
@@ -453,7 +453,7 @@ LANES_INLINE struct cross8 cross8_corners(const struct vec3 p[3], const struct s
     struct real8 spread = zero, depth = zero;
 #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
-        corner = fmax(corner, vec3_max_abs(p[i]));
+        corner = larger(vec3_max_abs(p[i]), corner);
         spread = r8_max(spread, r8_max(r8_abs(x[i]), r8_abs(y[i])));
         depth = r8_max(depth, r8_abs(r8_sub(z[i], z[(i + 1) % 3])));
     }

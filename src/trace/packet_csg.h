@@ -218,7 +218,7 @@ static void csg8_stretch(struct csg8 *v)
     const struct eight *e = v->e;
     const struct aabb *b = &v->o->bounds;
     const double extent =
-        aabb_is_finite(*b) ? fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)) : 0;
+        aabb_is_finite(*b) ? larger(vec3_max_abs(b->min), vec3_max_abs(b->max)) : 0;
     v->margin = r8_mul(r8_mul(r8_set(0x1p-30), e->ray.per_length),
                        r8_add(e->ray.o_max, r8_set(extent)));
     v->from = r8_sub(e->t_min, v->margin);

@@ -314,7 +314,7 @@ LANES_INLINE double own_extent(const struct leaf *l, enum packet_shape shape)
         return vec3_max_abs(((const struct plane *)l->shape)->point);
     if (shape == PACKET_BOX) {
         const struct box *b = l->shape;
-        return fmax(vec3_max_abs(b->min), vec3_max_abs(b->max));
+        return larger(vec3_max_abs(b->min), vec3_max_abs(b->max));
     }
     if (shape != PACKET_CYLINDER)
         return 0;

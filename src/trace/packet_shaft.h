@@ -4,6 +4,7 @@
 // Shafts and the boxes of a BVH8. A segment from a point of one box to a point of another lies, at
 // each share of its length, in the box between both, whose sides are linear in the share: eight
 // children of a node are tested as a ray would be.
+#include "math/larger.h"
 #include "trace/packet_objects.h"
 #include "trace/ray_shaft.h"
 
@@ -25,7 +26,7 @@ struct shaft_sides {
 
 static inline double shaft_most(const struct aabb *b)
 {
-    return fmax(vec3_max_abs(b->min), vec3_max_abs(b->max));
+    return larger(vec3_max_abs(b->min), vec3_max_abs(b->max));
 }
 
 static inline struct shaft_side shaft_side_of(double from, double to)
@@ -41,7 +42,7 @@ static void shaft_sides_of(struct shaft_sides *v, struct vec3 origin,
     v->from = (struct aabb){vec3_sub(s->from.min, origin), vec3_sub(s->from.max, origin)};
     v->to = (struct aabb){vec3_sub(s->to.min, origin), vec3_sub(s->to.max, origin)};
     // Coordinates in the world are doubles, whose rounding may show where it is far away.
-    const double by = shaft_margin * fmax(shaft_most(&v->from), shaft_most(&v->to)) +
+    const double by = shaft_margin * larger(shaft_most(&v->from), shaft_most(&v->to)) +
                       0x1p-40 * (shaft_most(&s->from) + shaft_most(&s->to));
     const struct vec3 grow = vec3(by, by, by);
     v->from = (struct aabb){vec3_sub(v->from.min, grow), vec3_add(v->from.max, grow)};
@@ -89,9 +90,9 @@ static bool shaft_meets_box(const struct shaft_sides *v, const struct aabb *b)
                                 : vec3_axis(b->max, a - 3) - vec3_axis(v->origin, a - 3);
         const double at = (face - s->from) * s->inverse;
         if (side_begins(s, a))
-            near = fmax(at, near);
+            near = larger(at, near);
         else
-            far = fmin(at, far);
+            far = smaller(at, far);
     }
     return near <= far;
 }
@@ -99,8 +100,8 @@ static bool shaft_meets_box(const struct shaft_sides *v, const struct aabb *b)
 static double shaft_farthest(const struct aabb *b, struct vec3 c)
 {
     const struct vec3 p = vec3_sub(b->min, c), q = vec3_sub(b->max, c);
-    return vec3_length(vec3(fmax(fabs(p.x), fabs(q.x)), fmax(fabs(p.y), fabs(q.y)),
-                            fmax(fabs(p.z), fabs(q.z))));
+    return vec3_length(vec3(larger(fabs(p.x), fabs(q.x)), larger(fabs(p.y), fabs(q.y)),
+                            larger(fabs(p.z), fabs(q.z))));
 }
 
 // Whether the shaft lies within a sphere: item i of the tree.

@@ -5,6 +5,7 @@
 // scene/shapes/NAME.c, so that every t has the same bits.
 #include "math/gamma.h"
 #include "math/lanes.h"
+#include "math/larger.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cylinder.h"
 #include "scene/shapes/plane.h"
@@ -191,7 +192,7 @@ LANES_INLINE struct span8 span8_box(const struct box *b, const struct ray8 *ray)
 {
     const struct real8 e = r8_mul(
         r8_set(GAMMA(14)),
-        r8_add(ray->o_max, r8_set(fmax(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
+        r8_add(ray->o_max, r8_set(larger(vec3_max_abs(b->min), vec3_max_abs(b->max)))));
     const struct real8 longest = v8_max_abs(ray->d);
     struct span8 x;
     slab8(b->min.x, b->max.x, ray->o.x, ray->d.x, longest, e, &x, true);

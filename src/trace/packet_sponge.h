@@ -69,7 +69,7 @@ LANES_INLINE bool sponge_look(const struct eight *e, const struct sponge *v,
 {
     const struct bvh8 *tree = &v->large->leaves;
     const double extent =
-        fmax(vec3_max_abs(tree->bounds.min), vec3_max_abs(tree->bounds.max));
+        larger(vec3_max_abs(tree->bounds.min), vec3_max_abs(tree->bounds.max));
     const struct real8 reach =
         r8_add(r8_mul(r8_set(0x1p-20), r8_add(e->ray.o_max, r8_set(extent))),
                r8_mul(r8_add(v->in_e, v->in_e), v8_max_abs(e->ray.d)));
