@@ -117,6 +117,8 @@ bool irradiance_cache_add(struct irradiance_cache *c, const struct cache_sample 
         !(s.radius > 0 && s.radius < INFINITY))
         return false;
     s.reach = gather_reach(c, &s);
+    if (!(s.reach < cache_reach_most))
+        return false;
     store_add(&c->store, &s);
     return true;
 }

@@ -289,7 +289,7 @@ static struct cache_sample samples_take(struct gather_level *l)
         mean_light(l, seen, k * count, count, &s);
         const bool lasting = distances(l, w, k * count, count, &s);
         s.reach = gather_reach(l->owner->cache, &s);
-        if (lasting && l->owner->fresh)
+        if (lasting && s.reach < cache_reach_most && l->owner->fresh)
             store_add(l->owner->fresh, &s);
     }
     l->waiting_count = 0;

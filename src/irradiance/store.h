@@ -27,6 +27,8 @@ struct cache_sample {
     double reach;     // it is filed for points within this distance
 };
 
+static const double cache_reach_most = 0x1p1000; // of a sample that can be filed
+
 // The same in single precision, as much as tells of most samples that they say nothing.
 struct cache_spot {
     float p[3], radius; // infinite where floats do not hold p

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "irradiance/store.h"
+#include "math/larger.h"
 
 // The spec's own constants (spec/lighting.md 12.5).
 static const double cache_same_place = 1e-6, cache_behind = -0.05,
@@ -27,7 +28,8 @@ static inline unsigned cache_sides(struct vec3 n, double bound)
 {
     const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
     const double room = sqrt(bound * bound + cache_not_unit);
-    const double yz = fmax(y, z) - room, xz = fmax(x, z) - room, xy = fmax(x, y) - room;
+    const double yz = larger(y, z) - room, xz = larger(x, z) - room,
+                 xy = larger(x, y) - room;
     return (unsigned)(n.x >= yz) | (unsigned)(-n.x >= yz) << 1 |
            (unsigned)(n.y >= xz) << 2 | (unsigned)(-n.y >= xz) << 3 |
            (unsigned)(n.z >= xy) << 4 | (unsigned)(-n.z >= xy) << 5;
