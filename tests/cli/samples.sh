@@ -63,7 +63,7 @@ check "the old file stays when the new one is not whole" kept
 settled() { render -o a.ppm Declare=Nearest=6 && all=$(count) && render -o b.ppm Declare=Nearest=6 Declare=Settled=1 +WT1 && few=$(count) &&
   test $((10 * few)) -lt $((9 * all)) && render -o c.ppm Declare=Nearest=6 Declare=Settled=1 +WT3 && cmp b.ppm c.ppm; }
 check "where enough is known, fewer passes are made" settled
-wrong() { exits 1 "$lambert" room.pov +W64 +H48 -F "Declare=Settled=$1" && has err "the second number of nearest_count must be at least 0 and below the first"; }
-check "enough must be below nearest_count" wrong 6
-check "and not below 0" wrong -1
+wrong() { exits 1 "$lambert" room.pov +W64 +H48 -F "Declare=Settled=$1" && has err "$2"; }
+check "enough must be below nearest_count" wrong 6 "the second number of nearest_count must be at least 0 and below the first"
+check "and not below 0" wrong -1 "nearest_count: -1 is not between 0 and 20"
 finish
