@@ -139,12 +139,9 @@ void *arena_alloc_array(struct arena *a, size_t count, size_t size)
 void *arena_grow(struct arena *a, void *array, uint32_t count, uint32_t *capacity,
                  size_t size)
 {
-    enum { FIRST = 16 };
     if (count < *capacity)
         return array;
-    if (*capacity > UINT32_MAX / 2)
-        out_of_memory();
-    *capacity = *capacity ? 2 * *capacity : FIRST;
+    *capacity = capacity_doubled(*capacity);
     void *more = arena_alloc_array(a, *capacity, size);
     if (array)
         memcpy(more, array, count * size);

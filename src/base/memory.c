@@ -47,11 +47,16 @@ void *must_align(size_t align, size_t count, size_t size)
     return checked(aligned_alloc(align, (bytes + align - 1) & ~(align - 1)));
 }
 
-void *memory_double(void *at, uint32_t *capacity, size_t size)
+uint32_t capacity_doubled(uint32_t capacity)
 {
     enum { FIRST = 16 };
-    if (*capacity > UINT32_MAX / 2)
+    if (capacity > UINT32_MAX / 2)
         out_of_memory();
-    *capacity = *capacity ? 2 * *capacity : FIRST;
+    return capacity ? 2 * capacity : FIRST;
+}
+
+void *memory_double(void *at, uint32_t *capacity, size_t size)
+{
+    *capacity = capacity_doubled(*capacity);
     return must_realloc(at, *capacity, size);
 }

@@ -15,7 +15,9 @@ void *must_align(size_t align, size_t count, size_t size); // to a power of two
 
 _Noreturn void out_of_memory(void);
 
-// must_realloc to twice the items, at least 16.
+// Twice the items, at least 16; aborts where their number would not fit.
+uint32_t capacity_doubled(uint32_t capacity);
+// must_realloc to so many.
 void *memory_double(void *at, uint32_t *capacity, size_t size);
 
 // Room for one item behind the first `count` of an array that holds `*capacity`.

@@ -245,9 +245,7 @@ static void add_file(struct cmd *c, const char *name)
 {
     if (c->file_count == c->file_capacity) {
         c->file_capacity = c->file_capacity ? 2 * c->file_capacity : 16;
-        c->file = realloc(c->file, c->file_capacity * sizeof *c->file);
-        if (!c->file)
-            abort();
+        c->file = must_have(realloc(c->file, c->file_capacity * sizeof *c->file));
     }
     c->file[c->file_count++] = text_format("%s", name);
 }

@@ -117,6 +117,8 @@ void completion_print(FILE *out);
 
 // output.c: the name of the picture file, to be freed. frame < 0: no animation.
 char *output_name(struct cmd *c, const char *scene, long frame, int digits, int *code);
+// What cannot be done without: where it is NULL, says so and aborts.
+void *must_have(void *memory);
 char *text_format(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 char *text_format_list(const char *fmt, va_list ap) __attribute__((format(printf, 1, 0)));
 

@@ -50,9 +50,7 @@ static char *expand(struct cmd *c, const char *text)
 {
     char *line = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&line, &size);
-    if (!out)
-        abort();
+    FILE *out = must_have(open_memstream(&line, &size));
     for (; *text; text++) {
         if (*text == '%' && put_expansion(c, out, text[1]))
             text++;

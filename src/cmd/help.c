@@ -54,9 +54,7 @@ static char *forms_of(const struct lambert_option *o, bool all)
 {
     char *forms = NULL;
     size_t n = 0;
-    FILE *text = open_memstream(&forms, &n);
-    if (!text)
-        abort();
+    FILE *text = must_have(open_memstream(&forms, &n));
     print_forms(text, o, all);
     fclose(text);
     return forms;

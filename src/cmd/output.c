@@ -6,14 +6,21 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+void *must_have(void *memory)
+{
+    if (!memory) {
+        fputs("lambert: out of memory\n", stderr);
+        abort();
+    }
+    return memory;
+}
+
 char *text_format_list(const char *fmt, va_list ap)
 {
     va_list again;
     va_copy(again, ap);
     int n = vsnprintf(NULL, 0, fmt, ap);
-    char *text = malloc((size_t)n + 1);
-    if (!text)
-        abort();
+    char *text = must_have(malloc((size_t)n + 1));
     vsnprintf(text, (size_t)n + 1, fmt, again);
     va_end(again);
     return text;

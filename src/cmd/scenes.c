@@ -379,9 +379,7 @@ int compare_scenes(struct cmd *c)
     if (!j.out)
         return cmd_fail(CMD_NO_OUTPUT, "cannot use '%s': %s", out, strerror(errno));
     collect_settings(&j);
-    struct compared_scene *rows = calloc(c->file_count, sizeof *rows);
-    if (!rows)
-        abort();
+    struct compared_scene *rows = must_have(calloc(c->file_count + 1, sizeof *rows));
     const size_t failed = compare_all(&j, rows, csv);
     int code = failed ? CMD_FAILED : CMD_OK;
     if (!csv) {

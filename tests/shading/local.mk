@@ -288,4 +288,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/392-radiosity-fog.pov \
 	%D%/393-radiosity-fog-on.pov \
 	%D%/394-coincident-clipped.pov \
+	%D%/395-camera-mesh-turned.pov \
 	%D%/379-shadow-textured.pov

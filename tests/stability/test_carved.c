@@ -72,6 +72,12 @@ static const char *const carved[] = {
     "2 translate -1 } } }", // they share sides
     "intersection { object { " BLOB
     " } quadric { <1, 0, -1>, <0, 0, 0>, <0, 0, 0>, -.05 } plane { -z, 0 } }",
+    // The solid's surface lies in its container's faces.
+    "difference { isosurface { function { sqrt(pow(max(abs(x) - .45, 0), 2) + "
+    "pow(max(abs(y) - .45, 0), 2) + pow(max(abs(z) - .45, 0), 2)) - .05 } contained_by { "
+    "box { -.5, .5 } } } sphere { 0, 1 scale <.45, .45, .05> translate -.5*z } sphere { 0, 1 "
+    "scale <.45, .45, .05> translate .5*z } sphere { 0, 1 scale <.45, .05, .45> translate "
+    ".5*y } }",
 };
 
 static const double GRAZING = 1e-6; // an error of t that only touching crossings have
