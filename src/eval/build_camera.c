@@ -1,5 +1,6 @@
 #include "eval/build.h"
 #include "math/elementary.h"
+#include "math/larger.h"
 #include "scene/mesh_camera.h"
 #include "scene/shapes/mesh.h"
 
@@ -78,6 +79,9 @@ static void angle(struct args *a, struct camera_state *c)
         c->has_angle_v = args_float(a, "vertical angle", &c->angle_v);
 }
 
+// Samples of a pixel: what a camera keeps of each takes memory.
+enum { BLUR_SAMPLES_MOST = 1048576 };
+
 static void blur_samples(struct args *a, struct camera *c)
 {
     double first = 0, second = 0;
@@ -85,11 +89,16 @@ static void blur_samples(struct args *a, struct camera *c)
     if (!args_float(a, "blur_samples", &first))
         return;
     bool two = args_at_number(a) && args_float(a, "blur_samples", &second);
-    c->blur_samples_min = two ? (int)first : 0;
-    c->blur_samples = two ? (int)second : (int)first;
-    if (c->blur_samples < 1 || c->blur_samples_min > c->blur_samples)
+    const double least = two ? trunc(first) : 0, most = trunc(two ? second : first);
+    if (!(most >= 1 && least <= most)) {
         args_error(a, where,
                    "blur_samples: the maximum must be at least 1 and the minimum");
+    } else if (most > BLUR_SAMPLES_MOST) {
+        args_error(a, where, "blur_samples: at most 1048576 samples are possible");
+    } else {
+        c->blur_samples_min = (int)larger(least, 0);
+        c->blur_samples = (int)most;
+    }
 }
 
 static void bokeh(struct args *a, struct camera *c)

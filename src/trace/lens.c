@@ -1,8 +1,10 @@
 #include "trace/lens.h"
 
 #include "base/arena.h"
+#include "math/chi_square.h"
 #include "math/elementary.h"
 #include "math/halton.h"
+#include "math/larger.h"
 #include "scene/noise.h"
 #include "scene/texture.h"
 
@@ -57,11 +59,14 @@ static int cell(struct vec2 p, int side)
     return y * side + x;
 }
 
+// Places that a bokeh may draw for all its samples: dark pigments of many samples end.
+enum { BOKEH_DRAWS = 1 << 22 };
+
 // Places all over the square of the lens, as thick as the pigment is light (spec/lighting
 // 1.4): the more have been drawn, the less is refused.
 static void points_bokeh(struct lens *l, const struct pigment *bokeh)
 {
-    const double most = (double)l->count * l->count;
+    const double most = smaller((double)l->count * l->count, BOKEH_DRAWS);
     int drawn = 0;
     for (int i = 0; i < l->count; i++) {
         double chance, least;
@@ -104,52 +109,6 @@ static void points_init(struct lens *l, struct arena *a)
     }
 }
 
-// The upper tail of the chi-square distribution: closed sums for whole degrees
-// (Abramowitz and Stegun 26.4.4 and 26.4.5).
-static double chi_tail(double x, int degrees)
-{
-    if (degrees % 2 == 0) {
-        double term = 1, sum = 1;
-        for (int i = 1; i < degrees / 2; i++) {
-            term *= x / (2 * i);
-            sum += term;
-        }
-        return det_exp(-x / 2) * sum;
-    }
-    // erfc(sqrt(x/2)) by its series, exact enough for a bisection to 1e-10
-    static const double pi = 3.14159265358979323846;
-    const double z = sqrt(x / 2);
-    double term = z, sum = z;
-    for (int i = 1; i < 400 && term > 1e-17 * sum; i++) {
-        term *= 2 * z * z / (2 * i + 1);
-        sum += term;
-    }
-    double tail = 1 - 2 / sqrt(pi) * det_exp(-z * z) * sum;
-    double part = sqrt(2 * x / pi) * det_exp(-x / 2);
-    for (int i = 1; 2 * i + 1 <= degrees; i++) {
-        tail += part;
-        part *= x / (2 * i + 1);
-    }
-    return tail;
-}
-
-double chi_square(double probability, int degrees)
-{
-    double low = 0, high = 1;
-    if (degrees < 1)
-        return 0;
-    while (chi_tail(high, degrees) > probability)
-        high *= 2;
-    for (int i = 0; i < 60; i++) {
-        const double middle = (low + high) / 2;
-        if (chi_tail(middle, degrees) > probability)
-            low = middle;
-        else
-            high = middle;
-    }
-    return (low + high) / 2;
-}
-
 static void spread_init(struct lens *l, const struct jitter_tables *jitter)
 {
     for (int i = 0; i < 256; i++) {
@@ -178,9 +137,8 @@ void lens_init(struct lens *l, struct arena *a, const struct camera *c,
         points_bokeh(l, c->bokeh);
     else
         points_init(l, a);
-    const double whole = chi_square(c->confidence, n - 1);
-    for (int k = 1; k <= n && c->variance > 0 && whole > 0; k++)
-        l->threshold[k] = c->variance * chi_square(c->confidence, k) / whole;
+    if (c->variance > 0)
+        chi_square_thresholds(c->confidence, c->variance, n, n, l->threshold);
 }
 
 int lens_batch(const struct lens *l, int done)

@@ -26,7 +26,5 @@ int lens_batch(const struct lens *lens, int done);
 void lens_sample(const struct lens *lens, const struct jitter_tables *jitter,
                  const struct camera *c, int px, int py, int s, struct vec2 *place,
                  struct vec2 *on_lens);
-// The value that a chi-square variable of `degrees` exceeds with this probability.
-double chi_square(double probability, int degrees);
 
 #endif

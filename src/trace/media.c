@@ -5,11 +5,11 @@
 
 #include "base/arena.h"
 #include "base/memory.h"
+#include "math/chi_square.h"
 #include "scene/effects.h"
 #include "scene/pigment_tape.h"
 #include "scene/texture.h"
 #include "trace/inside.h"
-#include "trace/lens.h"
 #include "trace/media_march.h"
 #include "trace/shade_kernel.h"
 
@@ -281,7 +281,7 @@ static bool wants_thresholds(const struct media *m)
     return m->method != 3 && m->samples_max > m->samples_min;
 }
 
-// Bounds what tables of thresholds cost, which chi_square finds by bisection.
+// Bounds what tables of thresholds hold.
 enum { THRESHOLDS = 1024 };
 
 static void threshold_add(struct job *job, struct arena *a, struct media_threshold *all,
@@ -289,9 +289,7 @@ static void threshold_add(struct job *job, struct arena *a, struct media_thresho
 {
     const int n = m->samples_max < THRESHOLDS ? m->samples_max : THRESHOLDS;
     double *enough = arena_new_array(a, double, (size_t)n + 2);
-    const double whole = chi_square((double)m->confidence, n - 1);
-    for (int k = 1; k <= n + 1 && whole > 0; k++)
-        enough[k] = (double)m->variance * chi_square((double)m->confidence, k) / whole;
+    chi_square_thresholds((double)m->confidence, (double)m->variance, n, n + 1, enough);
     all[job->media_threshold_count++] = (struct media_threshold){m, enough, (uint32_t)n};
 }
 

@@ -15,7 +15,7 @@ EXTRA_DIST += %D%/replay.sh \
 	%D%/corpus/if_in_elseif.pov %D%/corpus/map_alone.pov %D%/corpus/box_endless.pov %D%/corpus/while_at_end.pov \
 	%D%/corpus/subscript_huge.pov %D%/corpus/while_in_macro.pov %D%/corpus/mesh_camera_missed.pov %D%/corpus/lamp_endless.pov \
 	%D%/corpus/box_huge.pov %D%/corpus/reach_endless.pov %D%/corpus/count_nowhere.pov \
-	%D%/corpus/mirror_nowhere.pov
+	%D%/corpus/mirror_nowhere.pov %D%/corpus/blur_endless.pov
 # The image readers, over the small files of tests/data/images.
 noinst_PROGRAMS += fuzz_image
 fuzz_image_SOURCES = %D%/fuzz_image.c %D%/mutate.c
