@@ -91,11 +91,12 @@ bool args_float(struct args *a, const char *role, double *out)
 
 bool args_int(struct args *a, const char *role, long *out)
 {
+    const struct span where = args_span(a);
     double v;
     if (!args_float(a, role, &v))
         return false;
     if (!(v > -2147483649.0 && v < 2147483648.0)) {
-        args_error(a, args_span(a), "value is too large for an integer");
+        args_error(a, where, "value is too large for an integer");
         return false;
     }
     *out = (long)v;

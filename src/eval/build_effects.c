@@ -144,7 +144,8 @@ static void photon_file(struct args *a, enum word w, struct photon_settings *p)
 static bool photon_item(struct args *a, struct photon_settings *p)
 {
     enum word w = args_at_word(a);
-    double v = 0;
+    const struct span where = args_span(a);
+    long n = 0;
     switch (w) {
     case WORD_gather: return read_pair(a, &p->gather_min, &p->gather_max, 0, 1e9);
     case WORD_radius:
@@ -154,15 +155,16 @@ static bool photon_item(struct args *a, struct photon_settings *p)
         return true;
     case WORD_media:
         args_next(a);
-        if (args_float(a, "media", &v))
-            p->media_steps = (int)v;
+        if (args_int(a, "media", &n) && n < 0)
+            args_error(a, where, "media steps below 0");
+        p->media_steps = (int)n;
         args_optional(a, &p->media_factor);
         return true;
     case WORD_expand_thresholds:
         args_next(a);
         args_float(a, "expand_thresholds", &p->expand_increase);
-        if (args_float(a, "expand_thresholds", &v))
-            p->expand_min = (int)v;
+        if (args_int(a, "expand_thresholds", &n))
+            p->expand_min = (int)n;
         return true;
     case WORD_load_file:
     case WORD_save_file:

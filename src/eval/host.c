@@ -306,12 +306,12 @@ static void face(void *user, void *mesh, const struct ast *block)
 static bool version(void *user, struct span where, double v)
 {
     struct eval *e = user;
-    int hundredfold = (int)(100 * v + 0.5);
-    if (hundredfold > 370 || hundredfold < 0) {
+    const double hundredfold = 100 * v + 0.5;
+    if (!(hundredfold > -1 && hundredfold < 371)) {
         diag_at(e->diags, DIAG_VERSION, where, v);
         return false;
     }
-    e->version = hundredfold;
+    e->version = (int)hundredfold;
     e->version_seen = true;
     settings_noise(e->builder);
     return true;
