@@ -111,23 +111,42 @@ static double along_ray(const struct world *w, const struct ray *ray,
     return apart / (length * larger(cosine, sqrt(GAMMA(64))));
 }
 
+static struct ray_query query_of(const struct ray_batch *rays, uint32_t i)
+{
+    return (struct ray_query){.ray = {.o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
+                                      .d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]},
+                                      .t_min = rays->t_min[i],
+                                      .t_max = rays->t_max[i]},
+                              .hidden_by = rays->hidden_by[i]};
+}
+
+// Whether hit i, found at `point`, is near what a pair has in common.
+static bool is_at(const struct face_pair *p, const struct ray_batch *rays,
+                  const struct hit_batch *hit, uint32_t i)
+{
+    const struct vec3 o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]};
+    const struct vec3 d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]};
+    const double reach = wide * hit->dt[i];
+    return is_near(&p->where, vec3_mad(o, hit->t[i], d),
+                   reach * vec3_max_abs(d) + p->error);
+}
+
 // Puts the face that is to be seen of those in one place in place of hit i of another one;
 // whether there is one.
 static bool first_of_pairs(const struct world *w, struct trace_scratch *s,
-                           const struct ray_query *q, uint32_t i,
+                           const struct ray_batch *rays, uint32_t i,
                            const struct hit_batch *hit)
 {
     const uint32_t leaf = hit->leaf[i];
-    const double reach = wide * hit->dt[i];
-    const struct vec3 point = ray_at(&q->ray, hit->t[i]);
     for (uint32_t k = w->leaf[leaf].first_pair;
          k < w->face_pair_count && w->face_pair[k].leaf == leaf; k++) {
         const struct face_pair *p = &w->face_pair[k];
-        if (!is_near(&p->where, point, reach * vec3_max_abs(q->ray.d) + p->error))
+        if (!is_at(p, rays, hit, i))
             continue;
         const struct hit found = hit_batch_at(hit, i);
-        struct ray_query near = *q;
-        look_between(&near, found.b.t, reach + along_ray(w, &q->ray, &found, p->error));
+        struct ray_query near = query_of(rays, i);
+        const double apart = along_ray(w, &near.ray, &found, p->error);
+        look_between(&near, found.b.t, wide * hit->dt[i] + apart);
         struct search f = search_of(w, s, &near, SWEEP_CLOSEST);
         if (search_try_object(&f, p->seen) && w->leaf[f.b.leaf].paired) {
             hit_batch_put(hit, i, &f.b);
@@ -147,15 +166,9 @@ void coincident_hits(const struct world *w, struct trace_scratch *s,
         const struct world_object *o = &w->object[l->object];
         if (!o->may_coincide)
             continue;
-        const struct ray_query q = {
-            .ray = {.o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
-                    .d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]},
-                    .t_min = rays->t_min[i],
-                    .t_max = rays->t_max[i]},
-            .hidden_by = rays->hidden_by[i]};
-        if (l->paired && first_of_pairs(w, s, &q, i, hit))
+        if (l->paired && first_of_pairs(w, s, rays, i, hit))
             continue;
         if (o->clear_flat && !w->surface[l->surface].opaque)
-            behind_clear(w, s, q, i, hit);
+            behind_clear(w, s, query_of(rays, i), i, hit);
     }
 }
