@@ -16,6 +16,7 @@ include %D%/unit/lang/local.mk
 include %D%/unit/scene/local.mk
 include %D%/unit/eval/local.mk
 include %D%/unit/trace/local.mk
+include %D%/unit/api/local.mk
 include %D%/unit/tess/local.mk
 include %D%/unit/irradiance/local.mk
 include %D%/unit/radiosity/local.mk

@@ -385,8 +385,8 @@ static double put_looks(const struct radiosity *r, struct looks *l, const double
         all += e->polygon ? weight : 0;
         l->of[ray] = e;
         l->weight[ray] = weight;
-        // Ends short of the emitter, which is no obstacle to itself.
-        ray_put_from(l->rays, x->o, vec3(x->d[0][k], x->d[1][k], x->d[2][k]), 1 - 1e-4);
+        ray_put_from(l->rays, x->o, vec3(x->d[0][k], x->d[1][k], x->d[2][k]),
+                     SHORT_OF_EMITTER);
         l->rays->hidden_by[ray] = OBJECT_NO_RADIOSITY;
     }
     return all;

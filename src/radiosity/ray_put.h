@@ -4,6 +4,9 @@
 #include "radiosity/enclosure.h"
 #include "trace/intersect.h"
 
+// Ways to points of an emitter, which is no obstacle to itself, end this part before it.
+static const double SHORT_OF_EMITTER = 1 - 1e-4;
+
 // Where a ray leaves the error box of its point, on the side of the normal.
 static inline struct vec3 point_lifted(const struct element_point *p)
 {

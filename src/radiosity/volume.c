@@ -160,7 +160,7 @@ static void look_at(const struct radiosity *r, struct tracer *t, struct vec3 o,
         const struct vec3 d = vec3_sub(point_lifted(&at), o);
         const double r2 = vec3_dot(d, d), length = sqrt(r2),
                      cosine = -vec3_dot(d, at.normal) / length;
-        const struct ray_query q = {{o, d, 0, 1 - 1e-4}, OBJECT_NO_RADIOSITY};
+        const struct ray_query q = {{o, d, 0, SHORT_OF_EMITTER}, OBJECT_NO_RADIOSITY};
         if (!(cosine > 0) || trace_occluded_1(p->job->world, t->scratch, &q))
             continue;
         // Nearer than the points lie to each other one of them has no bound.

@@ -11,8 +11,6 @@
 #include "scene/noise_tables.h"
 #include "scene/pattern_math.h"
 
-// Past this a coordinate is near the end of the integers.
-#define NOISE_FAR 4611686018427387904.0
 // Below this a cell and the next are one apart.
 #define CELLS_NEAR 0x1p50
 

@@ -7,14 +7,13 @@
 
 #include "scene/noise_tables.h"
 
-// Below an integer by less than this, a negative coordinate belongs to the cell above.
-#define NOISE_EDGE 1e-10
-// Past this a coordinate has no fraction and is near the end of the integers.
-#define NOISE_FAR 4611686018427387904.0
-
+// The cell of a point. Corners are named by their side of x and y: 00, 10, 01, 11.
 struct lattice {
-    unsigned x, y, z;  // cell, 0..4095
-    double fx, fy, fz; // place in it
+    unsigned z0, z1;               // of the cell, 0..4095, and of the next
+    double fx, fy, fz, jx, jy, jz; // way from its first corner, and from its last
+    unsigned h00, h10, h01, h11;   // hashes of x and y
+    double w00, w10, w01, w11;     // weights by x and y
+    double tz, sz;                 // weights of z0 and z1
 };
 
 static inline double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
@@ -28,16 +27,33 @@ static inline double split(double v, unsigned *cell)
     return v - (double)t;
 }
 
+static inline double smooth(double u) { return u * u * (3 - 2 * u); }
+
 static inline struct lattice lattice_of(struct vec3 p)
 {
     struct lattice l;
-    l.fx = split(p.x, &l.x);
-    l.fy = split(p.y, &l.y);
-    l.fz = split(p.z, &l.z);
+    unsigned x, y;
+    l.fx = split(p.x, &x);
+    l.fy = split(p.y, &y);
+    l.fz = split(p.z, &l.z0);
+    l.z1 = l.z0 + 1;
+    l.jx = l.fx - 1;
+    l.jy = l.fy - 1;
+    l.jz = l.fz - 1;
+    const unsigned h0 = noise_hash_table[x], h1 = noise_hash_table[x + 1];
+    l.h00 = noise_hash_table[h0 ^ y];
+    l.h10 = noise_hash_table[h1 ^ y];
+    l.h01 = noise_hash_table[h0 ^ (y + 1)];
+    l.h11 = noise_hash_table[h1 ^ (y + 1)];
+    const double sx = smooth(l.fx), sy = smooth(l.fy), tx = 1 - sx, ty = 1 - sy;
+    l.w00 = tx * ty;
+    l.w10 = sx * ty;
+    l.w01 = tx * sy;
+    l.w11 = sx * sy;
+    l.sz = smooth(l.fz);
+    l.tz = 1 - l.sz;
     return l;
 }
-
-static inline double smooth(double u) { return u * u * (3 - 2 * u); }
 
 // Where the table entries of a corner of the cell begin.
 static inline unsigned place_of(unsigned hash_xy, unsigned z)
@@ -58,25 +74,14 @@ static inline double blend(const double *t, double w, double dx, double dy, doub
 static inline double value_sum(struct vec3 p)
 {
     const struct lattice l = lattice_of(p);
-    const double sx = smooth(l.fx), sy = smooth(l.fy), sz = smooth(l.fz);
-    const double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
-    const double jx = l.fx - 1, jy = l.fy - 1, jz = l.fz - 1;
-    const unsigned h0 = noise_hash_table[l.x], h1 = noise_hash_table[l.x + 1];
-    const unsigned h00 = noise_hash_table[h0 ^ l.y];
-    const unsigned h10 = noise_hash_table[h1 ^ l.y];
-    const unsigned h01 = noise_hash_table[h0 ^ (l.y + 1)];
-    const unsigned h11 = noise_hash_table[h1 ^ (l.y + 1)];
-    const unsigned z0 = l.z, z1 = l.z + 1;
-    const double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
-
-    double sum = blend(corner(h00, z0), w00 * tz, l.fx, l.fy, l.fz);
-    sum += blend(corner(h10, z0), w10 * tz, jx, l.fy, l.fz);
-    sum += blend(corner(h01, z0), w01 * tz, l.fx, jy, l.fz);
-    sum += blend(corner(h11, z0), w11 * tz, jx, jy, l.fz);
-    sum += blend(corner(h00, z1), w00 * sz, l.fx, l.fy, jz);
-    sum += blend(corner(h10, z1), w10 * sz, jx, l.fy, jz);
-    sum += blend(corner(h01, z1), w01 * sz, l.fx, jy, jz);
-    sum += blend(corner(h11, z1), w11 * sz, jx, jy, jz);
+    double sum = blend(corner(l.h00, l.z0), l.w00 * l.tz, l.fx, l.fy, l.fz);
+    sum += blend(corner(l.h10, l.z0), l.w10 * l.tz, l.jx, l.fy, l.fz);
+    sum += blend(corner(l.h01, l.z0), l.w01 * l.tz, l.fx, l.jy, l.fz);
+    sum += blend(corner(l.h11, l.z0), l.w11 * l.tz, l.jx, l.jy, l.fz);
+    sum += blend(corner(l.h00, l.z1), l.w00 * l.sz, l.fx, l.fy, l.jz);
+    sum += blend(corner(l.h10, l.z1), l.w10 * l.sz, l.jx, l.fy, l.jz);
+    sum += blend(corner(l.h01, l.z1), l.w01 * l.sz, l.fx, l.jy, l.jz);
+    sum += blend(corner(l.h11, l.z1), l.w11 * l.sz, l.jx, l.jy, l.jz);
     return sum;
 }
 
@@ -107,27 +112,16 @@ static inline void add_corner(struct vector_sum *sum, unsigned at, double w, dou
 struct vec3 noise_vector(struct vec3 p)
 {
     const struct lattice l = lattice_of(p);
-    const double sx = smooth(l.fx), sy = smooth(l.fy), sz = smooth(l.fz);
-    const double tx = 1 - sx, ty = 1 - sy, tz = 1 - sz;
-    const double jx = l.fx - 1, jy = l.fy - 1, jz = l.fz - 1;
-    const unsigned h0 = noise_hash_table[l.x], h1 = noise_hash_table[l.x + 1];
-    const unsigned h00 = noise_hash_table[h0 ^ l.y];
-    const unsigned h10 = noise_hash_table[h1 ^ l.y];
-    const unsigned h01 = noise_hash_table[h0 ^ (l.y + 1)];
-    const unsigned h11 = noise_hash_table[h1 ^ (l.y + 1)];
-    const unsigned z0 = l.z, z1 = l.z + 1;
-    const double w00 = tx * ty, w10 = sx * ty, w01 = tx * sy, w11 = sx * sy;
-
     // This order of corners is not the one of value_sum: the last bit depends on it.
     struct vector_sum sum = {{0, 0}, 0};
-    add_corner(&sum, place_of(h00, z0), w00 * tz, l.fx, l.fy, l.fz);
-    add_corner(&sum, place_of(h10, z0), w10 * tz, jx, l.fy, l.fz);
-    add_corner(&sum, place_of(h11, z0), w11 * tz, jx, jy, l.fz);
-    add_corner(&sum, place_of(h01, z0), w01 * tz, l.fx, jy, l.fz);
-    add_corner(&sum, place_of(h01, z1), w01 * sz, l.fx, jy, jz);
-    add_corner(&sum, place_of(h11, z1), w11 * sz, jx, jy, jz);
-    add_corner(&sum, place_of(h10, z1), w10 * sz, jx, l.fy, jz);
-    add_corner(&sum, place_of(h00, z1), w00 * sz, l.fx, l.fy, jz);
+    add_corner(&sum, place_of(l.h00, l.z0), l.w00 * l.tz, l.fx, l.fy, l.fz);
+    add_corner(&sum, place_of(l.h10, l.z0), l.w10 * l.tz, l.jx, l.fy, l.fz);
+    add_corner(&sum, place_of(l.h11, l.z0), l.w11 * l.tz, l.jx, l.jy, l.fz);
+    add_corner(&sum, place_of(l.h01, l.z0), l.w01 * l.tz, l.fx, l.jy, l.fz);
+    add_corner(&sum, place_of(l.h01, l.z1), l.w01 * l.sz, l.fx, l.jy, l.jz);
+    add_corner(&sum, place_of(l.h11, l.z1), l.w11 * l.sz, l.jx, l.jy, l.jz);
+    add_corner(&sum, place_of(l.h10, l.z1), l.w10 * l.sz, l.jx, l.fy, l.jz);
+    add_corner(&sum, place_of(l.h00, l.z1), l.w00 * l.sz, l.fx, l.fy, l.jz);
     return vec3(sum.xy[0], sum.xy[1], sum.z);
 }
 

@@ -8,6 +8,11 @@
 
 // Lattice noise of the scene language (spec/textures 1, 2). Same bits everywhere.
 
+// Below an integer by less than this, a negative coordinate belongs to the cell above.
+#define NOISE_EDGE 1e-10
+// 2^62. From here on a coordinate has no fraction and is near the end of the integers.
+#define NOISE_FAR 4611686018427387904.0
+
 enum noise_generator { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERLIN = 3 };
 
 // What noise_value and noise_turbulence make of a generator that is out of range: 1.
@@ -29,7 +34,7 @@ static inline struct noise_range noise_range_of(int generator)
                : (struct noise_range){1, 0.5};
 }
 // A few dozen roundings of numbers below four. Slopes also differ where coordinates within
-// 1e-10 below a whole number belong to the cell above, and where generator 3 adds 1e7 to
+// NOISE_EDGE below a whole number belong to the cell above, and where generator 3 adds 1e7 to
 // them before they are split.
 #define NOISE_VALUE_SLACK 1e-13
 #define NOISE_SLOPE_SLACK 1e-6

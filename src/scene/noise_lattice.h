@@ -9,9 +9,7 @@
 #include "scene/noise_tables.h"
 
 // The lattice of noise: which cells eight points are in, and the table entries of the
-// corners of these. Both limits are those of scene/noise.c.
-#define NOISE_EDGE 1e-10
-#define NOISE_FAR  4611686018427387904.0
+// corners of these.
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 enum { CELLS_MAX = 4 };

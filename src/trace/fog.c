@@ -3,6 +3,7 @@
 #include "math/quick.h"
 #include "scene/noise.h"
 #include "trace/media.h"
+#include "trace/near_zero.h"
 #include "trace/shade_kernel.h"
 #include "trace/sky.h"
 
@@ -38,10 +39,9 @@ void bows_init(struct job *job, struct arena *a)
 // density is 1 below 0 and 1/(h^2+1) above, so its integral is an arc tangent.
 static double ground_density(double h1, double h2)
 {
-    static const double equal = 1e-10;
     if (h1 <= 0 && h2 <= 0)
         return 1;
-    if (h1 > 0 && h2 > 0 && fabs(h1 - h2) < equal)
+    if (h1 > 0 && h2 > 0 && fabs(h1 - h2) < NEAR_ZERO)
         return 1 / (h1 * h1 + 1);
     const double a1 = h1 > 0 ? quick_atan2(h1, 1) : h1;
     const double a2 = h2 > 0 ? quick_atan2(h2, 1) : h2;
@@ -136,7 +136,7 @@ static bool rainbow_at(const struct bow *bow, const struct path *path, double s,
     double index = (det_acos(fmin(1, along)) - r->angle * degree) / (r->width * degree);
     if (r->jitter != 0)
         index += (2 * hash_unit(hash_mix(path->hash, 77)) - 1) * r->jitter;
-    if (index < 0 || index > 1 - 1e-10)
+    if (index < 0 || index > 1 - NEAR_ZERO)
         return false;
     uint32_t a, b;
     double f;

@@ -17,7 +17,7 @@ LANES_INLINE struct real8 ground_density8(struct real8 h1, struct real8 h2)
     const struct real8 a1 = r8_select(high1, quick_atan2_8(h1, one), h1);
     const struct real8 a2 = r8_select(high2, quick_atan2_8(h2, one), h2);
     const struct mask8 level =
-        m8_and(m8_and(high1, high2), r8_lt(r8_abs(off), r8_set(1e-10)));
+        m8_and(m8_and(high1, high2), r8_lt(r8_abs(off), r8_set(NEAR_ZERO)));
     const struct real8 at = r8_div(one, r8_add(r8_mul(h1, h1), one));
     const struct real8 mean = r8_select(level, at, r8_div(r8_sub(a1, a2), off));
     const struct mask8 low = m8_and(r8_le(h1, none), r8_le(h2, none));

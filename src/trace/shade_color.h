@@ -2,6 +2,7 @@
 #define TRACE_SHADE_COLOR_H
 
 // Colours and normals of the patterns at eight hits.
+#include "scene/pattern_math.h"
 #include "scene/pigment_tape.h"
 #include "trace/shade_kernel.h"
 #include "trace/shade_lanes.h"
@@ -12,7 +13,6 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
                            struct simple_group *g, unsigned bits)
 {
     static const double far = 1e8; // what pattern_warp clamps to lies beyond
-    const double edge = 1e-10;     // as the pattern's
     const struct transform *m = &s->texture_transform;
     struct vec8 p = v8_load((const double(*)[8])g->p);
     if (!m->identity)
@@ -23,7 +23,7 @@ LANES_INLINE bool checker8(const struct surface *s, const struct simple_surface 
                              &w->transform.inverse);
     if (bits & ~m8_bits(r8_le(v8_max_abs(p), r8_set(far))))
         return false;
-    const struct real8 e = r8_set(edge);
+    const struct real8 e = r8_set(PATTERN_EDGE);
     const struct real8 cell =
         r8_add(r8_add(r8_floor(r8_add(p.x, e)), r8_floor(r8_add(p.y, e))),
                r8_floor(r8_add(p.z, e)));

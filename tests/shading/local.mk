@@ -194,7 +194,7 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/254-photons-slab.pov \
 	%D%/255-subsurface.pov %D%/256-photons-truth-prism.pov %D%/257-photons-truth-mirror.pov \
 	%D%/258-photons-pass-through.pov \
-	%D%/259-photons-of-groups.pov \
+	%D%/259-photons-of-groups.pov %D%/396-photons-truth-fading.pov \
 	%D%/270-hit-epsilon.pov \
 	%D%/271-layered-reflect.pov \
 	%D%/272-layer-cut.pov \
