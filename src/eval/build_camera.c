@@ -1,6 +1,7 @@
 #include "eval/build.h"
 #include "math/elementary.h"
 #include "math/larger.h"
+#include "math/pi.h"
 #include "scene/mesh_camera.h"
 #include "scene/shapes/mesh.h"
 
@@ -9,7 +10,6 @@
 // camera { } (spec/language 4.12, spec/lighting 1.2). Items are collected, then
 // combined in a fixed order when the block ends.
 
-static const double PI = 3.14159265358979323846;
 static const double IS_ZERO = 1e-10; // the language's own threshold
 
 static const struct {

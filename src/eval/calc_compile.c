@@ -8,6 +8,7 @@
 #include "eval/functions.h"
 #include "lang/lexeme.h"
 #include "lang/macro.h"
+#include "math/pi.h"
 
 enum { NEST_MAX = 40 };
 
@@ -224,7 +225,7 @@ static bool constant(struct compile *c)
     enum word w = (enum word)c->t[from].word;
     struct calc_op *op;
     switch (w) {
-    case WORD_pi: return number(c, 3.14159265358979323846);
+    case WORD_pi: return number(c, PI);
     case WORD_true:
     case WORD_yes:
     case WORD_on: return number(c, 1);

@@ -10,6 +10,7 @@
 #include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
+#include "math/pi.h"
 
 // What the language takes for zero and for equal (spec/language, conventions).
 static const double equal_within = 1e-10;
@@ -65,7 +66,7 @@ static bool of_value(struct eval *e, const struct ast *n, const struct value *v,
 static double now_constant(struct eval *e, enum word w)
 {
     switch (w) {
-    case WORD_pi: return 3.14159265358979323846;
+    case WORD_pi: return PI;
     case WORD_true:
     case WORD_yes:
     case WORD_on: return 1;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "eval/internal.h"
+#include "math/pi.h"
 
 struct formula {
     struct tape_builder *b;
@@ -17,8 +18,6 @@ struct formula {
 };
 
 enum { CALL_ARGUMENTS = 4 };
-
-#define PI 3.14159265358979323846
 
 static uint32_t sum(struct formula *f);
 

@@ -6,10 +6,9 @@
 #include "base/arena.h"
 #include "eval/expr.h"
 #include "eval/function.h"
+#include "math/pi.h"
 
 enum { NAMES_MAX = TAPE_ARGUMENTS_MAX + 64, MORE_ARGUMENTS = 10000 };
-
-static const double pi = 3.14159265358979323846;
 
 struct compiler {
     struct eval *e;
@@ -252,8 +251,8 @@ static uint32_t applied(struct compiler *c, enum word w, const uint32_t *a, int 
     if (unary_op(w, &op))
         return tape_unary(c->b, op, a[0]);
     switch (w) {
-    case WORD_radians: return turned(c, a[0], pi, 180);
-    case WORD_degrees: return turned(c, a[0], 180, pi);
+    case WORD_radians: return turned(c, a[0], PI, 180);
+    case WORD_degrees: return turned(c, a[0], 180, PI);
     case WORD_div: return tape_unary(c->b, TAPE_INTEGER, tape_quotient(c->b, a[0], a[1]));
     case WORD_mod: return tape_binary(c->b, TAPE_MOD, a[0], a[1]);
     case WORD_atan2: return tape_binary(c->b, TAPE_ATAN2, a[0], a[1]);

@@ -10,12 +10,12 @@
 #include "eval/symbol.h"
 #include "image/texels.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/image_map.h"
 #include "scene/noise.h"
 #include "scene/object.h"
 
 static const double zero_within = 1e-10; // spec/language, conventions
-static const double pi = 3.14159265358979323846;
 
 static const struct builtin builtins[WORD_COUNT] = {
 #define BUILTIN(word, least_, most_, arguments_, kind)                                   \
@@ -118,11 +118,11 @@ PLAIN(atanh, det_atanh(a))
 PLAIN(ceil, ceil(a))
 PLAIN(cos, det_cos(a))
 PLAIN(cosh, det_cosh(a))
-PLAIN(degrees, a * 180 / pi)
+PLAIN(degrees, a * 180 / PI)
 PLAIN(exp, det_exp(a))
 PLAIN(floor, floor(a))
 PLAIN(int, number_to_int(a))
-PLAIN(radians, a *pi / 180)
+PLAIN(radians, a *PI / 180)
 PLAIN(seed, random_seed(c->e, a))
 PLAIN(sin, det_sin(a))
 PLAIN(sinh, det_sinh(a))
@@ -371,7 +371,7 @@ bool call_vrotate(struct call *c)
 
 bool call_vaxis_rotate(struct call *c)
 {
-    struct transform t = transform_rotate_axis(c->arg[1].v, c->arg[2].f * pi / 180);
+    struct transform t = transform_rotate_axis(c->arg[1].v, c->arg[2].f * PI / 180);
     return give_vector(c, transform_vector(&t, c->arg[0].v));
 }
 

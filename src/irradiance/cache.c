@@ -8,13 +8,14 @@
 #include "irradiance/gather.h"
 #include "math/elementary.h"
 #include "math/halton.h"
+#include "math/pi.h"
 #include "trace/accel.h"
 #include "trace/packet.h"
 
 // About y, with density proportional to the cosine (spec/lighting.md 12.3).
 static void directions_init(struct irradiance_cache *c)
 {
-    static const double turn = 2 * 3.14159265358979323846;
+    static const double turn = 2 * PI;
     const struct radiosity_settings *s = c->settings;
     const int most = s->count > s->count_directions ? s->count : s->count_directions;
     c->direction_count = (uint32_t)most;

@@ -2,10 +2,9 @@
 
 #include "math/elementary.h"
 #include "math/larger.h"
+#include "math/pi.h"
 
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
 
 // Degrees up to which the tail is summed: the terms are as many as the degrees, and beyond
 // 1,400 they leave the doubles.
@@ -30,8 +29,8 @@ static double chi_tail(double x, int degrees)
         term *= 2 * z * z / (2 * i + 1);
         sum += term;
     }
-    double tail = 1 - 2 / sqrt(pi) * det_exp(-z * z) * sum;
-    double part = sqrt(2 * x / pi) * det_exp(-x / 2);
+    double tail = 1 - 2 / sqrt(PI) * det_exp(-z * z) * sum;
+    double part = sqrt(2 * x / PI) * det_exp(-x / 2);
     for (int i = 1; 2 * i + 1 <= degrees; i++) {
         tail += part;
         part *= x / (2 * i + 1);

@@ -4,9 +4,8 @@
 #include <float.h>
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "math/quick.h"
-
-static const double PI = 3.14159265358979323846;
 
 struct interval interval_multiply(struct interval a, struct interval b)
 {

@@ -2,6 +2,7 @@
 
 #include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/pi.h"
 
 const struct transform transform_identity = {
     .linear = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -74,7 +75,7 @@ static void sin_cos_degrees(double degrees, double *s, double *c)
         *c = sines[(quarter + 1) % 4];
         return;
     }
-    double radians = r * (3.14159265358979323846 / 180);
+    double radians = r * DEGREE;
     *s = det_sin(radians);
     *c = det_cos(radians);
 }

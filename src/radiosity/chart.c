@@ -1,6 +1,7 @@
 #include "radiosity/chart.h"
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/shapes/box.h"
 #include "scene/shapes/cone.h"
 #include "scene/shapes/cylinder.h"
@@ -11,19 +12,18 @@
 #include "scene/shapes/triangle.h"
 #include "tess/map.h"
 
-static const double pi = 3.14159265358979323846;
 enum { CROSSINGS_MOST = 8 };
 
 // ---- points --------------------------------------------------------------------------
 static double turn_of(const struct chart *c, struct vec3 r)
 {
-    const double t = det_atan2(vec3_dot(r, c->b), vec3_dot(r, c->a)) / (2 * pi);
+    const double t = det_atan2(vec3_dot(r, c->b), vec3_dot(r, c->a)) / (2 * PI);
     return t < 0 ? t + 1 : t;
 }
 
 static struct vec3 round_about(const struct chart *c, double u)
 {
-    return vec3_mad(vec3_scale(det_cos(2 * pi * u), c->a), det_sin(2 * pi * u), c->b);
+    return vec3_mad(vec3_scale(det_cos(2 * PI * u), c->a), det_sin(2 * PI * u), c->b);
 }
 
 static double cone_radius(const struct chart *c, double v)

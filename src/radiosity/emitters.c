@@ -3,13 +3,13 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "math/pi.h"
 #include "radiosity/polygon.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 #include "trace/tracer.h"
 
-static const double pi = 3.14159265358979323846;
 enum { MERGED_MOST = 2048, EDGES_MOST = 4 * EMITTERS_MOST };
 
 // Whether Lambert's formula of the corners is exact for an element.
@@ -253,7 +253,7 @@ static double drawn_by(const struct emitter *x, struct vec3 o, struct vec3 n)
         return lambert_polygon(o, n, e->corner, e->corner_count) * (double)e->coverage;
     const double here = vec3_dot(d, n) + r,
                  there = (e->curved ? r : 0) - vec3_dot(d, e->normal);
-    return here > 0 && there > 0 ? e->area * here * there / (pi * d2 * d2) : 0;
+    return here > 0 && there > 0 ? e->area * here * there / (PI * d2 * d2) : 0;
 }
 
 // What the emitting elements give at a point by Lambert's formula, summed up into up_to.

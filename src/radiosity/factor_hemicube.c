@@ -5,11 +5,10 @@
 
 #include "base/memory.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/hemicube.h"
 #include "radiosity/sequence.h"
-
-static const double pi = 3.14159265358979323846;
 
 struct hemicube {
     int resolution;
@@ -170,7 +169,7 @@ void row_hemicube(struct factor_state *s, uint32_t i, float *row)
     for (uint32_t j = 0; j < s->enclosure->count; j++)
         row[j] = 0;
     // Turned at random, so that the errors of pixels do not line up.
-    const double turn = 2 * pi * sequence_seed(i, s->settings->seed) / 4294967296.0;
+    const double turn = 2 * PI * sequence_seed(i, s->settings->seed) / 4294967296.0;
     const struct vec3 n = e->normal;
     const struct vec3 aside = fabs(n.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const struct vec3 a = vec3_normalize(vec3_cross(n, aside)), b = vec3_cross(n, a);

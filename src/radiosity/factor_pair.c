@@ -1,8 +1,7 @@
 // Form factors of two elements with nothing between.
+#include "math/pi.h"
 #include "radiosity/factor_nodes.h"
 #include "radiosity/polygon.h"
-
-static const double pi = 3.14159265358979323846;
 
 bool element_at(const struct factor_state *s, uint32_t element, double u, double v,
                 struct element_point *out)
@@ -221,7 +220,7 @@ double point_kernel(const struct element_point *a, const struct element_point *b
     const struct vec3 d = vec3_sub(b->p, a->p);
     const double ca = vec3_dot(d, a->normal), cb = -vec3_dot(d, b->normal);
     const double r2 = vec3_dot(d, d);
-    return ca > 0 && cb > 0 ? ca * cb / (pi * r2 * r2) : 0;
+    return ca > 0 && cb > 0 ? ca * cb / (PI * r2 * r2) : 0;
 }
 
 double factor_area(struct factor_state *s, uint32_t small, uint32_t big)
@@ -255,5 +254,5 @@ double factor_disc(struct factor_state *s, uint32_t small, uint32_t big)
     const struct vec3 d = vec3_sub(b->centre, a->centre);
     const double ca = vec3_dot(d, a->normal), cb = -vec3_dot(d, b->normal);
     const double r2 = vec3_dot(d, d);
-    return ca > 0 && cb > 0 ? b->area * ca * cb / (r2 * (pi * r2 + b->area)) : 0;
+    return ca > 0 && cb > 0 ? b->area * ca * cb / (r2 * (PI * r2 + b->area)) : 0;
 }

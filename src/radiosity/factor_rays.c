@@ -1,16 +1,15 @@
 // Form factors by rays, and what hides one element from another.
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
 #include "trace/intersect.h"
 
-static const double pi = 3.14159265358979323846;
-
 struct vec3 cosine_direction(struct vec3 n, double u, double v)
 {
-    const double r = sqrt(u), angle = 2 * pi * v;
+    const double r = sqrt(u), angle = 2 * PI * v;
     const double x = r * det_cos(angle), y = r * det_sin(angle), z = sqrt(1 - u);
     // Duff et al. 2017: a frame about n without a branch on its direction.
     const double sign = n.z < 0 ? -1 : 1, a = -1 / (sign + n.z), b = n.x * n.y * a;

@@ -2,9 +2,8 @@
 
 #include <stddef.h>
 
+#include "math/pi.h"
 #include "math/quick.h"
-
-static const double pi = 3.14159265358979323846;
 
 uint32_t polygon_risen(struct vec3 p, struct vec3 n, const struct vec3 *corner,
                        uint32_t count, struct vec3 out[HORIZON_CORNERS])
@@ -34,7 +33,7 @@ uint32_t polygon_risen(struct vec3 p, struct vec3 n, const struct vec3 *corner,
 // faces us, go clockwise about ours.
 static double factor_of_sum(double sum)
 {
-    sum /= -2 * pi;
+    sum /= -2 * PI;
     return sum > 0 ? (sum < 1 ? sum : 1) : 0;
 }
 

@@ -3,9 +3,8 @@
 
 #include "math/isa.h"
 #include "math/lanes_vec.h"
+#include "math/pi.h"
 #include "math/quick_lanes.h"
-
-static const double pi = 3.14159265358979323846;
 
 // ---- shafts ------------------------------------------------------------------------
 // Cuts [t0, t1] down to where a + t (b - a) < 0, to nothing or less where another cut
@@ -234,7 +233,7 @@ static void aim(struct emitter_aims *x)
         const struct real8 ca = v8_dot(d, n), cb = r8_neg(v8_dot(d, ROWS(of.n)));
         const struct real8 r2 = v8_dot(d, d), zero = r8_set(0);
         const struct real8 kernel =
-            r8_div(r8_mul(ca, cb), r8_mul(r8_mul(r8_set(pi), r2), r2));
+            r8_div(r8_mul(ca, cb), r8_mul(r8_mul(r8_set(PI), r2), r2));
         r8_store(x->kernel + first,
                  r8_select(m8_and(r8_lt(zero, ca), r8_lt(zero, cb)), kernel, zero));
         r8_store(x->d[0] + first, d.x);

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/ray_put.h"
 #include "radiosity/sequence.h"
@@ -13,7 +14,6 @@
 #include "trace/sky.h"
 #include "trace/tracer.h"
 
-static const double pi = 3.14159265358979323846;
 enum {
     CELLS = 16,            // along the longest side
     RAYS = 256,            // of a cell
@@ -83,7 +83,7 @@ static bool look_around(const struct radiosity *r, struct tracer *t, struct vec3
         double x[4], own[3], b[3] = {0, 0, 0};
         sobol_point(k, seed, x);
         const double z = 1 - 2 * x[0], rho = sqrt(fmax(0, 1 - z * z)),
-                     angle = 2 * pi * x[1];
+                     angle = 2 * PI * x[1];
         const struct vec3 d = vec3(rho * det_cos(angle), rho * det_sin(angle), z);
         const struct ray_query q = {{o, d, 0, INFINITY}, OBJECT_NO_RADIOSITY};
         const struct hit hit = trace_closest_1(p->job->world, t->scratch, &q);
@@ -146,7 +146,7 @@ static void look_at(const struct radiosity *r, struct tracer *t, struct vec3 o,
     const struct patches *p = r->patches;
     const uint32_t share = LAMP_POINTS / r->emitter_count;
     const uint32_t count = share > LAMP_LEAST ? share : LAMP_LEAST;
-    const double power = e->e.area / (pi * count), near = e->e.area / count;
+    const double power = e->e.area / (PI * count), near = e->e.area / count;
     double own[3], all = 0;
     struct vec3 sum = {0, 0, 0};
     element_emission(&e->e, own);

@@ -1,6 +1,7 @@
 #include "scene/camera.h"
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/camera_frame.h"
 #include "scene/mesh_camera.h"
 #include "scene/texture.h"
@@ -82,8 +83,8 @@ static void ultra_wide(struct view *w)
 static void panoramic(struct view *w)
 {
     const struct camera *c = w->frame->camera;
-    w->x0 = CAMERA_PI * (0.5 - w->u);
-    w->y0 = CAMERA_PI * w->v;
+    w->x0 = PI * (0.5 - w->u);
+    w->y0 = PI * w->v;
     const double t = fmax(-PANORAMIC_STEEPEST,
                           fmin(PANORAMIC_STEEPEST, det_sin(w->y0) / det_cos(w->y0)));
     w->d = vec3_add(vec3_mad(vec3_scale(det_cos(w->x0), c->right), t, c->up),

@@ -3,9 +3,9 @@
 
 // What all rays of a camera share, for one ray (camera.c) and for eight (trace/shade_camera.h).
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/camera.h"
 
-static const double CAMERA_PI = 3.14159265358979323846;
 static const double PANORAMIC_STEEPEST = 2e10;
 // The distortion of an Omnimax projector's lens.
 static const double OMNIMAX_0 = 1.411269, OMNIMAX_2 = 0.09439, OMNIMAX_4 = 0.25674;
@@ -25,8 +25,8 @@ static inline struct camera_frame camera_frame_of(const struct camera *c)
                                  .direction = vec3_normalize(c->direction),
                                  .len_right = vec3_length(c->right),
                                  .len_up = vec3_length(c->up),
-                                 .angle = c->angle * (CAMERA_PI / 180),
-                                 .angle_v = c->angle_v * (CAMERA_PI / 180)};
+                                 .angle = c->angle * DEGREE,
+                                 .angle_v = c->angle_v * DEGREE};
 }
 
 // How the picture lies in the dome: a *= across, b = (b - top) / upright + top.
@@ -47,7 +47,7 @@ static inline struct omnimax_scale omnimax_scale(const struct camera_frame *f)
 static inline double camera_phi(double across, double up)
 {
     const double phi = det_asin(up < -1 ? -1 : up > 1 ? 1 : up);
-    return across < 0 ? CAMERA_PI - phi : phi;
+    return across < 0 ? PI - phi : phi;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/arena.h"
+#include "math/pi.h"
 #include "scene/pattern_math.h"
 
 // ---- where a point falls -----------------------------------------------------
@@ -36,8 +37,8 @@ static bool spherical(struct vec3 p, double *u, double *v)
         return false;
     p = vec3(p.x / rho, p.y / rho, p.z / rho);
     const double length = sqrt(p.x * p.x + p.z * p.z);
-    *u = length == 0 ? 0 : azimuth(p.x, p.z) / (2 * PATTERN_PI);
-    *v = 0.5 + quick_atan2(p.y, length) / PATTERN_PI;
+    *u = length == 0 ? 0 : azimuth(p.x, p.z) / (2 * PI);
+    *v = 0.5 + quick_atan2(p.y, length) / PI;
     return true;
 }
 
@@ -49,9 +50,9 @@ static bool toroidal(struct vec3 p, double *u, double *v)
         return false;
     double phi = quick_atan2(fabs(p.y), -x);
     if (p.y > 0)
-        phi = 2 * PATTERN_PI - phi;
-    *u = azimuth(p.x, p.z) / (2 * PATTERN_PI);
-    *v = phi / (2 * PATTERN_PI);
+        phi = 2 * PI - phi;
+    *u = azimuth(p.x, p.z) / (2 * PI);
+    *v = phi / (2 * PI);
     return true;
 }
 
@@ -67,7 +68,7 @@ static bool project(const struct image_map *m, struct vec3 p, double w, double h
     case IMAGE_CYLINDRICAL:
         if (sqrt(p.x * p.x + p.z * p.z) == 0 || (m->once && (p.y < 0 || p.y > 1)))
             return false;
-        *u = azimuth(p.x, p.z) / (2 * PATTERN_PI) * w;
+        *u = azimuth(p.x, p.z) / (2 * PI) * w;
         *v = remainder_of(p.y * h, h);
         return true;
     case IMAGE_TOROIDAL:

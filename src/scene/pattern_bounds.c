@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/pi.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
-#define TURN (2 * PATTERN_PI)
+#define TURN (2 * PI)
 
 // Sines, powers and sums of a few terms are rounded by less.
 #define VALUE_SLACK 0x1p-46
@@ -144,12 +145,12 @@ static struct interval wave_of(const struct pattern *p, struct interval v,
     case WAVE_TRIANGLE: return triangle(v, by);
     case WAVE_SINE:
         s = interval_sin(turned);
-        *by = interval_multiply(interval_point(PATTERN_PI), interval_cos(turned));
+        *by = interval_multiply(interval_point(PI), interval_cos(turned));
         return around(interval(0.5 * s.lo + 0.5, 0.5 * s.hi + 0.5), VALUE_SLACK);
     case WAVE_SCALLOP:
-        turned = interval_multiply(v, interval_point(PATTERN_PI));
+        turned = interval_multiply(v, interval_point(PI));
         s = interval_sin(turned);
-        *by = interval_multiply(interval_point(PATTERN_PI), interval_cos(turned));
+        *by = interval_multiply(interval_point(PI), interval_cos(turned));
         if (s.lo < 0)
             *by = s.hi <= 0 ? interval_negate(*by)
                             : interval_hull(*by, interval_negate(*by));

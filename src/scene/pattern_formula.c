@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/pi.h"
 #include "scene/pattern_math.h"
 #include "scene/warp.h"
 
@@ -157,7 +158,7 @@ static uint32_t turns(struct formula *f, uint32_t x, uint32_t z)
 {
     const uint32_t zero = formula_constant(f, 0);
     const uint32_t a =
-        formula_scale(f, tape_binary(f->b, TAPE_ATAN2, z, x), 1 / (2 * PATTERN_PI));
+        formula_scale(f, tape_binary(f->b, TAPE_ATAN2, z, x), 1 / (2 * PI));
     return formula_where(f, formula_less(f, a, zero), formula_offset(f, a, 1), a);
 }
 
@@ -173,8 +174,8 @@ static void spherical(struct formula *f, const struct warp *w, uint32_t at[3])
     const uint32_t rho = formula_length3(f, at), flat = formula_length(f, at[0], at[2]);
     const uint32_t a = distance_factor(f, w, turns(f, at[0], at[2]), rho);
     const uint32_t up = tape_binary(f->b, TAPE_ATAN2, at[1], flat);
-    const uint32_t b = distance_factor(
-        f, w, formula_offset(f, formula_scale(f, up, 1 / PATTERN_PI), 0.5), rho);
+    const uint32_t b =
+        distance_factor(f, w, formula_offset(f, formula_scale(f, up, 1 / PI), 0.5), rho);
     orient(f, w, a, b, rho, at);
 }
 
@@ -186,9 +187,9 @@ static void toroidal(struct formula *f, const struct warp *w, uint32_t at[3])
     const uint32_t a = distance_factor(f, w, turns(f, at[0], at[2]), r);
     uint32_t phi = tape_binary(f->b, TAPE_ATAN2, formula_abs(f, at[1]),
                                tape_unary(f->b, TAPE_NEGATE, x));
-    const uint32_t other = formula_subtract(f, formula_constant(f, 2 * PATTERN_PI), phi);
+    const uint32_t other = formula_subtract(f, formula_constant(f, 2 * PI), phi);
     phi = formula_where(f, formula_less(f, formula_constant(f, 0), at[1]), other, phi);
-    phi = distance_factor(f, w, formula_scale(f, phi, 1 / (2 * PATTERN_PI)), r);
+    phi = distance_factor(f, w, formula_scale(f, phi, 1 / (2 * PI)), r);
     orient(f, w, a, phi, r, at);
 }
 

@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "math/quick.h"
 #include "math/vec.h"
 #include "scene/noise.h"
@@ -18,7 +19,6 @@ double pattern_wave(const struct pattern *p, double v);
 
 // The small functions that the formulas of spec/textures are written in (section 0).
 
-#define PATTERN_PI      3.14159265358979323846
 #define QUICK_SINE_MOST 1e5
 #define PATTERN_EDGE    1e-10 // EPS of the specification: part of the pictures
 #define PATTERN_ROOT3   1.7320508075688772
@@ -37,7 +37,7 @@ static inline double cycloidal(double v)
 {
     double sine, cosine;
     const double turn = v >= 0 ? v - floor(v) : -(v + floor(-v));
-    quick_sincos(turn * 50000.0 / 50000.0 * (2 * PATTERN_PI), &sine, &cosine);
+    quick_sincos(turn * 50000.0 / 50000.0 * (2 * PI), &sine, &cosine);
     return v >= 0 ? sine : -sine;
 }
 
@@ -77,9 +77,9 @@ static inline int pattern_wave_count(const struct pattern *p)
 static inline double azimuth(double x, double z)
 {
     if (z == 0)
-        return x > 0 ? 0 : PATTERN_PI;
+        return x > 0 ? 0 : PI;
     const double a = quick_atan2(z, x);
-    return a < 0 ? 2 * PATTERN_PI + a : a;
+    return a < 0 ? 2 * PI + a : a;
 }
 
 // sin(x), but for the last two bits of most.

@@ -1,9 +1,9 @@
 // Running a tape over boxes of arguments (tape.h).
 #include <string.h>
 
+#include "math/pi.h"
 #include "scene/tape_steps.h"
 
-#define PI   3.14159265358979323846
 #define ZERO interval_point(0)
 
 // ---- values -------------------------------------------------------------------------

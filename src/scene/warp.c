@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/pi.h"
 #include "scene/pattern.h"
 #include "scene/pattern_math.h"
 #include "scene/warp.h"
@@ -83,7 +84,7 @@ static struct vec3 cylindrical(const struct warp *w, struct vec3 p)
     const double length = sqrt(p.x * p.x + p.z * p.z);
     if (length == 0)
         return p;
-    double a = azimuth(p.x, p.z) / (2 * PATTERN_PI);
+    double a = azimuth(p.x, p.z) / (2 * PI);
     return orient(w, a * distance_factor(w, length), p.y, length);
 }
 
@@ -94,8 +95,8 @@ static struct vec3 spherical(const struct warp *w, struct vec3 p)
         return p;
     const struct vec3 n = vec3(p.x / rho, p.y / rho, p.z / rho);
     const double length = sqrt(n.x * n.x + n.z * n.z), f = distance_factor(w, rho);
-    double a = length == 0 ? 0 : azimuth(n.x, n.z) / (2 * PATTERN_PI);
-    double b = 0.5 + quick_atan2(n.y, length) / PATTERN_PI;
+    double a = length == 0 ? 0 : azimuth(n.x, n.z) / (2 * PI);
+    double b = 0.5 + quick_atan2(n.y, length) / PI;
     return orient(w, a * f, b * f, rho);
 }
 
@@ -104,13 +105,13 @@ static struct vec3 toroidal(const struct warp *w, struct vec3 p)
     const double length = sqrt(p.x * p.x + p.z * p.z);
     if (length == 0)
         return p;
-    double a = azimuth(p.x, p.z) / (2 * PATTERN_PI);
+    double a = azimuth(p.x, p.z) / (2 * PI);
     double x = length - w->major_radius, r = sqrt(x * x + p.y * p.y);
     double phi = quick_atan2(fabs(p.y), -x);
     if (p.y > 0)
-        phi = 2 * PATTERN_PI - phi;
+        phi = 2 * PI - phi;
     double f = distance_factor(w, r);
-    return orient(w, a * f, phi / (2 * PATTERN_PI) * f, r);
+    return orient(w, a * f, phi / (2 * PI) * f, r);
 }
 
 // The six faces of a cube unfolded to a cross.

@@ -1,12 +1,11 @@
 #include "tess/map.h"
 
 #include "math/elementary.h"
-
-static const double pi = 3.14159265358979323846;
+#include "math/pi.h"
 
 double map_turn(double x, double y)
 {
-    const double t = det_atan2(y, x) / (2 * pi);
+    const double t = det_atan2(y, x) / (2 * PI);
     return t < 0 ? t + 1 : t;
 }
 

@@ -1,5 +1,6 @@
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "math/quick.h"
 #include "scene/noise.h"
 #include "trace/media.h"
@@ -7,11 +8,9 @@
 #include "trace/shade_kernel.h"
 #include "trace/sky.h"
 
-static const double degree = 3.14159265358979323846 / 180;
-
 void bows_init(struct job *job, struct arena *a)
 {
-    static const double pi = 3.14159265358979323846, margin = 1e-9;
+    static const double margin = 1e-9;
     const struct scene *s = job->scene;
     struct bow *bow = arena_new_array(a, struct bow, s->rainbow_count);
     for (uint32_t i = 0; i < s->rainbow_count; i++) {
@@ -22,14 +21,14 @@ void bows_init(struct job *job, struct arena *a)
                               right,       vec3_normalize(vec3_cross(axis, right)),
                               .least = -1, .most = 2};
         // Jitter moves an angle by so much of the width.
-        const double wide = r->width * degree, off = fabs(r->jitter * wide);
+        const double wide = r->width * DEGREE, off = fabs(r->jitter * wide);
         if (!(wide > 0))
             continue;
-        const double first = r->angle * degree - off,
-                     last = r->angle * degree + wide + off;
-        if (first > 0 && first < pi)
+        const double first = r->angle * DEGREE - off,
+                     last = r->angle * DEGREE + wide + off;
+        if (first > 0 && first < PI)
             bow[i].most = det_cos(first) + margin;
-        if (last > 0 && last < pi)
+        if (last > 0 && last < PI)
             bow[i].least = det_cos(last) - margin;
     }
     job->bow = bow;
@@ -130,10 +129,10 @@ static bool rainbow_at(const struct bow *bow, const struct path *path, double s,
     const double x = vec3_dot(path->d, bow->right), y = vec3_dot(path->d, bow->up);
     const double l = sqrt(x * x + y * y);
     const double around = l > 0 ? fabs(det_acos(fmax(-1, fmin(1, y / l)))) : 0;
-    const double arc = r->arc_angle * degree / 2, falloff = r->falloff_angle * degree / 2;
+    const double arc = r->arc_angle * DEGREE / 2, falloff = r->falloff_angle * DEGREE / 2;
     if (around > arc)
         return false;
-    double index = (det_acos(fmin(1, along)) - r->angle * degree) / (r->width * degree);
+    double index = (det_acos(fmin(1, along)) - r->angle * DEGREE) / (r->width * DEGREE);
     if (r->jitter != 0)
         index += (2 * hash_unit(hash_mix(path->hash, 77)) - 1) * r->jitter;
     if (index < 0 || index > 1 - NEAR_ZERO)

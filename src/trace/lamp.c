@@ -1,15 +1,14 @@
 #include "trace/lamp.h"
 
 #include "math/elementary.h"
-
-static const double degree = 3.14159265358979323846 / 180;
+#include "math/pi.h"
 
 void lamp_init(struct lamp *lamp, const struct light *light, uint32_t index)
 {
     *lamp = (struct lamp){.light = light, .index = index};
     if (light->kind == LIGHT_SPOT) {
-        lamp->cos_radius = det_cos(light->radius * degree);
-        lamp->cos_falloff = det_cos(light->falloff * degree);
+        lamp->cos_radius = det_cos(light->radius * DEGREE);
+        lamp->cos_falloff = det_cos(light->falloff * DEGREE);
     }
     lamp->dull = light->shadowless;
     lamp->inert = light->color.r == 0 && light->color.g == 0 && light->color.b == 0;

@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "math/halton.h"
 #include "math/larger.h"
+#include "math/pi.h"
 #include "scene/noise.h"
 #include "scene/texture.h"
 
@@ -86,9 +87,8 @@ static void points_bokeh(struct lens *l, const struct pigment *bokeh)
 
 static void points_init(struct lens *l, struct arena *a)
 {
-    static const double pi = 3.14159265358979323846;
     const int n = l->count, draws = 10 * n;
-    const int side = 2 * (int)ceil(sqrt(n / pi)) + 1;
+    const int side = 2 * (int)ceil(sqrt(n / PI)) + 1;
     bool *taken = arena_new_array(a, bool, (size_t)(side * side));
     int drawn = 0;
     int i = points_fixed(l);
@@ -100,7 +100,7 @@ static void points_init(struct lens *l, struct arena *a)
         do {
             const int k = drawn++ % draws;
             const double r = sqrt(halton((uint32_t)k + 1, 2) / 4),
-                         angle = 2 * pi * halton((uint32_t)k + 1, 3);
+                         angle = 2 * PI * halton((uint32_t)k + 1, 3);
             p = (struct vec2){r * det_cos(angle), r * det_sin(angle)};
             bad = taken[cell(p, side)] || p.u * p.u + p.v * p.v > 0.25;
         } while (bad && draws - drawn > n - i);

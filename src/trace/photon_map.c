@@ -6,8 +6,7 @@
 
 #include "base/memory.h"
 #include "math/elementary.h"
-
-static const double pi = 3.14159265358979323846;
+#include "math/pi.h"
 
 // Makes room for `more` photons; returns for how many there is.
 static uint32_t room_for(struct photon_map *m, uint32_t more)
@@ -351,7 +350,7 @@ uint32_t photons_gather(const struct photon_map *m, const struct photon_gather *
 
 static double density_of(uint32_t count, double r, bool in_space)
 {
-    return count / (in_space ? 4.0 / 3 * pi * r * r * r : pi * r * r);
+    return count / (in_space ? 4.0 / 3 * PI * r * r * r : PI * r * r);
 }
 
 static struct vec3 place_of(const struct photon *p)
@@ -384,8 +383,8 @@ void photon_map_radius(struct photon_map *m, uint32_t max, bool in_space)
         }
     }
     const double mean = samples ? sum / samples : 1;
-    *radius = in_space ? det_pow(max / (4.0 / 3 * pi * mean), 1.0 / 3)
-                       : sqrt(max / (pi * mean));
+    *radius = in_space ? det_pow(max / (4.0 / 3 * PI * mean), 1.0 / 3)
+                       : sqrt(max / (PI * mean));
     samples = 0;
     for (uint32_t i = 0; i < m->count; i += stride) {
         double r;

@@ -1,4 +1,5 @@
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/effects.h"
 #include "trace/inside.h"
 #include "trace/photon_flight.h"
@@ -99,7 +100,7 @@ void photon_media_cross(struct photon_flight *f, struct leg *leg, double s)
 void photon_media_lit(struct media_march *m, struct media_sample *sample,
                       const struct vec3 *scattering, uint32_t count)
 {
-    static const double ball = 4.0 / 3 * 3.14159265358979323846;
+    static const double ball = 4.0 / 3 * PI;
     const struct vec3 none = {0, 0, 0};
     const struct photons *photons = m->t->job->photons;
     struct photon_near *near = m->t->near_photons;

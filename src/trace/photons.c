@@ -4,10 +4,9 @@
 
 #include "base/memory.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "trace/packet.h"
 #include "trace/photon_volley.h"
-
-static const double pi = 3.14159265358979323846;
 
 // One of the two says yes and neither no.
 static bool agreed(int a, int b) { return a >= 0 && b >= 0 && (a > 0 || b > 0); }
@@ -103,7 +102,7 @@ static bool aim_init(struct aim *a, const struct world *w, uint32_t object,
     } else {
         a->distance = vec3_length(way);
         a->to = a->distance > 0 ? vec3_scale(1 / a->distance, way) : vec3(0, 0, 1);
-        a->widest = a->distance > a->size ? det_asin(a->size / a->distance) : pi;
+        a->widest = a->distance > a->size ? det_asin(a->size / a->distance) : PI;
     }
     a->left = across(a->to);
     a->up = vec3_cross(a->left, a->to);
@@ -155,9 +154,9 @@ static void ring(struct shooting *s, const struct aim *a, double theta, double s
 {
     const double jitter = s->job->scene->settings.photons.jitter;
     const bool parallel = is_parallel(a->gun.lamp->light);
-    const double turn = theta == 0 ? 2 * pi : step / (parallel ? theta : det_sin(theta));
+    const double turn = theta == 0 ? 2 * PI : step / (parallel ? theta : det_sin(theta));
     photon_volley_ring(s->volley);
-    for (double phi = -pi + turn / 2 * drawn(s); phi < pi; phi += turn) {
+    for (double phi = -PI + turn / 2 * drawn(s); phi < PI; phi += turn) {
         const double q = theta + (drawn(s) - 0.5) * jitter * step;
         const double f = phi + (drawn(s) - 0.5) * jitter * turn;
         struct vec3 o, d;
@@ -282,7 +281,7 @@ static void expect(struct shooting *s, uint32_t object,
                mirrors = photons_reflect(target, lamp->light);
     const double across_target =
         a.size / (s->job->scene->settings.photons.spacing * target->spacing);
-    double x = pi * across_target * across_target;
+    double x = PI * across_target * across_target;
     if (bends && mirrors)
         x *= 1.5;
     if (target->collect)

@@ -2,6 +2,7 @@
 #define TRACE_SHADE_CAMERA_H
 
 // Rays of cameras, eight at a time: camera_ray, kind by kind with its bits.
+#include "math/pi.h"
 #include "math/trig_lanes.h"
 #include "scene/camera_frame.h"
 #include "scene/pigment_tape.h"
@@ -110,8 +111,8 @@ static void ultra_wide8(struct view8 *w)
 static void panoramic8(struct view8 *w)
 {
     const struct camera *c = w->frame->camera;
-    w->x0 = r8_mul(r8_set(CAMERA_PI), r8_sub(r8_set(0.5), w->u));
-    w->y0 = r8_mul(r8_set(CAMERA_PI), w->v);
+    w->x0 = r8_mul(r8_set(PI), r8_sub(r8_set(0.5), w->u));
+    w->y0 = r8_mul(r8_set(PI), w->v);
     const struct real8 most = r8_set(PANORAMIC_STEEPEST);
     const struct real8 t =
         r8_max(r8_neg(most), r8_min(most, r8_div(det_sin8(w->y0), det_cos8(w->y0))));

@@ -11,6 +11,7 @@
 #include "math/color.h"
 #include "math/elementary.h"
 #include "math/lanes_vec.h"
+#include "math/pi.h"
 #include "math/single_lanes.h"
 #include "math/transform.h"
 #include "trace/near_zero.h"
@@ -58,8 +59,7 @@ LANES_INLINE struct rgb8 metal_tint8(struct rgb8 c, struct rgb8 tint, float meta
     const struct real8 one = r8_set(1);
     const struct mask8 known = r8_le(r8_abs(cosine), one);
     const struct real8 angle = r8_abs(det_acos8(r8_select(known, cosine, one)));
-    const struct real8 x =
-        r8_sub(r8_div(angle, r8_set(3.14159265358979323846 / 2)), r8_set(1.12));
+    const struct real8 x = r8_sub(r8_div(angle, r8_set(PI / 2)), r8_set(1.12));
     const struct real8 y =
         r8_sub(r8_div(r8_set(0.014567225), r8_mul(x, x)), r8_set(0.011612903));
     const struct real8 share = r8_max(r8_min(y, one), r8_set(0));

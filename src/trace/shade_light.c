@@ -1,4 +1,5 @@
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/noise.h"
 #include "trace/area.h"
 #include "trace/near_zero.h"
@@ -12,7 +13,7 @@ static float metal_angle(double cosine)
 {
     if (!(fabs(cosine) <= 1))
         return 0;
-    const double x = fabs(det_acos(cosine)) / (3.14159265358979323846 / 2);
+    const double x = fabs(det_acos(cosine)) / (PI / 2);
     const double y = 0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903;
     return (float)fmax(0, fmin(1, y));
 }
@@ -35,8 +36,7 @@ struct rgb irid_factor(const struct shading *s, const struct finish *f, struct v
                              (2 * noise_turbulence(s->at.p, 2, 0.5, 5,
                                                    job->scene->settings.noise_generator) -
                               1);
-    const double way = 2 * 3.14159265358979323846 * thickness *
-                       (fabs(vec3_dot(n, l)) + fabs(vec3_dot(n, d)));
+    const double way = 2 * PI * thickness * (fabs(vec3_dot(n, l)) + fabs(vec3_dot(n, d)));
     const struct rgb w = job->irid_wavelength;
     const float a = f->irid;
     return rgb(1 + a * (float)det_cos(way / (double)w.r),

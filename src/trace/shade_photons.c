@@ -1,3 +1,4 @@
+#include "math/pi.h"
 #include "trace/indirect_lanes.h"
 #include "trace/photons.h"
 #include "trace/shade_kernel.h"
@@ -24,7 +25,6 @@ static struct rgb lit_singly(const struct shading *s, const struct photon *photo
 
 void shade_photons(struct shading *s)
 {
-    static const double pi = 3.14159265358979323846;
     const struct photons *photons = s->t->job->photons;
     const struct photon_map *m = &photons->surface;
     bool any = false, plain = true;
@@ -46,7 +46,7 @@ void shade_photons(struct shading *s)
         s, m->photon, s->t->near_photons->photon, count, side_test);
     if (reach > 0)
         tracer_add(s->t, rgb_mul(s->path->through,
-                                 rgb_scale((float)(1 / (pi * reach * reach)), sum)));
+                                 rgb_scale((float)(1 / (PI * reach * reach)), sum)));
 }
 
 void simple_photons(struct tracer *t, const struct simple_class *c,

@@ -3,6 +3,7 @@
 
 // Layers of painted hits: shade_plain, add_own and layers_lit in lanes.
 #include "math/isa.h"
+#include "math/pi.h"
 #include "math/trig_lanes.h"
 #include "scene/noise_kernel.h"
 #include "trace/paint.h"
@@ -89,7 +90,7 @@ static struct rgb8 irid8(const struct job *job, const struct finish *f,
                    r8_add(r8_set(1), r8_mul(r8_set((double)f->irid_turbulence), uneven)));
     }
     const struct vec8 d = v8_load((const double(*)[8])h->d);
-    const struct real8 way = r8_mul(r8_mul(r8_set(2 * 3.14159265358979323846), thickness),
+    const struct real8 way = r8_mul(r8_mul(r8_set(2 * PI), thickness),
                                     r8_add(r8_abs(v8_dot(n, to)), r8_abs(v8_dot(n, d))));
     const struct rgb w = job->irid_wavelength;
     const float length[3] = {w.r, w.g, w.b};

@@ -2,10 +2,9 @@
 
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "trace/inside.h"
 #include "trace/subsurface_kernel.h"
-
-static const double pi = 3.14159265358979323846;
 
 // What a hit asks of the material.
 struct sss {
@@ -249,7 +248,7 @@ static uint32_t entries(const struct sss *x, struct vec3 base, uint32_t first,
         const struct vec3 d = {b->d[0][i], b->d[1][i], b->d[2][i]};
         const struct vec3 apart = vec3_sub(e->at.p, s->at.p);
         e->weight =
-            4 * pi * t * t / fmax(flattest, fabs(vec3_dot(e->at.ng, d))) * x->mm * x->mm;
+            4 * PI * t * t / fmax(flattest, fabs(vec3_dot(e->at.ng, d))) * x->mm * x->mm;
         e->r2 = vec3_dot(apart, apart) * x->mm * x->mm;
         who[n++] = x->plan->index[first + i];
     }

@@ -3,10 +3,9 @@
 #include "trace/subsurface_kernel.h"
 #include "math/isa.h"
 #include "math/lanes_vec.h"
+#include "math/pi.h"
 #include "math/power_lanes.h"
 #include "math/trig_lanes.h"
-
-static const double pi = 3.14159265358979323846;
 
 // What a half space sends back of light that falls on it, by its albedo.
 LANES_INLINE struct real8 half_space(struct real8 albedo, double a)
@@ -47,7 +46,7 @@ static void dipoles(const struct sss_channel *c, const double *r2, uint32_t coun
         const struct real8 sum =
             r8_add(r8_add(r8_set(0), pole(c->z_real, c->sigma_tr, at)),
                    pole(c->z_virtual, c->sigma_tr, at));
-        r8_store(out + i, r8_mul(r8_set(c->albedo / (4 * pi)), sum));
+        r8_store(out + i, r8_mul(r8_set(c->albedo / (4 * PI)), sum));
     }
 }
 
@@ -67,7 +66,7 @@ static void ways(const double *u, const double *v, double by_u, double by_v,
                                       r8_mul(r8_set(2), turned(r8_load(u + i), by_u))),
                            rest = r8_sub(one, r8_mul(y, y)),
                            r = r8_sqrt(r8_max(r8_set(0), rest)),
-                           w = r8_mul(r8_set(2 * pi), turned(r8_load(v + i), by_v));
+                           w = r8_mul(r8_set(2 * PI), turned(r8_load(v + i), by_v));
         r8_store(d[0] + i, r8_mul(r, det_cos8(w)));
         r8_store(d[1] + i, y);
         r8_store(d[2] + i, r8_mul(r, det_sin8(w)));

@@ -1,5 +1,6 @@
 // aoi: the angle between ray and perturbed normal, over pi
 
+#include "math/pi.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
@@ -12,7 +13,7 @@ static double value(const struct pattern *p, struct vec3 at,
     if (vec3_dot(n, n) == 0 || vec3_dot(d, d) == 0)
         return 0;
     const double s = vec3_dot(n, d);
-    return det_acos(s < -1 ? -1 : s > 1 ? 1 : s) / PATTERN_PI;
+    return det_acos(s < -1 ? -1 : s > 1 ? 1 : s) / PI;
 }
 
 // No surface is there.

@@ -1,12 +1,10 @@
 // radial: the angle around the y axis
 
+#include "math/pi.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
-static double turned(double angle)
-{
-    return 0.25 + (angle + PATTERN_PI) / (2 * PATTERN_PI);
-}
+static double turned(double angle) { return 0.25 + (angle + PI) / (2 * PI); }
 
 static bool is_axis(double x, double z) { return fabs(x) < 0.001 && fabs(z) < 0.001; }
 
@@ -32,8 +30,7 @@ static uint32_t formula(struct formula *f, const struct pattern *p, const uint32
     (void)p;
     const uint32_t near = formula_constant(f, 0.001);
     const uint32_t angle = tape_binary(f->b, TAPE_ATAN2, at[0], at[2]);
-    const uint32_t v =
-        formula_offset(f, formula_scale(f, angle, 1 / (2 * PATTERN_PI)), 0.75);
+    const uint32_t v = formula_offset(f, formula_scale(f, angle, 1 / (2 * PI)), 0.75);
     const uint32_t axis = formula_both(f, formula_less(f, formula_abs(f, at[0]), near),
                                        formula_less(f, formula_abs(f, at[2]), near));
     return formula_where(f, axis, formula_constant(f, 0.25), v);

@@ -1,5 +1,6 @@
 // slope: how steep the surface is, mixed with height (spec/textures 5.7)
 
+#include "math/pi.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
@@ -21,7 +22,7 @@ static double steepness(const struct pattern *p, const struct pattern_context *c
         up = vec3_sub(up, c->p_world);
     double s = vec3_dot(c->normal, vec3_normalize(up));
     s = s < -1 ? -1 : s > 1 ? 1 : s;
-    return into_range((det_asin(s) * 2 / PATTERN_PI + 1) * 0.5, p->low, p->high);
+    return into_range((det_asin(s) * 2 / PI + 1) * 0.5, p->low, p->high);
 }
 
 static double value(const struct pattern *p, struct vec3 at,

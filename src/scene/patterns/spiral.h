@@ -1,6 +1,7 @@
 #ifndef SCENE_PATTERNS_SPIRAL_H
 #define SCENE_PATTERNS_SPIRAL_H
 
+#include "math/pi.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 
@@ -11,9 +12,9 @@ static inline double spiral_value(const struct pattern *p, struct vec3 at, doubl
     double angle = 0;
     if (r != 0) {
         angle = quick_atan2(at.y, fabs(at.x));
-        angle = at.x < 0 ? 3 * PATTERN_PI / 2 - angle : PATTERN_PI / 2 + angle;
+        angle = at.x < 0 ? 3 * PI / 2 - angle : PI / 2 + angle;
     }
-    double v = at.z + r + p->integer[0] * angle / (2 * PATTERN_PI);
+    double v = at.z + r + p->integer[0] * angle / (2 * PI);
     if (p->turbulence)
         v += p->turbulence->amount.x * pattern_turbulence(p, at);
     *radius = r;
@@ -34,10 +35,9 @@ static inline void spiral_values(const struct pattern *p, const struct noise_ker
                           pattern_noise_generator(p), moved);
     for (int i = 0; i < 8; i++) {
         const double r = sqrt(at[0][i] * at[0][i] + at[1][i] * at[1][i]);
-        double a =
-            at[0][i] < 0 ? 3 * PATTERN_PI / 2 - angle[i] : PATTERN_PI / 2 + angle[i];
+        double a = at[0][i] < 0 ? 3 * PI / 2 - angle[i] : PI / 2 + angle[i];
         a = r != 0 ? a : 0;
-        double v = at[2][i] + r + p->integer[0] * a / (2 * PATTERN_PI);
+        double v = at[2][i] + r + p->integer[0] * a / (2 * PI);
         if (t)
             v += t->amount.x * moved[i];
         radius[i] = r;
@@ -48,7 +48,7 @@ static inline void spiral_values(const struct pattern *p, const struct noise_ker
 static inline uint32_t spiral_formula(struct formula *f, const struct pattern *p,
                                       const uint32_t at[3], uint32_t *radius)
 {
-    const double half = PATTERN_PI / 2;
+    const double half = PI / 2;
     const uint32_t r = formula_length(f, at[0], at[1]), zero = formula_constant(f, 0);
     const uint32_t a = tape_binary(f->b, TAPE_ATAN2, at[1], formula_abs(f, at[0]));
     const uint32_t left = formula_subtract(f, formula_constant(f, 3 * half), a);
@@ -56,7 +56,7 @@ static inline uint32_t spiral_formula(struct formula *f, const struct pattern *p
         formula_where(f, formula_less(f, at[0], zero), left, formula_offset(f, a, half));
     angle = formula_where(f, formula_less(f, zero, r), angle, zero);
     uint32_t v = formula_add(f, formula_add(f, at[2], r),
-                             formula_scale(f, angle, p->integer[0] / (2 * PATTERN_PI)));
+                             formula_scale(f, angle, p->integer[0] / (2 * PI)));
     if (p->turbulence)
         v = formula_octaves(f, at);
     *radius = r;

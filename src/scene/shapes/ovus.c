@@ -9,11 +9,10 @@
 
 #include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/pi.h"
 #include "scene/args.h"
 #include "scene/shape.h"
 #include "scene/shapes/ovus.h"
-
-static const double pi = 3.14159265358979323846;
 
 static void make_parts(struct ovus *s)
 {
@@ -229,9 +228,9 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     if (!out->want_uv)
         return;
     const struct vec3 q = vec3_normalize(vec3(p.x, p.y - 0.5 * s->top, p.z));
-    const double turn = rho > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
+    const double turn = rho > 0 ? det_atan2(p.z, p.x) / (2 * PI) : 0;
     out->uv.u = turn < 0 ? turn + 1 : turn;
-    out->uv.v = 0.5 + det_atan2(q.y, sqrt(q.x * q.x + q.z * q.z)) / pi;
+    out->uv.v = 0.5 + det_atan2(q.y, sqrt(q.x * q.x + q.z * q.z)) / PI;
 }
 
 static void print(const void *shape, FILE *out)

@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/pi.h"
 #include "math/polynomial.h"
 #include "scene/shapes/extrude.h"
 
@@ -19,8 +20,6 @@ static const double NEARLY_FLAT = REVOLVE_NEARLY_FLAT;
 
 // Of a segment: so little can the crossings of a height be apart on it that are sharpened.
 static const double NARROW = 0x1p-11;
-
-static const double pi = 3.14159265358979323846;
 
 // Bernstein coefficients on [0, 1] of a polynomial taken as one of degree n; its values are
 // between the least and the greatest.
@@ -515,7 +514,7 @@ void revolve_surface(const struct revolve *r, const struct boundary *b, struct v
     const double rho2 = p.x * p.x + p.z * p.z;
     out->p = p;
     if (out->want_uv) {
-        const double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * pi) : 0;
+        const double turn = rho2 > 0 ? det_atan2(p.z, p.x) / (2 * PI) : 0;
         out->uv.u = turn < 0 ? turn + 1 : turn;
     }
     if (b->part < REVOLVE_SEGMENT) {

@@ -4,11 +4,10 @@
 
 #include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/pi.h"
 #include "math/quadratic.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-static const double pi = 3.14159265358979323846;
 
 static bool build(void *shape, struct args *args)
 {
@@ -103,10 +102,10 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     const double x = n.x * m->m[0][0] + n.y * m->m[1][0] + n.z * m->m[2][0];
     const double y = n.x * m->m[0][1] + n.y * m->m[1][1] + n.z * m->m[2][1];
     const double z = n.x * m->m[0][2] + n.y * m->m[1][2] + n.z * m->m[2][2];
-    const double turn = x == 0 && z == 0 ? 0 : det_atan2(z, x) / (2 * pi);
+    const double turn = x == 0 && z == 0 ? 0 : det_atan2(z, x) / (2 * PI);
     const double sine = y / sqrt(x * x + y * y + z * z);
     out->uv.u = turn < 0 ? turn + 1 : turn;
-    out->uv.v = 0.5 + det_asin(fmax(-1, fmin(1, sine))) / pi;
+    out->uv.v = 0.5 + det_asin(fmax(-1, fmin(1, sine))) / PI;
 }
 
 static void print(const void *shape, FILE *out)

@@ -10,11 +10,10 @@
 
 #include "math/elementary.h"
 #include "math/gamma.h"
+#include "math/pi.h"
 #include "math/polynomial.h"
 #include "scene/args.h"
 #include "scene/shape.h"
-
-static const double pi = 3.14159265358979323846;
 
 static bool build(void *shape, struct args *args)
 {
@@ -171,8 +170,8 @@ static void surface(const void *shape, const struct boundary *b, struct vec3 p,
     out->ng = out->ns = vec3_normalize(n);
     if (!out->want_uv)
         return;
-    out->uv.u = 1 - (det_atan2(p.z, p.x) + pi) / (2 * pi);
-    out->uv.v = (det_atan2(p.y, rho - s->major) + pi) / (2 * pi);
+    out->uv.u = 1 - (det_atan2(p.z, p.x) + PI) / (2 * PI);
+    out->uv.v = (det_atan2(p.y, rho - s->major) + PI) / (2 * PI);
 }
 
 static void print(const void *shape, FILE *out)

@@ -2,10 +2,9 @@
 #include "scene/shapes/disc.h"
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "scene/shapes/frame.h"
 #include "tess/map.h"
-
-static const double pi = 3.14159265358979323846;
 
 static uint32_t count(const void *shape)
 {
@@ -21,10 +20,10 @@ static void at(const void *shape, uint32_t piece, double u, double v,
     const struct frame f = frame_around(s->centre, s->normal);
     const double ring = s->radius * s->radius - s->hole * s->hole;
     const double r = sqrt(s->hole * s->hole + v * ring);
-    const double c = det_cos(2 * pi * u), d = det_sin(2 * pi * u);
+    const double c = det_cos(2 * PI * u), d = det_sin(2 * PI * u);
     const struct vec3 outward = frame_vector(&f, c, d, 0);
     out->p = vec3_mad(s->centre, r, outward);
-    out->du = frame_vector(&f, -2 * pi * r * d, 2 * pi * r * c, 0);
+    out->du = frame_vector(&f, -2 * PI * r * d, 2 * PI * r * c, 0);
     out->dv = vec3_scale(ring / (2 * r), outward);
     out->n = s->normal;
 }

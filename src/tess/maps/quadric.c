@@ -4,9 +4,8 @@
 
 #include "math/eigen.h"
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "tess/map.h"
-
-static const double pi = 3.14159265358979323846;
 
 struct ellipsoid {
     struct vec3 axis[3]; // with their lengths
@@ -49,11 +48,11 @@ static void at(const void *shape, uint32_t piece, double u, double v,
     const struct quadric *s = shape;
     struct ellipsoid e;
     ellipsoid_of(s, &e);
-    const double c = det_cos(2 * pi * u), d = det_sin(2 * pi * u);
+    const double c = det_cos(2 * PI * u), d = det_sin(2 * PI * u);
     const double z = 1 - 2 * v, r = sqrt(fmax(0, 1 - z * z));
     const double dr = r > 0 ? 2 * z / r : 0;
     out->p = vec3_add(s->centre, combine(&e, r * c, r * d, z));
-    out->du = combine(&e, -2 * pi * r * d, 2 * pi * r * c, 0);
+    out->du = combine(&e, -2 * PI * r * d, 2 * PI * r * c, 0);
     out->dv = combine(&e, dr * c, dr * d, -2);
     struct vec3 n = {0, 0, 0};
     const double q[3] = {r * c, r * d, z};

@@ -3,10 +3,9 @@
 #include "scene/shapes/revolve.h"
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "math/polynomial.h"
 #include "tess/map.h"
-
-static const double pi = 3.14159265358979323846;
 
 static uint32_t count(const void *shape)
 {
@@ -35,9 +34,9 @@ static void cap_at(const struct revolve *s, bool last, double u, double v,
 {
     const struct revolve_segment *g = &s->segment[last ? s->count - 1 : 0];
     const double h = g->h_end[last], r2 = g->r2_end[last], r = sqrt(r2 * v);
-    const double c = det_cos(2 * pi * u), d = det_sin(2 * pi * u);
+    const double c = det_cos(2 * PI * u), d = det_sin(2 * PI * u);
     out->p = vec3(r * c, h, r * d);
-    out->du = vec3(-2 * pi * r * d, 0, 2 * pi * r * c);
+    out->du = vec3(-2 * PI * r * d, 0, 2 * PI * r * c);
     out->dv = r > 0 ? vec3_scale(r2 / (2 * r), vec3(c, 0, d)) : vec3(0, 0, 0);
     out->n = outwards(s, out->p, vec3(0, 1, 0));
 }
@@ -54,9 +53,9 @@ static void at(const void *shape, uint32_t piece, double u, double v,
     const double r2 = fmax(0, polynomial_value(g->r2, g->r2_degree, v)), r = sqrt(r2);
     const double dh = slope(g->h, g->h_degree, v), dr2 = slope(g->r2, g->r2_degree, v);
     const double dr = r > 0 ? dr2 / (2 * r) : 0;
-    const double c = det_cos(2 * pi * u), d = det_sin(2 * pi * u);
+    const double c = det_cos(2 * PI * u), d = det_sin(2 * PI * u);
     out->p = vec3(r * c, polynomial_value(g->h, g->h_degree, v), r * d);
-    out->du = vec3(-2 * pi * r * d, 0, 2 * pi * r * c);
+    out->du = vec3(-2 * PI * r * d, 0, 2 * PI * r * c);
     out->dv = vec3(dr * c, dh, dr * d);
     const struct vec3 n = vec3_normalize(vec3(r * dh * c, -dr2 / 2, r * dh * d));
     out->n = outwards(s, out->p, vec3_dot(n, n) > 0 ? n : vec3(0, 1, 0));

@@ -2,9 +2,8 @@
 #include "scene/shapes/torus.h"
 
 #include "math/elementary.h"
+#include "math/pi.h"
 #include "tess/map.h"
-
-static const double pi = 3.14159265358979323846;
 
 // Of a spindle only the outer part is surface: it has no map.
 static uint32_t count(const void *shape)
@@ -18,11 +17,11 @@ static void at(const void *shape, uint32_t piece, double u, double v,
 {
     (void)piece;
     const struct torus *s = shape;
-    const double ca = det_cos(2 * pi * u), sa = det_sin(2 * pi * u);
-    const double cb = det_cos(2 * pi * v), sb = det_sin(2 * pi * v);
-    const double rho = s->major + s->minor * cb, round = 2 * pi * s->minor;
+    const double ca = det_cos(2 * PI * u), sa = det_sin(2 * PI * u);
+    const double cb = det_cos(2 * PI * v), sb = det_sin(2 * PI * v);
+    const double rho = s->major + s->minor * cb, round = 2 * PI * s->minor;
     out->p = vec3(rho * ca, s->minor * sb, rho * sa);
-    out->du = vec3(-2 * pi * rho * sa, 0, 2 * pi * rho * ca);
+    out->du = vec3(-2 * PI * rho * sa, 0, 2 * PI * rho * ca);
     out->dv = vec3(-round * sb * ca, round * cb, -round * sb * sa);
     out->n = vec3(cb * ca, sb, cb * sa);
 }
