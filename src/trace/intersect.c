@@ -470,9 +470,3 @@ void trace_interaction(const struct world *w, const struct ray *ray,
     // Along a grazing ray a large dt moves the point little off the surface.
     out->error = hit->b.dt * fabs(vec3_dot(ray->d, out->ng)) + position_error(l, size);
 }
-
-struct vec3 trace_offset(const struct interaction *i, struct vec3 d)
-{
-    const double side = vec3_dot(d, i->ng) < 0 ? -1 : 1;
-    return vec3_mad(i->p, 2 * side * i->error, i->ng);
-}

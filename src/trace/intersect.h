@@ -122,6 +122,10 @@ struct interaction {
 void trace_interaction(const struct world *w, const struct ray *ray,
                        const struct hit *hit, struct interaction *out);
 // The origin for a ray that leaves the surface in direction d.
-struct vec3 trace_offset(const struct interaction *i, struct vec3 d);
+static inline struct vec3 trace_offset(const struct interaction *i, struct vec3 d)
+{
+    const double side = vec3_dot(d, i->ng) < 0 ? -1 : 1;
+    return vec3_mad(i->p, 2 * side * i->error, i->ng);
+}
 
 #endif

@@ -92,13 +92,6 @@ void tracer_free(struct tracer *t)
     free(t);
 }
 
-uint32_t tracer_position_hash(struct vec2 p)
-{
-    // 1/1024 of a pixel tells all sample places apart.
-    const int32_t x = (int32_t)floor(p.u * 1024), y = (int32_t)floor(p.v * 1024);
-    return hash_mix(hash_mix(1, (uint32_t)x), (uint32_t)y);
-}
-
 static void begin(struct tracer *t, uint32_t count)
 {
     arena_reset(t->arena);

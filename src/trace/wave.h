@@ -18,7 +18,20 @@ void wave_put(struct tracer *t);
 // Brings the rays of a queue from `first` on into the order of their parents.
 void path_queue_sort(struct path_queue *q, uint32_t first);
 void path_queue_free(struct path_queue *q);
+
+// floor without its call.
+static inline int32_t whole_below(double v)
+{
+    const int32_t whole = (int32_t)v;
+    return whole - (whole > v);
+}
+
 // The random numbers of a sample depend on its place alone.
-uint32_t tracer_position_hash(struct vec2 p);
+static inline uint32_t tracer_position_hash(struct vec2 p)
+{
+    // 1/1024 of a pixel tells all sample places apart.
+    const int32_t x = whole_below(p.u * 1024), y = whole_below(p.v * 1024);
+    return hash_mix(hash_mix(1, (uint32_t)x), (uint32_t)y);
+}
 
 #endif
