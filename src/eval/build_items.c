@@ -158,11 +158,11 @@ static const char *misplaced_hint(const struct args *a, const struct ast *n)
         return "a product is written with a *, as in 45*y";
     if (n->kind == AST_NUMBER && pigment)
         return "the parts of a colour are written in < >, as in rgb <1, 0.5, 0>";
-    const bool colour = n->word == WORD_rgb || n->word == WORD_rgbf ||
-                        n->word == WORD_rgbt || n->word == WORD_rgbft ||
-                        n->word == WORD_color || n->word == WORD_colour;
-    return n->kind == AST_WORD && colour && texture ? "colours belong in a pigment { }"
-                                                    : NULL;
+    const bool color = n->word == WORD_rgb || n->word == WORD_rgbf ||
+                       n->word == WORD_rgbt || n->word == WORD_rgbft ||
+                       n->word == WORD_color || n->word == WORD_colour;
+    return n->kind == AST_WORD && color && texture ? "colours belong in a pigment { }"
+                                                   : NULL;
 }
 
 void args_unknown(struct args *a, const enum word *known, size_t count)

@@ -52,12 +52,12 @@ static void black_hole(struct args *a, struct warp *w)
     w->kind = WARP_BLACK_HOLE;
     w->strength = 1;
     w->falloff = 2;
-    args_vec3(a, "centre", &w->center);
+    args_vec3(a, "centre", &w->centre);
     args_float(a, "radius", &w->radius);
     while (a->at) {
         bool repeats = args_take(a, WORD_repeat);
         if (repeats || args_take(a, WORD_turbulence)) {
-            struct vec3 *u = &w->uncertainty, *v = &w->repeat, *c = &w->center;
+            struct vec3 *u = &w->uncertainty, *v = &w->repeat, *c = &w->centre;
             args_vec3(a, "vector", repeats ? v : u);
             enlarge(&c->x, &v->x, w->radius, u->x);
             enlarge(&c->y, &v->y, w->radius, u->y);

@@ -12,6 +12,7 @@
 #include "eval/expr.h"
 #include "eval/functions.h"
 #include "lang/macro.h"
+#include "math/color.h"
 
 // What a place in the text holds instead of an index.
 enum { SLOT_NEW, SLOT_SEEN, SLOT_NEVER, SLOT_FIRST };
@@ -318,7 +319,7 @@ static bool member(struct run *r, const struct calc_op *op)
         return false;
     for (int k = v->width; k < 3; k++)
         v->n[k] = 0;
-    v->n[0] = i < 0 ? 0.297 * v->n[0] + 0.589 * v->n[1] + 0.114 * v->n[2] : v->n[i];
+    v->n[0] = i < 0 ? luminance(v->n[0], v->n[1], v->n[2]) : v->n[i];
     v->width = 1;
     return true;
 }

@@ -10,6 +10,7 @@
 #include "eval/include_hint.h"
 #include "eval/symbol.h"
 #include "eval/text.h"
+#include "math/color.h"
 #include "math/pi.h"
 
 // What the language takes for zero and for equal (spec/language, conventions).
@@ -215,7 +216,7 @@ static bool member(struct eval *e, const struct ast *n, int wanted, double *out,
     if (!eval_number(e, n->left, wanted, v, &w))
         return false;
     if (i < 0)
-        return fill(0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2], 1, out, width);
+        return fill(luminance(v[0], v[1], v[2]), 1, out, width);
     if (i >= w) {
         diag_at(e->diags, DIAG_NO_MEMBER, n->where, word_text(n->word), w);
         return false;

@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "eval/expr.h"
 #include "eval/function.h"
+#include "math/color.h"
 #include "math/pi.h"
 
 enum { NAMES_MAX = TAPE_ARGUMENTS_MAX + 64, MORE_ARGUMENTS = 10000 };
@@ -300,7 +301,7 @@ static bool builtin(struct compiler *c, const struct ast *n, uint32_t *to)
 
 static uint32_t gray(struct compiler *c, const uint32_t *v)
 {
-    static const double weight[] = {0.297, 0.589, 0.114};
+    static const double weight[] = {LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE};
     uint32_t sum = tape_constant(c->b, 0);
     for (int i = 0; i < 3; i++)
         sum = tape_binary(

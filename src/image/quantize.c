@@ -1,6 +1,7 @@
 // From floats to the integers of files.
 #include "image/codec.h"
 #include "image/dither.h"
+#include "math/color.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,11 +14,6 @@ static const double alpha_least = 1e-6;
 int quantize_channels(const struct image_write_options *o)
 {
     return (o->grey ? 1 : 3) + (o->alpha ? 1 : 0);
-}
-
-static double grey(const double c[3])
-{
-    return 0.297 * c[0] + 0.589 * c[1] + 0.114 * c[2];
 }
 
 static double encode(const struct image_write_options *o, double v)
@@ -38,7 +34,7 @@ static uint16_t quantize(double v, double max)
 // on glass) gets the alpha it needs, so that it is not lost.
 static double unpremultiply(double c[3], double alpha)
 {
-    double brightness = grey(c);
+    double brightness = luminance(c[0], c[1], c[2]);
     if (brightness > alpha)
         alpha = brightness < 1 ? brightness : 1;
     double divisor = alpha > alpha_least ? alpha : alpha_least;
@@ -318,7 +314,7 @@ void quantize_row(const struct quantizer *q, const struct image *im, int y,
         if (o->alpha)
             alpha = unpremultiply(c, im->channels == 4 ? (double)p[3] : 1);
         if (o->grey) {
-            *out++ = sample_code(q, o, x, y, 0, grey(c));
+            *out++ = sample_code(q, o, x, y, 0, luminance(c[0], c[1], c[2]));
         } else {
             for (int k = 0; k < 3; k++)
                 *out++ = sample_code(q, o, x, y, k, c[k]);

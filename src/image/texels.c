@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "image/codec.h"
+#include "math/color.h"
 
 static size_t sample_size(enum texel_format f)
 {
@@ -151,7 +152,7 @@ double texels_height(const struct texels *t, int x, int y, struct transfer decod
     if (t->format != TEXEL_U16)
         return fmod(trunc((256 * r + g) * 255), 65536); // what 16 bits keep
     const double b = (double)texels_sample(t, x, y, 2, decode);
-    return trunc(65535 * (0.297 * r + 0.589 * g + 0.114 * b));
+    return trunc(65535 * luminance(r, g, b));
 }
 
 bool texels_join_halves(struct texels *t)

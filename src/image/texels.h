@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "image/image.h"
+#include "math/color.h"
 
 // Pictures that scenes read: the numbers as the file has them, so that a height is a
 // height and a palette index an index; colours are made from them where they are used.
@@ -68,7 +69,7 @@ static inline bool texels_grey_is_coarse(const struct texels *t)
 }
 static inline float texels_coarse_grey(float v)
 {
-    float g = 0.297f * v + 0.589f * v + 0.114f * v;
+    const float g = rgb_luminance(rgb_even(v));
     return (float)(int)(g * 255) / 255;
 }
 // Heights of GIF files in the way of Fractint: the left half holds the high bytes, the

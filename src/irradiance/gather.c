@@ -373,7 +373,7 @@ static struct rgb shown(const struct radiosity_settings *s, const struct cache_m
                              (float)(mean->light[2] / mean->weight));
     const float gray = (float)s->gray_threshold;
     const struct rgb mixed =
-        rgb_add(rgb_scale(1 - gray, c), rgb_gray(gray * rgb_grey(c)));
+        rgb_add(rgb_scale(1 - gray, c), rgb_even(gray * rgb_luminance(c)));
     return rgb_scale((float)s->brightness, mixed);
 }
 

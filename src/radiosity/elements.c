@@ -278,7 +278,7 @@ static void sample_cell(const struct patches *p, struct sampler *s, uint32_t ind
         const double area = chart_density(chart, l, c->u + u * c->du, c->v + v * c->dv,
                                           1e-3 * c->du, 1e-3 * c->dv) *
                             c->du * c->dv / (n * n);
-        patch_colour(s->t, &s->ray[i], &s->hit[i], &reflectance, &emission);
+        patch_color(s->t, &s->ray[i], &s->hit[i], &reflectance, &emission);
         f->area += area;
         f->reflectance = rgb_add(f->reflectance, rgb_scale((float)area, reflectance));
         f->emission = rgb_add(f->emission, rgb_scale((float)area, emission));

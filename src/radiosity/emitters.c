@@ -178,7 +178,7 @@ void emitters_find(struct radiosity *r)
         struct emitter *x = &r->emitter[i];
         const float most = rgb_max(x->e.emission);
         x->polygon = is_polygon(&x->e);
-        x->colour = rgb_scale(1 / most, x->e.emission);
+        x->color = rgb_scale(1 / most, x->e.emission);
         x->power = x->e.area * (double)most;
     }
     find_shafts(r);
@@ -320,7 +320,7 @@ static struct rgb all_open(const struct radiosity *r, const double *up_to)
     double before = 0;
     for (uint32_t i = 0; i < r->emitter_count; before = up_to[i++])
         light =
-            rgb_add(light, rgb_scale((float)(up_to[i] - before), r->emitter[i].colour));
+            rgb_add(light, rgb_scale((float)(up_to[i] - before), r->emitter[i].color));
     return light;
 }
 
@@ -421,7 +421,7 @@ struct rgb emitters_light(const struct radiosity *r, void *state, struct tracer 
         if (hidden[k])
             continue;
         struct rgb *into = l->of[k]->polygon ? &open : &other;
-        *into = rgb_add(*into, rgb_scale((float)l->weight[k], l->of[k]->colour));
+        *into = rgb_add(*into, rgb_scale((float)l->weight[k], l->of[k]->color));
     }
     open = rgb_scale(all > 0 ? (float)(polygons / all) : 0, open);
     return rgb_add(open, rgb_scale((float)(sum / EMITTER_RAYS), other));

@@ -11,19 +11,19 @@
 #include "trace/tracer.h"
 
 // ---- colours -----------------------------------------------------------------------
-struct colour {
+struct seen_color {
     struct tracer *t;
     struct rgb reflectance, emission;
 };
 
 // The layers from the top, as the picture adds them up (trace/shade.c).
-static void colour_plain(void *user, const struct surface_view *v,
-                         const struct texture *x, const struct texture_point *at,
-                         const struct texture_chain *chain, double weight)
+static void color_plain(void *user, const struct surface_view *v, const struct texture *x,
+                        const struct texture_point *at, const struct texture_chain *chain,
+                        double weight)
 {
-    struct colour *c = user;
+    struct seen_color *c = user;
     const struct job *job = c->t->job;
-    struct rgb filter = rgb_gray((float)weight);
+    struct rgb filter = rgb_even((float)weight);
     for (uint32_t i = x->layer_count; i-- > 0;) {
         struct layer l;
         layer_eval(c->t, v, &x->layer[i], at, chain, false, &l);
@@ -41,18 +41,18 @@ static void colour_plain(void *user, const struct surface_view *v,
 
 static float limited(float v, float most) { return v > 0 ? (v < most ? v : most) : 0; }
 
-void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
-                  struct rgb *reflectance, struct rgb *emission)
+void patch_color(struct tracer *t, const struct ray *ray, const struct hit *hit,
+                 struct rgb *reflectance, struct rgb *emission)
 {
     // A surface that gives back more than it gets has no solution.
     static const float most = 0.999f;
-    struct colour c = {.t = t};
+    struct seen_color c = {.t = t};
     struct interaction at;
     struct surface_view view;
     arena_reset(t->arena);
     trace_interaction(t->job->world, ray, hit, &at);
     surface_view_init(&view, &at, ray->d);
-    texture_walk(t, &view, colour_plain, &c);
+    texture_walk(t, &view, color_plain, &c);
     *reflectance = rgb(limited(c.reflectance.r, most), limited(c.reflectance.g, most),
                        limited(c.reflectance.b, most));
     *emission = rgb(limited(c.emission.r, INFINITY), limited(c.emission.g, INFINITY),

@@ -149,8 +149,8 @@ void cell_split(struct patches *p, uint32_t index);
 // What elements have of each other; anew after their number has changed.
 void patches_connect(struct patches *p);
 // Reflectance and emission at a hit, as the picture has them.
-void patch_colour(struct tracer *t, const struct ray *ray, const struct hit *hit,
-                  struct rgb *reflectance, struct rgb *emission);
+void patch_color(struct tracer *t, const struct ray *ray, const struct hit *hit,
+                 struct rgb *reflectance, struct rgb *emission);
 void patches_enclosure(struct patches *p);
 void patches_neighbours(struct patches *p);
 void patches_shafts(struct patches *p);

@@ -44,7 +44,7 @@ struct emitter {
     double radius;            // of an element by itself
     bool polygon;             // Lambert's formula of the corners is exact
     double power;             // the area times the greatest channel of what it gives off
-    struct rgb colour;        // of that: the greatest is 1
+    struct rgb color;         // of that: the greatest is 1
     struct shaft shaft;       // where radiosity.shafts
     struct flat_emitter flat; // where radiosity.flat
     uint32_t first_edge;      // of radiosity.edges, of a polygon

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/arena.h"
+#include "math/color.h"
 #include "math/pi.h"
 #include "scene/pattern_math.h"
 
@@ -228,7 +229,7 @@ static struct rgbft image_map_texel(const struct image_map *m, double column, do
 // ---- what it is used as ------------------------------------------------------
 static float grey(struct rgbft c)
 {
-    return (float)(0.297 * c.r + 0.589 * c.g + 0.114 * c.b);
+    return (float)luminance((double)c.r, (double)c.g, (double)c.b);
 }
 
 bool image_map_color(const struct image_map *m, struct vec3 p, struct rgbft *out)

@@ -167,10 +167,10 @@ static bool start_at_center(const struct camera_mesh *c, double face,
         *memo = (struct mesh_camera_memo){
             .mesh = c->mesh,
             .face = (uint32_t)face,
-            .center = vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
+            .centre = vec3_scale(1.0 / 3, vec3_add(vec3_add(p[0], p[1]), p[2])),
             .normal = triangle_normal(p)};
     }
-    *out = (struct start){c, memo->center, memo->normal};
+    *out = (struct start){c, memo->centre, memo->normal};
     return true;
 }
 

@@ -44,7 +44,7 @@ void mesh_camera_finish(struct mesh_camera *m, struct arena *a);
 struct mesh_camera_memo {
     const struct mesh *mesh;
     uint32_t face;
-    struct vec3 center, normal;
+    struct vec3 centre, normal;
     const struct transform
         *turn; // what made the direction of the normal; NULL: nothing yet
     struct vec3 direction;

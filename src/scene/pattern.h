@@ -46,7 +46,7 @@ struct warp {
     struct transform transform; // WARP_TRANSFORM: applied inverse
     struct turbulence turbulence;
     struct vec3 repeat, offset, flip;        // repeat; black_hole: repeat
-    struct vec3 center;                      // black_hole
+    struct vec3 centre;                      // black_hole
     double radius, strength, falloff;        // black_hole
     bool inverse;                            // black_hole
     int type;                                // black_hole

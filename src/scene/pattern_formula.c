@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "math/color.h"
 #include "math/pi.h"
 #include "scene/pattern_math.h"
 #include "scene/warp.h"
@@ -106,7 +107,7 @@ static void black_hole(struct formula *f, const struct warp *w, uint32_t at[3])
     }
     uint32_t d[3];
     for (int i = 0; i < 3; i++) {
-        d[i] = formula_offset(f, at[i], -vec3_axis(w->center, i));
+        d[i] = formula_offset(f, at[i], -vec3_axis(w->centre, i));
         const double width = vec3_axis(v, i);
         if ((v.x != 0 || v.y != 0 || v.z != 0) && width >= PATTERN_EDGE) {
             const uint32_t block =
@@ -364,7 +365,7 @@ static void pigment_at(struct formula *f, const struct pigment *p, const uint32_
 
 uint32_t formula_grey(struct formula *f, const struct pigment *p, const uint32_t at[3])
 {
-    static const double weight[] = {0.297, 0.589, 0.114};
+    static const double weight[] = {LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE};
     uint32_t c[5], sum = formula_constant(f, 0);
     pigment_at(f, p, at, c);
     for (int i = 0; i < 3; i++)

@@ -3,6 +3,7 @@
 // the bits are the same.
 #include <string.h>
 
+#include "math/color.h"
 #include "math/isa.h"
 #include "math/lanes_vec.h"
 #include "math/power_lanes.h"
@@ -170,9 +171,9 @@ static void greys(const struct pattern *p, const struct pattern_packet *packet,
     const unsigned found = colors(p->tape, packet, warped, live, c);
     const struct real8 r = r8_of_floats(f8_load(c[0])), g = r8_of_floats(f8_load(c[1])),
                        b = r8_of_floats(f8_load(c[2]));
-    const struct real8 grey =
-        r8_add(r8_add(r8_mul(r8_set(0.297), r), r8_mul(r8_set(0.589), g)),
-               r8_mul(r8_set(0.114), b));
+    const struct real8 grey = r8_add(
+        r8_add(r8_mul(r8_set(LUMINANCE_RED), r), r8_mul(r8_set(LUMINANCE_GREEN), g)),
+        r8_mul(r8_set(LUMINANCE_BLUE), b));
     r8_store(out, r8_select(m8_of(found), r8_of_floats(f8_of(grey)), r8_set(0)));
 }
 

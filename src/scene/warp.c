@@ -42,7 +42,7 @@ static double block_of(double v, double width)
 
 static struct vec3 black_hole(const struct warp *w, struct vec3 p)
 {
-    struct vec3 c = w->center;
+    struct vec3 c = w->centre;
     const struct vec3 v = w->repeat, u = w->uncertainty;
     if (v.x != 0 || v.y != 0 || v.z != 0) {
         struct vec3 b = vec3(block_of(p.x, v.x), block_of(p.y, v.y), block_of(p.z, v.z));

@@ -26,7 +26,7 @@ static inline struct vec8 block_random8(struct vec8 block)
 
 static inline struct vec8 hole_center8(const struct warp *w, struct vec8 p)
 {
-    struct vec8 c = V8_SET(w->center);
+    struct vec8 c = V8_SET(w->centre);
     const struct vec3 v = w->repeat, u = w->uncertainty;
     if (v.x == 0 && v.y == 0 && v.z == 0)
         return c;

@@ -108,7 +108,7 @@ static void fogs_apply(struct tracer *t, struct path *path, double s)
     }
     tracer_add(t, rgb_mul(path->through, glow));
     path->through = rgb_mul(path->through, pass);
-    path->through_t *= rgb_grey(pass);
+    path->through_t *= rgb_luminance(pass);
 }
 
 static bool bow_may_be_seen(const struct bow *bow, struct vec3 d)

@@ -79,7 +79,7 @@ static void points_bokeh(struct lens *l, const struct pigment *bokeh)
             struct rgbft c;
             drawn++;
             pigment_color(bokeh, &at, &c);
-            chance = (double)rgb_grey(rgbft_rgb(c)) + drawn / most;
+            chance = (double)rgb_luminance(rgbft_rgb(c)) + drawn / most;
             least = noise_random((unsigned)drawn);
         } while (!(chance >= least) && drawn < most);
     }
@@ -141,6 +141,8 @@ void lens_init(struct lens *l, struct arena *a, const struct camera *c,
         chi_square_thresholds(c->confidence, c->variance, n, n, l->threshold);
 }
 
+// Of many samples the first batches are as large as the rings of the fixed places
+// (spec/lighting 1.4), all others are of four.
 int lens_batch(const struct lens *l, int done)
 {
     static const int batch[] = {7, 6, 6, 4, 4, 4, 4, 2};

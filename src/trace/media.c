@@ -66,7 +66,7 @@ static void apply(struct tracer *t, struct path *path, const struct media_mix *m
     const struct rgb pass = {(float)r.pass.x, (float)r.pass.y, (float)r.pass.z};
     tracer_add(t, rgb_mul(path->through, light));
     path->through = rgb_mul(path->through, pass);
-    path->through_t *= rgb_grey(pass);
+    path->through_t *= rgb_luminance(pass);
 }
 
 struct media_mix media_mix_inside(struct tracer *t, const struct inside *list)

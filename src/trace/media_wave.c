@@ -17,7 +17,7 @@ static void way_end(struct tracer *t, const struct media_way *way,
         w->own[c][way->slot] += *through * light[c];
         *through *= pass[c];
     }
-    w->through_t[way->slot] *= rgb_grey(rgb(pass[0], pass[1], pass[2]));
+    w->through_t[way->slot] *= rgb_luminance(rgb(pass[0], pass[1], pass[2]));
 }
 
 // Ways that have been prepared and wait for others.

@@ -65,7 +65,7 @@ bool photons_wanted(const struct job *job)
 struct aim {
     struct photon_gun gun;
     const struct photon_target *target;
-    struct vec3 center;       // of the target
+    struct vec3 centre;       // of the target
     double size;              // radius around it
     struct vec3 to, left, up; // frame of the directions
     double distance;
@@ -90,11 +90,11 @@ static bool aim_init(struct aim *a, const struct world *w, uint32_t object,
     const struct aabb b = w->object[object].bounds;
     *a = (struct aim){.gun = {.lamp = lamp, .object = object, .from = from},
                       .target = target,
-                      .center = vec3_scale(0.5, vec3_add(b.min, b.max)),
+                      .centre = vec3_scale(0.5, vec3_add(b.min, b.max)),
                       .size = vec3_length(vec3_sub(b.max, b.min)) / 2};
     if (!(a->size < INFINITY))
         return false; // endless objects cannot be aimed at
-    const struct vec3 way = vec3_sub(a->center, from);
+    const struct vec3 way = vec3_sub(a->centre, from);
     if (is_parallel(lamp->light)) {
         a->to = lamp->light->axis;
         a->distance = vec3_dot(way, a->to);
@@ -117,7 +117,7 @@ static void aim_ray(const struct aim *a, double theta, double phi, struct vec3 *
         vec3_add(vec3_scale(det_cos(phi), a->left), vec3_scale(det_sin(phi), a->up));
     if (is_parallel(a->gun.lamp->light)) {
         *d = a->to;
-        *o = vec3_mad(vec3_mad(a->center, -a->distance, a->to), theta, out);
+        *o = vec3_mad(vec3_mad(a->centre, -a->distance, a->to), theta, out);
     } else {
         *o = a->gun.from;
         *d = vec3_normalize(

@@ -39,7 +39,7 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
     struct plain_result r = {.begin = s->layer_count,
                              .weight = (float)weight,
                              .trans = 1,
-                             .filter = rgb_gray((float)weight)};
+                             .filter = rgb_even((float)weight)};
     struct rgb filter = {1, 1, 1}, plain = {0, 0, 0};
     for (uint32_t i = x->layer_count; i-- > 0 && r.trans > job->adc_bailout;) {
         struct layer *l = layer_new(s);
@@ -64,7 +64,7 @@ void shade_plain(void *user, const struct surface_view *v, const struct texture 
         }
         filter = rgb_mul(filter, pass);
         r.filter = rgb_scale((float)weight, filter);
-        r.trans = fminf(1, fabsf(rgb_grey(filter)));
+        r.trans = fminf(1, fabsf(rgb_luminance(filter)));
     }
     if (!job->lights) {
         // The quickest levels show the plain colour of the lowest layer that is seen.
@@ -83,7 +83,7 @@ struct rgb matt_part(const struct shading *s, bool back, const struct layer **fi
     for (uint32_t i = 0; i < s->layer_count; i++) {
         const struct layer *l = &s->layer[i];
         const float matt = (back ? l->finish->matt_back : l->finish->matt) * l->att;
-        if (!(rgb_grey(l->filter) * matt > s->t->job->settings.indirect.least))
+        if (!(rgb_luminance(l->filter) * matt > s->t->job->settings.indirect.least))
             continue;
         if (!*first)
             *first = l;

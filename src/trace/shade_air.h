@@ -107,7 +107,8 @@ static void fogs(struct tracer *t)
                 w->own[c][slot] += w->through[c][slot] * v.glow[c][i];
                 w->through[c][slot] *= v.pass[c][i];
             }
-            w->through_t[slot] *= rgb_grey(rgb(v.pass[0][i], v.pass[1][i], v.pass[2][i]));
+            w->through_t[slot] *=
+                rgb_luminance(rgb(v.pass[0][i], v.pass[1][i], v.pass[2][i]));
         }
     }
 }

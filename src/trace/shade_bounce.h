@@ -64,11 +64,12 @@ LANES_INLINE struct float8 f8_abs(struct float8 x)
     return f8_max(x, f8_sub(f8_set(0), x));
 }
 
-// rgb_grey.
-LANES_INLINE struct float8 grey8(struct rgb8 c)
+// rgb_luminance.
+LANES_INLINE struct float8 luminance8(struct rgb8 c)
 {
-    return f8_add(f8_add(f8_mul(f8_set(0.297f), c.r), f8_mul(f8_set(0.589f), c.g)),
-                  f8_mul(f8_set(0.114f), c.b));
+    return f8_add(f8_add(f8_mul(f8_set((float)LUMINANCE_RED), c.r),
+                         f8_mul(f8_set((float)LUMINANCE_GREEN), c.g)),
+                  f8_mul(f8_set((float)LUMINANCE_BLUE), c.b));
 }
 
 // What mirrored rays count (shade_mirrors of trace/shade_transmit.c). share: of the surface,
@@ -108,7 +109,7 @@ LANES_INLINE void passing_light(const struct simple_class *c,
                                             f8_min(f8_sub(one, m.g), one),
                                             f8_min(f8_sub(one, m.b), one)});
     }
-    const struct float8 trans = f8_min(f8_abs(grey8(pass)), one);
+    const struct float8 trans = f8_min(f8_abs(luminance8(pass)), one);
     const struct float8 most =
         f8_max(f8_max(f8_abs(pass.r), f8_abs(pass.g)), f8_abs(pass.b));
     const struct float8 weight = f8_mul(f8_load(b->from_weight), most);
@@ -124,7 +125,7 @@ LANES_INLINE void passing_light(const struct simple_class *c,
     rgb8_store(b->back, back);
     rgb8_store(b->bent, on);
     f8_store(b->bent_weight, weight);
-    f8_store(b->clarity, f8_mul(grey8(fade), trans));
+    f8_store(b->clarity, f8_mul(luminance8(fade), trans));
     b->passes = f8_le(least, trans) & ~f8_le(trans, least);
     b->counts = f8_le(least, weight);
 }

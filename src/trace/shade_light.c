@@ -84,7 +84,7 @@ static struct rgb highlights(const struct layer *l, struct vec3 d, struct vec3 t
     }
     if (sum == 0)
         return rgb(0, 0, 0);
-    struct rgb c = rgb_gray(sum);
+    struct rgb c = rgb_even(sum);
     if (f->metallic != 0)
         c = metal_tint(c, l->color, f->metallic, facing);
     return c;

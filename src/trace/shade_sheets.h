@@ -2,6 +2,7 @@
 #define TRACE_SHADE_SHEETS_H
 
 // Layers of painted hits: shade_plain, add_own and layers_lit in lanes.
+#include "math/color.h"
 #include "math/isa.h"
 #include "math/pi.h"
 #include "math/trig_lanes.h"
@@ -36,7 +37,8 @@ LANES_INLINE struct float8 opacity8(const struct paint_sheet *s, bool old)
 static unsigned sheet_pass(const struct job *job, struct paint_sheet *s,
                            const float mirror[3][8], struct paint_coat *coat)
 {
-    static const float grey[3] = {0.297f, 0.589f, 0.114f};
+    static const float luminance_of[3] = {(float)LUMINANCE_RED, (float)LUMINANCE_GREEN,
+                                          (float)LUMINANCE_BLUE};
     const struct float8 trans = f8_load(coat->trans);
     float weight[8];
     r8_store_floats(weight, r8_load(coat->weight));
@@ -54,7 +56,7 @@ static unsigned sheet_pass(const struct job *job, struct paint_sheet *s,
     for (int k = 0; k < 3; k++) {
         const struct float8 before = f8_load(coat->passed[k]);
         const struct float8 passed = f8_mul(before, pass8(s, mirror, k));
-        const struct float8 part = f8_mul(f8_set(grey[k]), passed);
+        const struct float8 part = f8_mul(f8_set(luminance_of[k]), passed);
         sum = k ? f8_add(sum, part) : part;
         f8_store(coat->passed[k], f8_select(s->found, passed, before));
         f8_store(coat->filter[k], f8_select(s->found, f8_mul(f8_load(weight), passed),

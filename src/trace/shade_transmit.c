@@ -199,9 +199,9 @@ static void continue_straight(struct shading *s, const struct bending *b)
     p.inside = b->sides.inside;
     p.flags |= PATH_CONTINUED;
     p.weight = b->weight;
-    const struct rgb own = b->r->any ? b->r->filter : rgb_gray(b->r->weight);
+    const struct rgb own = b->r->any ? b->r->filter : rgb_even(b->r->weight);
     p.through = rgb_mul(p.through, rgb_mul(b->fade, own));
-    p.through_t *= rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
+    p.through_t *= rgb_luminance(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
     path_emit(s->t, &p);
 }
 
@@ -232,9 +232,9 @@ static bool bend(struct shading *s, const struct bending *b, double eta, struct 
     p.inside = b->sides.inside;
     p.weight = b->weight;
     p.wavelength = wavelength;
-    p.through = rgb_mul(factor, b->r->any ? b->r->filter : rgb_gray(b->r->weight));
+    p.through = rgb_mul(factor, b->r->any ? b->r->filter : rgb_even(b->r->weight));
     p.through_t *=
-        share_t * rgb_grey(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
+        share_t * rgb_luminance(b->fade) * b->r->weight * (b->r->any ? b->r->trans : 1);
     path_emit(s->t, &p);
     return true;
 }
@@ -270,7 +270,7 @@ static bool refract(struct shading *s, const struct bending *b)
 
 struct rgb way_fade(const struct interior *x, const struct inside *inside, double s)
 {
-    struct rgb fade = rgb_gray(x->old_refraction);
+    struct rgb fade = rgb_even(x->old_refraction);
     if (fabs(x->fade_distance) > NEAR_ZERO && inside_find(inside, x))
         fade = rgb_mul(fade, interior_fade(x, s));
     return fade;

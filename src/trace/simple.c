@@ -283,7 +283,8 @@ void simple_ask(struct tracer *t, uint32_t k, uint32_t end)
         for (int back = 0; back <= indirect->both_sides; back++) {
             const float matt = (back ? f->matt_back : f->matt) * x->att;
             const struct rgb color = rgb_scale(matt, x->color[0]);
-            if (rgb_grey(rgb(1, 1, 1)) * matt > indirect->least && rgb_max(color) > 0)
+            if (rgb_luminance(rgb(1, 1, 1)) * matt > indirect->least &&
+                rgb_max(color) > 0)
                 indirect_ask(t, k, color, NULL, back);
         }
     }
@@ -300,7 +301,7 @@ static void side_indirect(struct tracer *t, const struct simple_class *c,
         const float matt = (back ? c->finish->matt_back : c->finish->matt) * g->att[i];
         const struct rgb color =
             rgb_scale(matt, rgb(g->color[0][i], g->color[1][i], g->color[2][i]));
-        if (!(rgb_grey(rgb(1, 1, 1)) * matt > t->job->settings.indirect.least))
+        if (!(rgb_luminance(rgb(1, 1, 1)) * matt > t->job->settings.indirect.least))
             continue;
         indirect_side_add(&side, i, color, vec3(g->n[0][i], g->n[1][i], g->n[2][i]));
         if (t->job->simple[w->leaf[t->hit->leaf[g->ray[i]]].surface].normal)

@@ -77,7 +77,7 @@ static bool emit_passing(struct lane *l, const struct inside *inside, bool level
 static void ask_fade(struct simple_bounce *b, int i, const struct interior *x,
                      const struct inside *inside, double way)
 {
-    struct rgb fade = rgb_gray(x->old_refraction);
+    struct rgb fade = rgb_even(x->old_refraction);
     if (fabs(x->fade_distance) > NEAR_ZERO && inside_find(inside, x)) {
         if (interior_fades_exponentially(x)) {
             b->fading |= 1u << i;

@@ -75,7 +75,7 @@ static struct rgb sky_seen(const struct job *job, const struct rgbft *color, boo
     sum = rgb_add(sum,
                   rgb_mul(rgb_scale(rgbft_opacity(ground), rgbft_rgb(ground)), filter));
     filter = rgb_mul(filter, rgbft_pass(ground));
-    *t = fminf(1, fabsf(rgb_grey(filter)));
+    *t = fminf(1, fabsf(rgb_luminance(filter)));
     return sum;
 }
 

@@ -1,6 +1,7 @@
 #include "trace/subsurface.h"
 
 #include "base/arena.h"
+#include "math/color.h"
 #include "math/elementary.h"
 #include "math/pi.h"
 #include "trace/inside.h"
@@ -209,8 +210,8 @@ static struct vec3 base_of(const struct sss *x)
 {
     static const double in_front = 1 - 1e-6;
     const struct shading *s = x->s;
-    const double grey = 0.297 * x->channel[0].sigma_t + 0.589 * x->channel[1].sigma_t +
-                        0.114 * x->channel[2].sigma_t;
+    const double sigma_t =
+        luminance(x->channel[0].sigma_t, x->channel[1].sigma_t, x->channel[2].sigma_t);
     double through;
     struct interaction far;
     const struct vec3 in = vec3_neg(x->n);
@@ -218,7 +219,7 @@ static struct vec3 base_of(const struct sss *x)
         through /= 2;
     else
         through *= in_front;
-    return vec3_mad(s->at.p, -fmin(1 / grey / x->mm, through), x->n);
+    return vec3_mad(s->at.p, -fmin(1 / sigma_t / x->mm, through), x->n);
 }
 
 // The places that directions from `first` on find from a point below the surface; who: the

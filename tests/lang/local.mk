@@ -221,6 +221,6 @@ lang_scenes = \
 	%D%/362-error-vector-one.scn \
 	%D%/363-warning-semicolons.scn \
 	%D%/364-message-bytes.scn \
-	%D%/365-error-array-row.scn
+	%D%/365-error-array-row.scn %D%/366-file-escapes.scn
 TESTS += $(lang_scenes)
 EXTRA_DIST += $(lang_scenes) %D%/locals.inc %D%/show.inc %D%/povray.sh

@@ -177,7 +177,7 @@ static double bent(const struct view *v, double r)
                              2 * v->beta,   2 * v->gamma, -2 * v->gamma};
     static const double vx[3] = {0.5, 0, 1};
     for (int i = 0; i < 6; i++) {
-        const int c = paving_bends[i].center;
+        const int c = paving_bends[i].centre;
         if (!(v->borders & (unsigned)TRIANGLE_BEND << i) ||
             !in_region(v, paving_bends[i].vertex))
             continue;

@@ -36,7 +36,7 @@ struct paving {
 // Local vertices of a triangle: top (edges 0, 1), left (0, 2), right (1, 2).
 enum vertex { TOP, LEFT, RIGHT };
 static const struct {
-    int8_t open, closed, vertex, center; // edges; center: of the arc
+    int8_t open, closed, vertex, centre; // edges; centre: of the arc
 } paving_bends[6] = {{0, 1, TOP, LEFT},  {0, 2, LEFT, TOP},   {1, 0, TOP, RIGHT},
                      {1, 2, RIGHT, TOP}, {2, 0, LEFT, RIGHT}, {2, 1, RIGHT, LEFT}};
 static const int8_t paving_corners[4][2] = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};

@@ -1,5 +1,6 @@
 // pigment_pattern { P }: the grey of a pigment
 
+#include "math/color.h"
 #include "scene/pattern_formula.h"
 #include "scene/pattern_math.h"
 #include "scene/texture.h"
@@ -15,7 +16,7 @@ static double value(const struct pattern *p, struct vec3 at,
     struct rgbft color;
     if (!p->pigment || !pigment_color(p->pigment, &inner, &color))
         return 0;
-    return (float)(0.297 * color.r + 0.589 * color.g + 0.114 * color.b);
+    return (float)luminance((double)color.r, (double)color.g, (double)color.b);
 }
 
 static uint32_t formula(struct formula *f, const struct pattern *p, const uint32_t at[3])

@@ -17,7 +17,7 @@ static struct vec3 times(const struct quadric *s, struct vec3 v)
 }
 
 // Powers of two only, so that no digit is lost: T27.
-static void normalise(struct quadric *s)
+static void normalize(struct quadric *s)
 {
     double *const c[] = {&s->xx, &s->yy,       &s->zz,       &s->xy,       &s->xz,
                          &s->yz, &s->linear.x, &s->linear.y, &s->linear.z, &s->constant};
@@ -75,7 +75,7 @@ static bool build(void *shape, struct args *args)
     s->xy = mixed.x;
     s->xz = mixed.y;
     s->yz = mixed.z;
-    normalise(s);
+    normalize(s);
     find_centre(s);
     return true;
 }

@@ -18,8 +18,8 @@ static void reflectance(void)
         for (size_t k = 0; k < sizeof rho / sizeof rho[0]; k++) {
             struct mesh *m = mesh_cube(4);
             for (uint32_t i = 0; i < m->e.count; i++) {
-                m->element[i].reflectance = rgb_gray((float)rho[k]);
-                m->element[i].emission = rgb_gray(i < 16);
+                m->element[i].reflectance = rgb_even((float)rho[k]);
+                m->element[i].emission = rgb_even(i < 16);
             }
             struct form_factor_settings ff = form_factor_defaults;
             struct solver_settings o = solver_defaults;

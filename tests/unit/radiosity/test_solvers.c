@@ -10,8 +10,8 @@
 
 static void paint(struct element *e, double rho, double emission)
 {
-    e->reflectance = rgb_gray((float)rho);
-    e->emission = rgb_gray((float)emission);
+    e->reflectance = rgb_even((float)rho);
+    e->emission = rgb_even((float)emission);
 }
 
 struct solved {

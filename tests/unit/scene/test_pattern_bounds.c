@@ -52,7 +52,7 @@ static const struct warp *warp_of(unsigned turn)
     w[0].repeat = vec3(w[0].kind == WARP_REPEAT || turn % 2 ? 1.5 : 0, 0, 0);
     w[0].offset = vec3(0, 0.2, 0.1);
     w[0].flip = vec3(turn % 2, 0, 1);
-    w[0].center = vec3(0.2, 0.4, -0.3);
+    w[0].centre = vec3(0.2, 0.4, -0.3);
     w[0].radius = 1.2;
     w[0].strength = 1.5;
     w[0].falloff = 2;

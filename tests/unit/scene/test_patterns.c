@@ -188,7 +188,7 @@ static bool warp_block(struct reader *r)
             w.kind = WARP_TURBULENCE;
         } else if (!strcmp(name, "black_hole")) {
             w.kind = WARP_BLACK_HOLE;
-            w.center = vector(r);
+            w.centre = vector(r);
             w.radius = number(r);
         } else if (!strcmp(name, "strength")) {
             w.strength = number(r);

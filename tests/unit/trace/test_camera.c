@@ -1,6 +1,7 @@
 #include "test.h"
 
 #include "scene/camera.h"
+#include "trace/lens.h"
 
 // POV-Ray 3.7's colours for the hit point of the ray on a sphere of radius 3 around
 // the origin, (p/3.2+1)/2 (linear values, five digits).
@@ -94,12 +95,34 @@ static void spherical(void **state)
     CHECK(c, 4, 3, {0, 0, 0.25801, 0.7283, 0.83023}, {3, 2, 0.89197, 0.3167, 0.31975});
 }
 
+// spec/lighting 1.4: after each batch it is asked whether a pixel has had enough.
+static void samples_of_a_lens_come_in_batches(void **state)
+{
+    (void)state;
+    static const int want[][10] = {
+        {5, 4, 1}, {10, 7, 3}, {20, 7, 6, 6, 1}, {40, 7, 6, 6, 4, 4, 4, 4, 2, 3}};
+    for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
+        const struct lens lens = {.count = want[i][0]};
+        int done = 0;
+        for (int k = 1; k < 10 && want[i][k]; k++) {
+            assert_int_equal(lens_batch(&lens, done), want[i][k]);
+            done += want[i][k];
+        }
+        assert_int_equal(done, lens.count);
+        assert_int_equal(lens_batch(&lens, done), 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(perspective), cmocka_unit_test(fisheye),
-        cmocka_unit_test(ultra_wide),  cmocka_unit_test(omnimax),
-        cmocka_unit_test(cylinders),   cmocka_unit_test(spherical),
+        cmocka_unit_test(samples_of_a_lens_come_in_batches),
+        cmocka_unit_test(perspective),
+        cmocka_unit_test(fisheye),
+        cmocka_unit_test(ultra_wide),
+        cmocka_unit_test(omnimax),
+        cmocka_unit_test(cylinders),
+        cmocka_unit_test(spherical),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,8 +36,8 @@ static void mirror_fresnel(void **state)
     (void)state;
     struct setup s;
     mirror(&s);
-    s.finish.reflection_min = rgb_gray(0.1f);
-    s.finish.reflection_max = rgb_gray(0.9f);
+    s.finish.reflection_min = rgb_even(0.1f);
+    s.finish.reflection_max = rgb_even(0.9f);
     s.finish.fresnel = true;
     s.interior.ior = 1.5f;
     setup_add_plane(&s, tilted(-1), clay);
@@ -49,7 +49,7 @@ static void mirror_exponent(void **state)
     (void)state;
     struct setup s;
     mirror(&s);
-    s.finish.reflection_min = s.finish.reflection_max = rgb_gray(0.8f);
+    s.finish.reflection_min = s.finish.reflection_max = rgb_even(0.8f);
     s.finish.reflection_exponent = 2;
     setup_add_plane(&s, tilted(1), clay);
     CHECK(s, 1, 1, {0, 0, 0.07201, 0.288, 0.64801});
@@ -72,8 +72,8 @@ static void facing_mirrors(struct setup *s)
     setup_wall_camera(s, 1);
     s->scene.camera.location = vec3(0, 0, -1);
     s->finish.diffuse = 0;
-    s->finish.emission = rgb_gray(0.1f);
-    s->finish.reflection_min = s->finish.reflection_max = rgb_gray(0.8f);
+    s->finish.emission = rgb_even(0.1f);
+    s->finish.reflection_min = s->finish.reflection_max = rgb_even(0.8f);
     setup_add_plane(s, vec3(0, 0, 1), (struct rgbft){1, 1, 1, 0, 0});
     struct plane *p = arena_new_struct(s->arena, struct plane);
     *p = (struct plane){vec3(0, 0, 1), vec3(0, 0, -2)};
@@ -130,7 +130,7 @@ static void total_reflection(void **state)
     s.scene.camera.right = vec3(0.001, 0, 0);
     s.scene.camera.location = vec3(0, 4 * sin(a), -4 * cos(a));
     s.interior.ior = 1.5f;
-    s.finish.reflection_min = s.finish.reflection_max = rgb_gray(0.3f);
+    s.finish.reflection_min = s.finish.reflection_max = rgb_even(0.3f);
     setup_add_plane(&s, vec3(0, 0, 1), (struct rgbft){0.9f, 0.6f, 0.3f, 0.5f, 0.1f});
     CHECK(s, 1, 5, {0, 0, 0.50001, 0.87459, 0.24251}, {0, 1, 0.50001, 0.84224, 0.20086},
           {0, 3, 0.42499, 0.58557, 0.22078}, {0, 4, 0.42499, 0.54524, 0.23452});
@@ -142,7 +142,7 @@ static void glass_with_fresnel(void **state)
     struct setup s;
     glass(&s);
     s.interior.ior = 1.5f;
-    s.finish.reflection_max = rgb_gray(1);
+    s.finish.reflection_max = rgb_even(1);
     s.finish.fresnel = true;
     setup_add_sphere(&s, vec3(0, 0, 0), 1, clear);
     CHECK(s, 5, 5, {1, 1, 0.62698, 0.45843, 0.95225}, {2, 1, 0.54052, 0.46401, 0.95644},
@@ -196,7 +196,7 @@ static void one_picture(void **state)
         struct setup s;
         glass(&s);
         s.interior.ior = 1.5f;
-        s.finish.reflection_max = rgb_gray(1);
+        s.finish.reflection_max = rgb_even(1);
         s.finish.fresnel = true;
         s.finish.diffuse = 0.5f;
         s.light.area = s.light.jitter = true;

@@ -73,7 +73,7 @@ static void transparent_and_lit(void **state)
     struct setup s;
     wall(&s);
     setup_background(&s, 0.3f, 0.6f, 0.9f);
-    s.finish.ambient = rgb_gray(0.1f);
+    s.finish.ambient = rgb_even(0.1f);
     s.finish.specular = 0.5f;
     s.finish.roughness = 10;
     setup_add_light(&s);
@@ -167,7 +167,7 @@ static void foggy(struct setup *s, struct fog *fog)
     s->scene.camera.direction = vec3(0, 0, 1.5);
     s->scene.camera.right = vec3(1, 0, 0);
     s->finish.diffuse = 0;
-    s->finish.emission = rgb_gray(1);
+    s->finish.emission = rgb_even(1);
     static const struct fog *list[1];
     list[0] = fog;
     s->scene.fog = list;
@@ -206,7 +206,7 @@ static void alpha_of_transparency(void **state)
     setup_open(&s);
     setup_wall_camera(&s, 4);
     s.finish.diffuse = 0;
-    s.finish.emission = rgb_gray(1);
+    s.finish.emission = rgb_even(1);
     s.settings.output_alpha = true;
     setup_add_plane(&s, vec3(0, 0, -1), (struct rgbft){0.5f, 0.25f, 0.8f, 0.4f, 0});
     struct image out = setup_shoot(&s, 1, 1);
