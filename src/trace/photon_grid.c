@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "math/larger.h"
 
 enum {
     HINT_NONE,
@@ -103,8 +104,8 @@ void photon_grid_build(struct photon_grid *g, const float *places, uint32_t coun
     for (uint32_t i = 0; i < count; i++) {
         for (int a = 0; a < 3; a++) {
             const double x = (double)place_at(places, i, stride)[a];
-            low[a] = fmin(low[a], x);
-            high[a] = fmax(high[a], x);
+            low[a] = smaller(x, low[a]);
+            high[a] = larger(x, high[a]);
         }
     }
     const double largest =
