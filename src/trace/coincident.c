@@ -120,15 +120,26 @@ static struct ray_query query_of(const struct ray_batch *rays, uint32_t i)
                               .hidden_by = rays->hidden_by[i]};
 }
 
-// Whether hit i, found at `point`, is near what a pair has in common.
-static bool is_at(const struct face_pair *p, const struct ray_batch *rays,
-                  const struct hit_batch *hit, uint32_t i)
+// Whether what a pair has in common is near a point of the ray o + t d, off by dt.
+static bool is_at(const struct face_pair *p, struct vec3 o, struct vec3 d, double t,
+                  double dt)
 {
-    const struct vec3 o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]};
-    const struct vec3 d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]};
-    const double reach = wide * hit->dt[i];
-    return is_near(&p->where, vec3_mad(o, hit->t[i], d),
-                   reach * vec3_max_abs(d) + p->error);
+    return is_near(&p->where, vec3_mad(o, t, d), wide * dt * vec3_max_abs(d) + p->error);
+}
+
+// Whether the object of a pair that is near the hit has such a face on the ray, too.
+static bool face_there(const struct world *w, struct trace_scratch *s,
+                       const struct ray_query *q, const struct hit *hit,
+                       const struct face_pair *p, struct boundary *out)
+{
+    struct ray_query near = *q;
+    const double apart = along_ray(w, &q->ray, hit, p->error);
+    look_between(&near, hit->b.t, wide * hit->b.dt + apart);
+    struct search f = search_of(w, s, &near, SWEEP_CLOSEST);
+    if (!search_try_object(&f, p->other) || !w->leaf[f.b.leaf].paired)
+        return false;
+    *out = f.b;
+    return true;
 }
 
 // Puts the face that is to be seen of those in one place in place of hit i of another one;
@@ -138,22 +149,43 @@ static bool first_of_pairs(const struct world *w, struct trace_scratch *s,
                            const struct hit_batch *hit)
 {
     const uint32_t leaf = hit->leaf[i];
+    const struct vec3 o = {rays->o[0][i], rays->o[1][i], rays->o[2][i]};
+    const struct vec3 d = {rays->d[0][i], rays->d[1][i], rays->d[2][i]};
+    struct boundary seen;
     for (uint32_t k = w->leaf[leaf].first_pair;
          k < w->face_pair_count && w->face_pair[k].leaf == leaf; k++) {
         const struct face_pair *p = &w->face_pair[k];
-        if (!is_at(p, rays, hit, i))
+        if (p->contact && p->other > w->leaf[leaf].object)
+            return false; // as all that follow
+        if (!is_at(p, o, d, hit->t[i], hit->dt[i]))
             continue;
         const struct hit found = hit_batch_at(hit, i);
-        struct ray_query near = query_of(rays, i);
-        const double apart = along_ray(w, &near.ray, &found, p->error);
-        look_between(&near, found.b.t, wide * hit->dt[i] + apart);
-        struct search f = search_of(w, s, &near, SWEEP_CLOSEST);
-        if (search_try_object(&f, p->seen) && w->leaf[f.b.leaf].paired) {
-            hit_batch_put(hit, i, &f.b);
+        const struct ray_query q = query_of(rays, i);
+        if (face_there(w, s, &q, &found, p, &seen)) {
+            hit_batch_put(hit, i, &seen);
             return true;
         }
     }
     return false;
+}
+
+uint32_t coincident_contacts(const struct world *w, struct trace_scratch *s,
+                             const struct ray_query *q, const struct hit *hit,
+                             struct hit other[CONTACTS_MOST])
+{
+    const uint32_t leaf = hit->b.leaf;
+    uint32_t count = 0;
+    for (uint32_t k = w->leaf[leaf].first_pair;
+         k < w->face_pair_count && w->face_pair[k].leaf == leaf; k++) {
+        const struct face_pair *p = &w->face_pair[k];
+        // Faces of one object stand side by side.
+        if (!p->contact || count == CONTACTS_MOST ||
+            (count && w->leaf[other[count - 1].b.leaf].object == p->other))
+            continue;
+        if (is_at(p, q->ray.o, q->ray.d, hit->b.t, hit->b.dt))
+            count += face_there(w, s, q, hit, p, &other[count].b);
+    }
+    return count;
 }
 
 void coincident_hits(const struct world *w, struct trace_scratch *s,

@@ -5,9 +5,10 @@
 // it is a rule:
 // - of a clear one and an opaque one (a block of glass on a table) the opaque one is met:
 //   behind the clear one the ray would start beyond the other;
-// - of two opaque ones (face_pairs.h) the one that comes first in the scene.
-// Two clear ones, the opaque parts of objects that are opaque in part, and curved faces of which
-// a part alone coincides, are not looked for.
+// - of two opaque ones (face_pairs.h) the one that comes first in the scene;
+// - of two clear ones the first is met, too, and the ray crosses both (contact.h).
+// The opaque parts of objects that are opaque in part, and curved faces of which a part alone
+// coincides, are not looked for.
 #include "trace/intersect.h"
 
 // Says which objects that may concern (world_object.may_coincide): those with clear and flat
@@ -18,5 +19,12 @@ void coincident_mark(struct world *w);
 // them than rounding.
 void coincident_hits(const struct world *w, struct trace_scratch *s,
                      const struct ray_batch *rays, const struct hit_batch *hit);
+
+// Most faces that one ray crosses in one place, beside the one that was hit.
+enum { CONTACTS_MOST = 4 };
+// The faces of other clear objects that lie in that of the hit of q, there.
+uint32_t coincident_contacts(const struct world *w, struct trace_scratch *s,
+                             const struct ray_query *q, const struct hit *hit,
+                             struct hit other[CONTACTS_MOST]);
 
 #endif

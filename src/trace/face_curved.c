@@ -233,7 +233,7 @@ bool curved_faces_coincide(const struct face *x, const struct face *y)
     if (f->kind != g->kind || !nearly(f->form, g->form, 6) ||
         !nearly(f->more, g->more, 9))
         return false;
-    if (x->inward != y->inward && !x->sheet && !y->sheet && x->clear == y->clear)
+    if (x->inward != y->inward && !x->sheet && !y->sheet && !x->clear && !y->clear)
         return false;
     const struct vec3 d = vec3_sub(f->origin, g->origin), bent = times(g->form, d);
     const struct vec3 gradient = vec3_mad(g->gradient, 2, bent);

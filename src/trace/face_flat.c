@@ -194,7 +194,7 @@ bool flat_faces_coincide(const struct face *x, const struct face *y)
 {
     const struct flat_face *const f = &x->plane, *const g = &y->plane;
     const double error = x->error + y->error, turn = vec3_dot(f->normal, g->normal);
-    if (turn < 0 && !x->sheet && !y->sheet)
+    if (turn < 0 && !x->sheet && !y->sheet && !(x->clear && y->clear))
         return false;
     // Of two planes the normals themselves are compared; a finite face has its corners.
     if (!f->corners && !g->corners && !(fabs(turn) >= 1 - GAMMA(64)))

@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/memory.h"
+#include "math/larger.h"
 #include "trace/face.h"
 
 struct face *faces_add(struct faces *f)
@@ -16,17 +17,17 @@ struct face *faces_add(struct faces *f)
     return x;
 }
 
-// Which faces of a leaf count: all of opaque objects, curved ones of what is clear.
+// Which faces of a leaf count: those of opaque objects and of what is clear.
 static void gather(const struct world *w, uint32_t leaf, struct faces *out)
 {
     const struct leaf *l = &w->leaf[leaf];
     const uint32_t first = out->count;
     const bool clear = !w->surface[l->surface].opaque;
     const bool opaque = w->object[l->object].opaque;
-    if (opaque)
+    if (opaque || clear) {
         flat_faces(l, out);
-    if (opaque || clear)
         curved_faces(l, out);
+    }
     for (uint32_t i = first; i < out->count; i++) {
         out->at[i].leaf = leaf;
         out->at[i].clear = clear;
@@ -134,18 +135,27 @@ struct hunt {
     uint32_t count, capacity;
 };
 
+static void list_half(struct hunt *h, const struct face *f, const struct face *g)
+{
+    h->pair = must_grow(h->pair, h->count, &h->capacity, sizeof *h->pair);
+    h->pair[h->count++] = (struct face_pair){
+        .leaf = f->leaf,
+        .other = h->w->leaf[g->leaf].object,
+        .contact = f->clear && g->clear,
+        .error = f->error + g->error,
+        .where = aabb_meet(seen_within(h->w, f), seen_within(h->w, g))};
+}
+
 static void list_pair(struct hunt *h, const struct face *f, const struct face *g)
 {
     const bool f_later = f->clear != g->clear
                              ? f->clear
                              : h->w->leaf[f->leaf].object > h->w->leaf[g->leaf].object;
-    const struct face *later = f_later ? f : g, *earlier = f_later ? g : f;
-    h->pair = must_grow(h->pair, h->count, &h->capacity, sizeof *h->pair);
-    h->pair[h->count++] = (struct face_pair){
-        .leaf = later->leaf,
-        .seen = h->w->leaf[earlier->leaf].object,
-        .error = f->error + g->error,
-        .where = aabb_meet(seen_within(h->w, f), seen_within(h->w, g))};
+    const bool both = f->clear && g->clear;
+    if (f_later || both)
+        list_half(h, f, g);
+    if (!f_later || both)
+        list_half(h, g, f);
 }
 
 static void take_pair(struct hunt *h, const struct face *f, const struct face *g)
@@ -160,8 +170,12 @@ static void take_pair(struct hunt *h, const struct face *f, const struct face *g
 static bool matters(const struct hunt *h, const struct face *f, const struct face *g)
 {
     const struct leaf *a = &h->w->leaf[f->leaf], *b = &h->w->leaf[g->leaf];
-    return a->object != b->object && !(f->clear && g->clear) &&
-           (h->list ? a->paired && b->paired : a->surface != b->surface);
+    if (a->object == b->object)
+        return false;
+    if (f->clear ||
+        g->clear) // flat ones on opaque ones are found by boxes (coincident.c)
+        return f->clear == g->clear || !f->flat;
+    return h->list ? a->paired && b->paired : a->surface != b->surface;
 }
 
 // Pairs among faces of one key, in the order of their beginnings.
@@ -223,8 +237,17 @@ static void hunt(struct hunt *h, struct faces *f)
 static int by_leaf(const void *a, const void *b)
 {
     const struct face_pair *x = a, *y = b;
-    return x->leaf != y->leaf ? (x->leaf > y->leaf) - (x->leaf < y->leaf)
-                              : (x->seen > y->seen) - (x->seen < y->seen);
+    return x->leaf != y->leaf         ? (x->leaf > y->leaf) - (x->leaf < y->leaf)
+           : x->contact != y->contact ? x->contact - y->contact
+                                      : (x->other > y->other) - (x->other < y->other);
+}
+
+// Says of a leaf that it has this pair.
+static void tell_contact(struct world *w, const struct face_pair *p)
+{
+    struct leaf *l = &w->leaf[p->leaf];
+    l->apart = larger(p->error, l->apart);
+    w->surface[l->surface].in_contact = w->has_contacts = true;
 }
 
 static void keep_pairs(struct world *w, const struct hunt *h)
@@ -232,8 +255,11 @@ static void keep_pairs(struct world *w, const struct hunt *h)
     struct face_pair *pair = arena_new_array(w->arena, struct face_pair, h->count);
     memcpy(pair, h->pair, h->count * sizeof *pair);
     qsort(pair, h->count, sizeof *pair, by_leaf);
-    for (uint32_t i = h->count; i-- > 0;)
+    for (uint32_t i = h->count; i-- > 0;) {
         w->leaf[pair[i].leaf].first_pair = i;
+        if (pair[i].contact)
+            tell_contact(w, &pair[i]);
+    }
     w->face_pair = pair;
     w->face_pair_count = h->count;
 }

@@ -6,7 +6,8 @@
 //   boxes, planes, discs, triangles, and the ends of cylinders and cones;
 // - curved ones of opaque objects that look the same way, or of a clear and an opaque one: of
 //   spheres, cylinders, cones, quadrics (whichever of these they are written as), tori, and
-//   of one shape that was declared and used twice.
+//   of one shape that was declared and used twice;
+// - flat or curved ones of two clear objects, whichever way they look: these are in contact.
 #include "trace/world.h"
 
 // Sets leaf.paired of their leaves, and the world's pairs; whether there are any. Faces of

@@ -468,5 +468,6 @@ void trace_interaction(const struct world *w, const struct ray *ray,
     // The root may be off by dt along the ray, its point by the rounding of o + t d.
     const double size = vec3_max_abs(ray->o) + fabs(hit->b.t) * vec3_max_abs(ray->d);
     // Along a grazing ray a large dt moves the point little off the surface.
-    out->error = hit->b.dt * fabs(vec3_dot(ray->d, out->ng)) + position_error(l, size);
+    out->error =
+        hit->b.dt * fabs(vec3_dot(ray->d, out->ng)) + position_error(l, size) + l->apart;
 }

@@ -143,7 +143,8 @@ static void pass_init(struct job *job, struct arena *a)
         all_even &= pass[i].known || w->surface[i].opaque;
     }
     job->pass = pass;
-    job->lists_crossings = all_even && !job->has_media && packet_lists_crossings(w);
+    job->lists_crossings =
+        all_even && !job->has_media && !w->has_contacts && packet_lists_crossings(w);
     clear_init(job, a);
 }
 

@@ -1,5 +1,5 @@
 liblambert_a_SOURCES += \
-	%D%/accel.h %D%/accel.c %D%/accel_classify.c %D%/accel_product.c %D%/coincident.c %D%/coincident.h %D%/face.h %D%/face_curved.c %D%/face_flat.c %D%/face_pairs.c %D%/face_pairs.h %D%/cutaway.c %D%/cutaway.h %D%/csg_bounds.c %D%/csg_bounds.h %D%/user_bounds.c %D%/user_bounds.h \
+	%D%/accel.h %D%/accel.c %D%/accel_classify.c %D%/accel_product.c %D%/coincident.c %D%/coincident.h %D%/contact.c %D%/contact.h %D%/face.h %D%/face_curved.c %D%/face_flat.c %D%/face_pairs.c %D%/face_pairs.h %D%/cutaway.c %D%/cutaway.h %D%/csg_bounds.c %D%/csg_bounds.h %D%/user_bounds.c %D%/user_bounds.h \
 	%D%/intersect.c %D%/intersect.h %D%/render.h %D%/scratch.h \
 	%D%/stab.c %D%/sweep.c %D%/world.c %D%/world.h \
 	%D%/world_build.h %D%/world_flatten.c %D%/world_leaf.c %D%/world_light.c

@@ -165,8 +165,8 @@ static struct paint_surface surface_compile(struct build *b, const struct surfac
 static bool is_painted(const struct job *job, uint32_t i)
 {
     const struct surface *s = &job->world->surface[i];
-    return !job->simple || job->simple[i].class == SIMPLE_NONE ||
-           (s->interior->caustics != 0 && !s->opaque);
+    return !s->in_contact && (!job->simple || job->simple[i].class == SIMPLE_NONE ||
+                              (s->interior->caustics != 0 && !s->opaque));
 }
 
 void paint_compile(struct job *job, struct arena *a)

@@ -59,7 +59,7 @@ void paint_mirror(const struct tracer *t, const struct paint_group *g,
         const struct rgb c = finish_reflectivity(
             s->layer->finish, -vec3_dot(d, n),
             rgb(s->color[0][i], s->color[1][i], s->color[2][i]),
-            wave_inside(t, h->slot[i]), g->surface->interior, &weight);
+            fresnel_index(wave_inside(t, h->slot[i]), g->surface->interior), &weight);
         out[0][i] = c.r, out[1][i] = c.g, out[2][i] = c.b;
     }
 }
@@ -172,6 +172,7 @@ static void lane_go_on(struct tracer *t, const struct paint_group *g, int i)
     s.layer = s.few;
     s.layer_count = 0;
     s.dark = false;
+    s.contact = NULL; // such surfaces are not painted
     for (uint32_t k = 0; k < g->coat_count; k++) {
         const struct paint_coat *c = &t->paint->coat[g->coat + k];
         if (!(c->lanes >> i & 1))

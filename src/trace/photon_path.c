@@ -1,3 +1,4 @@
+#include "trace/contact.h"
 #include "trace/photon_flight.h"
 #include "trace/projected.h"
 
@@ -131,6 +132,7 @@ static void shading_init(struct shading *s, struct photon_flight *f,
     s->layer_capacity = HIT_LAYERS;
     s->dark = true;
     trace_interaction(f->job->world, &ray, hit, &s->at);
+    s->contact = contact_at(s);
     surface_view_init(&s->view, &s->at, leg->path.d);
 }
 
@@ -145,8 +147,12 @@ static void pass_through(struct photon_flight *f, struct shading *s,
     struct leg next = *leg;
     next.path.o = trace_offset(&s->at, leg->path.d);
     next.path.through = rgb_mul(leg->path.through, pass);
+    if (s->contact)
+        next.path.through = rgb_mul(next.path.through, s->contact->pass);
     next.path.inside =
-        interior_cross(f->t, leg->path.inside, s->at.surface->interior).inside;
+        s->contact
+            ? s->contact->sides.inside
+            : interior_cross(f->t, leg->path.inside, s->at.surface->interior).inside;
     next.through = true;
     next.first = false;
     leg_wait(f, &next);

@@ -1,6 +1,7 @@
 #include "trace/shade.h"
 
 #include "base/arena.h"
+#include "trace/contact.h"
 #include "trace/media.h"
 #include "trace/paint.h"
 #include "trace/photons.h"
@@ -144,6 +145,7 @@ void shade_painted(struct tracer *t, const struct path *path, const struct hit *
     s.layer_count = 0;
     s.layer_capacity = HIT_LAYERS;
     s.dark = false;
+    s.contact = contact_at(&s);
     s.go_on = shade_transmit;
     const struct ray ray = {path->o, path->d, 0, INFINITY};
     surface_view_init(&s.view, &s.at, path->d);

@@ -17,6 +17,7 @@ struct shading {
     struct layer *layer;
     uint32_t layer_count, layer_capacity;
     bool dark; // for photons: what layers give off by themselves is left out
+    const struct contact *contact; // with other clear bodies (contact.h); NULL: none
     // What becomes of the rays that go on from one plain texture.
     void (*go_on)(struct shading *s, const struct plain_result *r);
     void *user; // of go_on
@@ -77,10 +78,9 @@ double fresnel_index(const struct inside *list, const struct interior *interior)
 // Fresnel's reflectance of unpolarised light.
 float fresnel_reflectance(double cosine, double index);
 // Its factor on what a mirror shows, at this cosine between normal and eye; *weight is
-// what it counts for adc_bailout (spec/lighting.md 5.4).
+// what it counts for adc_bailout (spec/lighting.md 5.4). index: of Fresnel's formula.
 struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
-                               const struct inside *inside,
-                               const struct interior *interior, float *weight);
+                               double index, float *weight);
 // How a crossing changes the interiors and what the two sides are (spec/lighting.md
 // 6.2). NULL stands for the open air.
 struct crossing_sides {

@@ -1,5 +1,6 @@
 #include "base/arena.h"
 #include "math/elementary.h"
+#include "trace/contact.h"
 #include "trace/inside.h"
 #include "trace/near_zero.h"
 #include "trace/shade.h"
@@ -44,13 +45,11 @@ float fresnel_reflectance(double cosine, double n)
 }
 
 struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
-                               const struct inside *inside,
-                               const struct interior *interior, float *weight)
+                               double index, float *weight)
 {
     struct rgb r;
     if (f->fresnel) {
-        const double n = fresnel_index(inside, interior);
-        r = mix(f->reflection_min, f->reflection_max, fresnel_reflectance(cosine, n));
+        r = mix(f->reflection_min, f->reflection_max, fresnel_reflectance(cosine, index));
         *weight = rgb_max(r);
     } else {
         const double base = 1 - cosine;
@@ -72,8 +71,11 @@ struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb
 struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
                               float *weight)
 {
-    return finish_reflectivity(l->finish, -vec3_dot(s->path->d, l->n), l->color,
-                               s->path->inside, s->at.surface->interior, weight);
+    const double index = s->contact
+                             ? 1 / crossing_eta(&s->contact->sides)
+                             : fresnel_index(s->path->inside, s->at.surface->interior);
+    return finish_reflectivity(l->finish, -vec3_dot(s->path->d, l->n), l->color, index,
+                               weight);
 }
 
 bool finish_has_mirror(const struct finish *f)
@@ -284,10 +286,13 @@ bool shade_refract(struct shading *s, const struct plain_result *r)
         return true;
     const struct vec3 top = s->layer[r->begin].n;
     b.r = r;
-    b.sides = interior_cross(s->t, s->path->inside, s->at.surface->interior);
+    b.sides = s->contact ? s->contact->sides
+                         : interior_cross(s->t, s->path->inside, s->at.surface->interior);
     b.top = top;
     b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
     b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
+    if (s->contact)
+        b.fade = rgb_mul(b.fade, s->contact->pass);
     b.weight = s->path->weight;
     if (r->any && r->weight > 0)
         b.weight *=

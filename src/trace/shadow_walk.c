@@ -4,7 +4,9 @@
 
 #include "base/memory.h"
 #include "math/elementary.h"
+#include "math/larger.h"
 #include "trace/accel.h"
+#include "trace/coincident.h"
 #include "trace/inside.h"
 #include "trace/layers.h"
 #include "trace/media.h"
@@ -44,12 +46,12 @@ static void occluder_plain(void *user, const struct surface_view *v,
     o->pass = rgb_add(o->pass, rgb_scale((float)weight, pass));
 }
 
-static struct rgb occluder_filter(struct tracer *t, const struct interaction *at,
-                                  struct vec3 d)
+struct rgb surface_filter(struct tracer *t, const struct interaction *at, struct vec3 d,
+                          double caustics)
 {
     struct surface_view view;
     surface_view_init(&view, at, d);
-    struct occluder o = {.t = t, .d = d, .caustics = at->surface->interior->caustics};
+    struct occluder o = {.t = t, .d = d, .caustics = caustics};
     texture_walk(t, &view, occluder_plain, &o);
     return o.pass;
 }
@@ -72,7 +74,7 @@ static struct rgb surface_pass(struct tracer *t, const struct ray *ray,
         return known->pass;
     struct interaction at;
     trace_interaction(t->job->world, ray, hit, &at);
-    return occluder_filter(t, &at, ray->d);
+    return surface_filter(t, &at, ray->d, surface->interior->caustics);
 }
 
 // Fog and media of the scene on the stretch up to t, where it is hollow.
@@ -96,6 +98,42 @@ static bool is_clear(const struct shadow_walk *s, const struct surface *surface)
     return !surface->opaque && !(s->photons && photons_instead_of(surface, s->photons));
 }
 
+// Crosses a surface that lets `pass` through, at the end of a way of this length.
+static bool cross(struct tracer *t, struct shadow_walk *s, const struct interior *x,
+                  double way, struct rgb pass)
+{
+    if (inside_find(s->inside, x)) {
+        if (x->fade_power > 0 && fabs(x->fade_distance) > NEAR_ZERO)
+            pass = rgb_mul(pass, interior_fade(x, way));
+        s->inside = inside_remove(t->arena, s->inside, x);
+    } else {
+        s->inside = inside_enter(t, s->inside, x);
+    }
+    s->pass = rgb_mul(s->pass, pass);
+    if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)NEAR_ZERO)
+        return true;
+    s->pass = none;
+    return false;
+}
+
+// Crosses the faces of other clear bodies that lie in that of the hit.
+static bool cross_contacts(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
+                           const struct hit *hit, double way)
+{
+    const struct world *w = t->job->world;
+    const struct ray_query q = {.ray = *ray, .hidden_by = OBJECT_NO_SHADOW};
+    struct hit other[CONTACTS_MOST];
+    const uint32_t count = coincident_contacts(w, t->scratch, &q, hit, other);
+    bool on = true;
+    for (uint32_t i = 0; i < count && on; i++) {
+        const struct surface *x = &w->surface[w->leaf[other[i].b.leaf].surface];
+        on = cross(t, s, x->interior, way,
+                   is_clear(s, x) ? surface_pass(t, ray, &other[i], x) : none);
+        s->t = larger(other[i].b.t + found_again(w, &other[i]), s->t);
+    }
+    return on;
+}
+
 // Crosses the surface that was hit, behind media that let `dim` pass; false: nothing
 // passes. known: what the surface lets through, unless it is NULL.
 static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *ray,
@@ -103,27 +141,17 @@ static bool walk_on(struct tracer *t, struct shadow_walk *s, const struct ray *r
 {
     const struct world *w = t->job->world;
     const struct surface *surface = &w->surface[w->leaf[hit->b.leaf].surface];
+    const double way = hit->b.t - s->t;
     struct rgb pass = none;
     if (is_clear(s, surface))
         pass = known ? *known : surface_pass(t, ray, hit, surface);
     if (s->air)
         air_between(t, s, ray, hit->b.t);
-    const struct interior *x = surface->interior;
     if (t->job->has_media && s->inside)
         pass = rgb_mul(pass, dim);
-    if (inside_find(s->inside, x)) {
-        if (x->fade_power > 0 && fabs(x->fade_distance) > NEAR_ZERO)
-            pass = rgb_mul(pass, interior_fade(x, hit->b.t - s->t));
-        s->inside = inside_remove(t->arena, s->inside, x);
-    } else {
-        s->inside = inside_enter(t, s->inside, x);
-    }
-    s->pass = rgb_mul(s->pass, pass);
     s->t = hit->b.t + found_again(w, hit);
-    if (fmaxf(fabsf(pass.r), fmaxf(fabsf(pass.g), fabsf(pass.b))) >= (float)NEAR_ZERO)
-        return true;
-    s->pass = none;
-    return false;
+    return cross(t, s, surface->interior, way, pass) &&
+           (!surface->in_contact || cross_contacts(t, s, ray, hit, way));
 }
 
 // The stretch up to what was hit, for media.

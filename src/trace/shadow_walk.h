@@ -15,6 +15,9 @@ static const double before_lamp = 1 - 0x1p-26;
 
 // BATCH_SIZE of them, to be freed.
 struct shadow_walk *shadow_walks_new(void);
+// What the textures of a surface let through of light from d. caustics: of its interior, or 0.
+struct rgb surface_filter(struct tracer *t, const struct interaction *at, struct vec3 d,
+                          double caustics);
 // The light that passes, with opaque objects known not to be in the way. air: fog and the
 // like dim it.
 struct rgb shadow_walk_alone(struct tracer *t, const struct shadow_request *r, bool air);

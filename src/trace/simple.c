@@ -84,7 +84,7 @@ static bool surface_is_simple(const struct job *job, const struct surface *s,
 {
     const struct texture *x = s->texture;
     if (x->kind != TEXTURE_PLAIN || x->layer_count != 1 || s->interior_texture ||
-        s->parts || s->cutaway)
+        s->parts || s->cutaway || s->in_contact)
         return false;
     const struct texture_layer *l = &x->layer[0];
     const struct finish *f = l->finish;

@@ -25,7 +25,8 @@ struct surface {
     const struct photon_target *photons; // NULL: nothing was written
     bool opaque;                         // never lets light through
     bool wants_uv;                       // shading may look at uv coordinates
-    bool parts;                    // parts of the shape have textures of their own, or
+    bool in_contact; // faces lie in those of other clear objects (contact.h)
+    bool parts;      // parts of the shape have textures of their own, or
     const struct cutaway *cutaway; // those of other parts of the object are seen
     uint32_t light_group;          // index+1 into world light groups; 0: none
     float importance;              // share of gathering rays that see it
@@ -50,6 +51,7 @@ struct leaf {
     bool drawn;          // false: a clip; its boundaries only change states
     bool paired;         // faces lie in those of another object (face_pairs.h)
     uint32_t first_pair; // if paired: the first of the world's pairs that has this leaf
+    double apart; // bounds how far its faces are from those they are in contact with
 };
 
 // The rounding, in shape space, of a point o + t d with coordinates of these sizes on its
@@ -100,12 +102,14 @@ struct world_object {
     uint32_t bound_count;
 };
 
-// A face of a leaf that lies in one of an object which is seen in its place: one earlier in
-// the scene, or of a clear face an opaque one (face_pairs.h).
+// A face of a leaf that lies in one of another object, which is seen in its place: one earlier
+// in the scene, or of a clear face an opaque one (face_pairs.h). Two clear ones are in contact:
+// each has such a pair, and the earlier one is seen.
 struct face_pair {
-    uint32_t leaf, seen; // a leaf, an object
-    double error;           // bounds how far the faces are apart
-    struct aabb where;      // what they have in common lies within
+    uint32_t leaf, other; // a leaf, an object
+    bool contact;
+    double error;      // bounds how far the faces are apart
+    struct aabb where; // what they have in common lies within
 };
 
 struct light_group {
@@ -130,9 +134,10 @@ struct world {
     uint32_t light_count;
     struct light_group *light_group;
     uint32_t light_group_count;
-    bool has_transparent;                      // some surface is not opaque
-    bool has_coincident;                       // some object may_coincide
-    const struct face_pair *face_pair;         // by leaf, then by object
+    bool has_transparent;              // some surface is not opaque
+    bool has_coincident;               // some object may_coincide
+    bool has_contacts;                 // some faces of clear objects are in contact
+    const struct face_pair *face_pair; // by leaf, then by object
     uint32_t face_pair_count;
     struct aabb bounds;  // of the finite objects
     struct accel *accel; // trace/accel.h
