@@ -1,13 +1,15 @@
-// PNG files through libpng, by default with their pixels packed by pack.c. No time stamp:
-// equal pictures give equal bytes.
+// PNG files through libpng, by default with their pixels packed by libdeflate. No time
+// stamp: equal pictures give equal bytes.
+#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/pack.h"
 #include "image/png_error.h"
 
-// Rows are differences to the row above. Those mostly of one colour after the other are left
-// as they are: that takes fewer bytes, and less time.
+// libdeflate's fastest level with rows as differences to the row above: a third of the time
+// of zlib's level 3 for files about as large. Rows mostly of one colour after the other are
+// left as they are: that takes it half the time of as many zeros, and no more bytes.
+static const int usual_level = 1;
 static const uint8_t filter_none = 0, filter_up = 2;
 static const size_t chunk_most = 1 << 30; // a chunk has fewer than 2^31 bytes
 
@@ -107,9 +109,23 @@ static void filter_rows(struct sample_rows *rows, int height, size_t row, uint8_
 }
 
 struct packed {
-    uint8_t *data; // NULL: out of memory
-    size_t size;
+    uint8_t *data;
+    size_t size; // 0: out of memory
 };
+
+static struct packed pack(const uint8_t *data, size_t size)
+{
+    struct packed p = {0};
+    struct libdeflate_compressor *c = libdeflate_alloc_compressor(usual_level);
+    if (c) {
+        const size_t most = libdeflate_zlib_compress_bound(c, size);
+        p.data = malloc(most);
+        if (p.data)
+            p.size = libdeflate_zlib_compress(c, data, size, p.data, most);
+        libdeflate_free_compressor(c);
+    }
+    return p;
+}
 
 static struct packed pack_rows(struct sample_rows *rows, const struct image *im)
 {
@@ -119,9 +135,7 @@ static struct packed pack_rows(struct sample_rows *rows, const struct image *im)
     uint8_t *filtered = malloc(size);
     if (filtered) {
         filter_rows(rows, im->height, row, filtered);
-        p.data = pack_pixels(&(struct pixel_rows){filtered, row, row / (size_t)im->width,
-                                                  (size_t)im->height},
-                             &p.size);
+        p = pack(filtered, size);
     }
     free(filtered);
     return p;
@@ -155,12 +169,12 @@ bool png_encode(const struct image *im, const struct image_write_options *o,
     const struct packed packed =
         begun && !o->compression ? pack_rows(&rows, im) : (struct packed){0};
     volatile bool ok = false;
-    if (!begun || (!o->compression && !packed.data)) {
+    if (!begun || (!o->compression && !packed.size)) {
         codec_fail(e, "out of memory");
     } else if (!setjmp(png_jmpbuf(png))) {
         png_set_write_fn(png, out, on_write, on_flush);
         write_header(png, info, im, o);
-        if (packed.data)
+        if (packed.size)
             write_packed(png, &packed);
         else
             write_rows(png, &rows, im->height);

@@ -1,13 +1,10 @@
-check_PROGRAMS += test_image test_pack test_quantize test_texels
+check_PROGRAMS += test_image test_quantize test_texels
 test_quantize_SOURCES = %D%/test_quantize.c
 test_quantize_CPPFLAGS = $(test_cppflags)
 test_quantize_LDADD = $(test_ldadd)
 test_image_SOURCES = %D%/test_image.c
 test_image_CPPFLAGS = $(test_cppflags)
 test_image_LDADD = $(test_ldadd)
-test_pack_SOURCES = %D%/test_pack.c
-test_pack_CPPFLAGS = $(test_cppflags)
-test_pack_LDADD = $(test_ldadd) -lz
 test_texels_SOURCES = %D%/test_texels.c
 test_texels_CPPFLAGS = $(test_cppflags)
 test_texels_LDADD = $(test_ldadd)
