@@ -139,8 +139,11 @@ static const char *misplaced_hint(const struct args *a, const struct ast *n)
 {
     const bool pigment = strcmp(a->name, "pigment") == 0,
                texture = strcmp(a->name, "texture") == 0;
-    if (n->kind == AST_VALUE && n->value && n->value->kind != VALUE_NUMBER)
-        return arena_printf(a->b->e->parse, "it is a %s", value_kind_name(n->value));
+    if (n->kind == AST_VALUE && n->value && n->value->kind != VALUE_NUMBER) {
+        const char *kind = value_kind_name(n->value);
+        return arena_printf(a->b->e->parse, "it is %s %s",
+                            strchr("aeiou", *kind) ? "an" : "a", kind);
+    }
     if (is_list(a->name) && n->kind == AST_NUMBER)
         return "entries stand in brackets, as in [0.5 rgb 1]";
     if (n->kind == AST_STRING && pigment)

@@ -421,13 +421,13 @@ static bool own_parameter(struct args *a, struct pattern *p)
 static bool map_allowed(struct args *a, struct body *body, enum body_kind kind,
                         bool with_average)
 {
-    const char *why = body->kind != kind ? "this map has no place here"
-                      : body->list       ? "a map cannot follow a list of entries"
-                      : body->bitmap && kind != BODY_NORMAL ? "an image takes no map"
-                      : body->plain ? "a plain colour takes no map"
-                      : body->average && !with_average
-                          ? "this map cannot be used with average"
-                          : NULL;
+    const char *why =
+        body->kind != kind ? "this map has no place here"
+        : body->list       ? "a pattern with a list of its own entries takes no map"
+        : body->bitmap && kind != BODY_NORMAL ? "an image takes no map"
+        : body->plain                         ? "a plain colour takes no map"
+        : body->average && !with_average      ? "this map cannot be used with average"
+                                              : NULL;
     if (!why)
         return true;
     args_error(a, a->at->where, why);
