@@ -289,4 +289,5 @@ EXTRA_DIST += %D%/run-shading.sh %D%/gathered.scn %D%/gathered-deep.scn %D%/mirr
 	%D%/393-radiosity-fog-on.pov \
 	%D%/394-coincident-clipped.pov \
 	%D%/395-camera-mesh-turned.pov \
+	%D%/397-contact.pov \
 	%D%/379-shadow-textured.pov
