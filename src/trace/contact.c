@@ -17,6 +17,12 @@ static void cross(const struct shading *s, const struct ray *ray, const struct h
     c->sides.inside = interior_cross(s->t, c->sides.inside, x).inside;
 }
 
+struct crossing_sides shading_crosses(const struct shading *s)
+{
+    return s->contact ? s->contact->sides
+                      : interior_cross(s->t, s->path->inside, s->at.surface->interior);
+}
+
 const struct contact *contact_at(const struct shading *s)
 {
     const struct job *job = s->t->job;

@@ -9,11 +9,13 @@
 
 struct contact {
     struct crossing_sides sides;
-    struct rgb
-        pass; // of the other faces, and of the ways through interiors that end there
+    // Of the other faces, and of the ways through interiors that end there.
+    struct rgb pass;
 };
 
 // What is in contact where the shading's hit is, in the tracer's arena; NULL: nothing.
 const struct contact *contact_at(const struct shading *s);
+// What light that goes on through the shading's hit crosses.
+struct crossing_sides shading_crosses(const struct shading *s);
 
 #endif

@@ -59,7 +59,10 @@ void paint_mirror(const struct tracer *t, const struct paint_group *g,
         const struct rgb c = finish_reflectivity(
             s->layer->finish, -vec3_dot(d, n),
             rgb(s->color[0][i], s->color[1][i], s->color[2][i]),
-            fresnel_index(wave_inside(t, h->slot[i]), g->surface->interior), &weight);
+            s->layer->finish->fresnel
+                ? fresnel_index(wave_inside(t, h->slot[i]), g->surface->interior)
+                : 1,
+            &weight);
         out[0][i] = c.r, out[1][i] = c.g, out[2][i] = c.b;
     }
 }

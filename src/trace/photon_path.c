@@ -149,10 +149,7 @@ static void pass_through(struct photon_flight *f, struct shading *s,
     next.path.through = rgb_mul(leg->path.through, pass);
     if (s->contact)
         next.path.through = rgb_mul(next.path.through, s->contact->pass);
-    next.path.inside =
-        s->contact
-            ? s->contact->sides.inside
-            : interior_cross(f->t, leg->path.inside, s->at.surface->interior).inside;
+    next.path.inside = shading_crosses(s).inside;
     next.through = true;
     next.first = false;
     leg_wait(f, &next);

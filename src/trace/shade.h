@@ -78,7 +78,8 @@ double fresnel_index(const struct inside *list, const struct interior *interior)
 // Fresnel's reflectance of unpolarised light.
 float fresnel_reflectance(double cosine, double index);
 // Its factor on what a mirror shows, at this cosine between normal and eye; *weight is
-// what it counts for adc_bailout (spec/lighting.md 5.4). index: of Fresnel's formula.
+// what it counts for adc_bailout (spec/lighting.md 5.4). index: of Fresnel's formula, where the
+// finish has it.
 struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb color,
                                double index, float *weight);
 // How a crossing changes the interiors and what the two sides are (spec/lighting.md

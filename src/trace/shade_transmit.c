@@ -71,7 +71,8 @@ struct rgb finish_reflectivity(const struct finish *f, double cosine, struct rgb
 struct rgb layer_reflectivity(const struct shading *s, const struct layer *l,
                               float *weight)
 {
-    const double index = s->contact
+    const double index = !l->finish->fresnel ? 1
+                         : s->contact
                              ? 1 / crossing_eta(&s->contact->sides)
                              : fresnel_index(s->path->inside, s->at.surface->interior);
     return finish_reflectivity(l->finish, -vec3_dot(s->path->d, l->n), l->color, index,
@@ -286,8 +287,7 @@ bool shade_refract(struct shading *s, const struct plain_result *r)
         return true;
     const struct vec3 top = s->layer[r->begin].n;
     b.r = r;
-    b.sides = s->contact ? s->contact->sides
-                         : interior_cross(s->t, s->path->inside, s->at.surface->interior);
+    b.sides = shading_crosses(s);
     b.top = top;
     b.n = vec3_dot(top, s->path->d) > 0 ? vec3_neg(top) : top;
     b.fade = way_fade(s->at.surface->interior, s->path->inside, s->s);
